@@ -3,7 +3,7 @@
 // circumradius is 1, except in an oval that does not have 21 slices: with more slices, the circumradius is less than 1,
 // and with fewer, greater.
 
-import type { Projection, View } from "./messages.js";
+import type { AxisUnits, Projection, View } from "./messages.js";
 import type { Parts, Vector, Viewport } from "./types.js";
 
 /** An array of integers. In binary encodings, it has the narrowest of these types that can hold its largest value. */
@@ -63,6 +63,8 @@ export interface SceneDescription {
      * The color of the fog for each value in Fog.values, 0xAARRGGBB; a plain array in JSON. Absent if there is no fog.
      */
     fog?: { table: Integers };
+    /** Of a field: the known units of the axes after the rotation; absent if there is none. */
+    units?: AxisUnits;
     // The lengths of the next three members are fractions of the viewport's height.
 
     /**
@@ -306,6 +308,8 @@ export interface HistogramScales {
     range: [number, number];
     /** The levels that are drawn as lines, with colors 0xRRGGBB. */
     levels: { value: number; color: number }[];
+    /** What the values measure, such as "temperature, K"; absent if it is not known. */
+    quantity?: string;
 }
 
 export interface Slices {

@@ -96,6 +96,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
     if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog, schemeOn(look.background));
+    out.axisUnits = isField ? fields::pictureUnits(*field, orientation) : fields::PictureUnits();
     out.visibilities = visibilities_;
     removeHighlightColor(out);
     cellPainter_.updateCellColors(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
@@ -295,6 +296,7 @@ void Composer::measureFieldHistograms(const Object& object, const geometry::Rota
     out.histogram.reach = histogram_.reach();
     out.histogram.least = least;
     out.histogram.greatest = greatest;
+    out.histogram.quantity = fields::labelOf(slicing::fieldIn(object)->quantity);
     out.histogram.levelLines.clear();
     for (std::size_t i = 0; i < settings.levels.size(); ++i) {
         const double level = settings.levels[i];

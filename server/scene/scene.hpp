@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fields/axis_units.hpp"
 #include "scene/camera.hpp"
 #include "scene/color.hpp"
 #include "scene/fog_look.hpp"
@@ -67,6 +68,7 @@ struct HistogramAxes {
         Color color = 0;
     };
     std::vector<LevelLine> levelLines;
+    std::string quantity;  ///< what the values measure, such as "temperature, K"; empty if it is unknown
 
     /// Returns the height of a value above the lower edge, as a fraction of the height of the histogram.
     double height(double value) const { return (value - least) / (greatest - least); }
@@ -102,7 +104,8 @@ struct Scene : Layout {
     /// If showsDensity(), the tones of the density plot (DensityPlot::tones()); if showsHistogram(), those of the
     /// histograms of a field (slicing::CoordinateHistograms::tones()); otherwise without meaning.
     std::vector<std::uint8_t> plotTones;
-    HistogramAxes histogram;  ///< valid if showsHistogram()
+    HistogramAxes histogram;         ///< valid if showsHistogram()
+    fields::PictureUnits axisUnits;  ///< of a field; unknown for all other objects
 
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }

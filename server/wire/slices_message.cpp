@@ -1,5 +1,8 @@
 #include "wire/slices_message.hpp"
 
+#include <algorithm>
+#include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -113,6 +116,20 @@ void writeHistogram(W& w, const scene::HistogramAxes& histogram) {
         w.endObject();
     }
     w.endArray();
+    if (!histogram.quantity.empty()) w.member("quantity", std::string_view(histogram.quantity));
+    w.endObject();
+}
+
+// Writes the units of the axes that are known; nothing if none is.
+template <typename W>
+void writePictureUnits(W& w, const fields::PictureUnits& units) {
+    if (std::ranges::all_of(units, &std::string::empty, &fields::PictureAxisUnit::text)) return;
+    w.key("units");
+    w.beginObject();
+    for (std::size_t axis = 0; axis < units.size(); ++axis) {
+        const std::string_view unit = units.at(axis).text;
+        if (!unit.empty()) w.member(std::string_view("xyzw").substr(axis, 1), unit);
+    }
     w.endObject();
 }
 
@@ -197,6 +214,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedTexts& texts, const Scene& s
     writeColors(w, scene.style(), scene.cellColors);
     SurfaceWriter::writeLook(w, scene.surfaces);
     writeFogTable(w, scene.fog);
+    writePictureUnits(w, scene.axisUnits);
     w.endObject();
     if (scene.look.parts.coordinates) {
         // A field shows histograms instead of parallel coordinates, because its vertices are only the corners of its

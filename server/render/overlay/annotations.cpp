@@ -4,6 +4,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <string_view>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -45,7 +48,22 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
     overlay.text(x, baseline, size, placement.label, placement.focus ? style.focusText : style.text);
 }
 
-/// Adds the labeled axes of the histogram of a field, the levels, and a mark for the focus slice in the panel of w.
+/// Adds what the values of a field measure, in the upper left corner of the histogram, unless it is longer than the
+/// histogram. A background plate keeps it legible.
+void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::Style& style,
+                 Overlay& overlay) {
+    const auto digits = static_cast<float>(overlay.font().digitHeight(size));
+    const auto width = static_cast<float>(overlay.font().width(size, quantity));
+    const float margin = std::round(0.5F * digits);
+    if (quantity.empty() || width + 2 * margin > histogram.right - histogram.left) return;
+    const float baseline = histogram.top - margin - digits;
+    overlay.box({histogram.left, baseline - margin, histogram.left + width + 2 * margin, histogram.top},
+                style.background, 0.6F);
+    overlay.text(histogram.left + margin + width / 2, baseline, size, quantity, style.text);
+}
+
+/// Adds the labeled axes of the histogram of a field, what its values measure, the levels, and a mark for the focus
+/// slice in the panel of w.
 void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
@@ -76,8 +94,12 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
         }
         const scene::Color color = style.axes[static_cast<std::size_t>(k)];
         overlay.box({left, bottom - thickness, left + width, bottom}, color);
-        overlay.text(left + width / 2, bottom - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1), color);
+        const std::string label = fields::axisLabel(k, scene.axisUnits.at(static_cast<std::size_t>(k)));
+        const bool fits = static_cast<float>(overlay.font().width(size, label)) <= width;
+        overlay.text(left + width / 2, bottom - 1.4F * digits, size,
+                     std::string_view(label).substr(0, fits ? label.size() : 1), color);
     }
+    addQuantity(scene.histogram.quantity, {leftOf(0), bottom, leftOf(3) + width, top}, size, style, overlay);
 }
 
 /// Adds the labeled axes of the density strip, and a mark for the focus slice on the w axis.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -18,7 +19,8 @@ using scene::Color;
 using slicing::PlanarSection;
 
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
-constexpr double kNameHeight = 0.3;  // the font size of an axis name, as a fraction of the side of a panel
+// The font sizes of the name of an axis and of its unit, as fractions of the side of a panel.
+constexpr double kNameHeight = 0.3, kUnitHeight = 0.1;
 // The width of the lines of the focus point in the focus slice, as a fraction of the picture's height.
 constexpr double kFocusWidth = 0.0028;
 
@@ -54,11 +56,21 @@ class SectionPainter {
         const int size = static_cast<int>(std::lround(kNameHeight * scene_.matrix.panel * height_));
         if (size < 1) return;
         const auto digits = static_cast<float>(overlay_.font().digitHeight(size));
-        overlay_.text(at.x, at.y - digits / 2, size, std::string_view("xyzw").substr(static_cast<std::size_t>(axis), 1),
-                      colorOfAxis(axis));
+        const auto index = static_cast<std::size_t>(axis);
+        overlay_.text(at.x, at.y - digits / 2, size, std::string_view("xyzw").substr(index, 1), colorOfAxis(axis));
+        paintUnit(scene_.axisUnits.at(index).text, {at.x, at.y - digits / 2}, colorOfAxis(axis));
     }
 
   private:
+    // Draws the unit of an axis below its name, whose baseline has the middle `name`, unless it is wider than a panel.
+    void paintUnit(const std::string& unit, const glm::vec2& name, Color color) const {
+        const int size = static_cast<int>(std::lround(kUnitHeight * scene_.matrix.panel * height_));
+        if (unit.empty() || size < 1) return;
+        const auto digits = static_cast<float>(overlay_.font().digitHeight(size));
+        if (overlay_.font().width(size, unit) > scene_.matrix.panel * height_) return;
+        overlay_.text(name.x, name.y - 1.8F * digits, size, unit, color);
+    }
+
     glm::vec2 pixelOf(const glm::dvec2& p) const {
         return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
     }

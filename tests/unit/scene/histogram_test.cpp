@@ -1,9 +1,11 @@
 // The histogram of a field's values in the picture.
 
 #include <memory>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
 #include "scene/composer.hpp"
 #include "slicing/slicer.hpp"
@@ -64,6 +66,24 @@ TEST(Histogram, HasALineForEachLevelInsideItsRange) {
     EXPECT_EQ(histogram.height(histogram.least), 0);
     EXPECT_EQ(histogram.height(histogram.greatest), 1);
     EXPECT_EQ(pictures.composed(lookAt({1})).histogram.levelLines.size(), 1U);
+}
+
+TEST(Histogram, SaysWhatTheValuesAndTheAxesMeasure) {
+    FieldPictures pictures;
+    EXPECT_EQ(pictures.composed(lookAt({1})).histogram.quantity, "");
+    EXPECT_EQ(pictures.scene.axisUnits, fields::PictureUnits());
+    fields::FieldArray array;
+    array.shape = {2, 2, 2, 2};
+    array.box = {glm::dvec4(-1), glm::dvec4(1)};
+    array.samples = fields::SampleStorage(std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+    array.units = {"m", "m", "m", "s"};
+    array.quantity = {"temperature", "K"};
+    pictures.object = std::make_shared<const fields::Field>(*fields::fieldFromArray("run", array));
+    EXPECT_EQ(pictures.composed(lookAt({1})).histogram.quantity, "temperature, K");
+    EXPECT_EQ(pictures.scene.axisUnits[0].text, "m");
+    EXPECT_EQ(pictures.scene.axisUnits[3].text, "s");
+    pictures.composed(lookAt({1}), geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.5, 0.3}));
+    EXPECT_EQ(pictures.scene.axisUnits[0].text, "");
 }
 
 TEST(Histogram, FollowsTheRotationAndTheObject) {

@@ -199,6 +199,25 @@ TEST(SlicesMessage, HasTheDensityOfManyVertices) {
     EXPECT_FALSE(hidden.contains("density"));
 }
 
+TEST(SlicesMessage, HasTheUnitsOfTheAxesAndTheQuantity) {
+    Picture picture = pictureOf({"formula x^2+y^2+z^2 < 0.1 + w^2", "set faces=off"});
+    const json without = fitting(messageOf(picture, Encoding::json));
+    EXPECT_FALSE(without.at("scene").contains("units"));
+    EXPECT_FALSE(without.at("histogram").contains("quantity"));
+    picture.scene.axisUnits[0] = {"m", true};
+    picture.scene.axisUnits[3] = {"µs", false};
+    picture.scene.histogram.quantity = "temperature, K";
+    const json units = json::parse(R"({"x":"m","w":"µs"})");
+    const json message = fitting(messageOf(picture, Encoding::json));
+    EXPECT_EQ(message.at("scene").at("units"), units);
+    EXPECT_EQ(message.at("histogram").at("quantity"), "temperature, K");
+    for (const Encoding encoding : binaryEncodings()) {
+        const json binary = decodedMessageOf(picture, encoding);
+        EXPECT_EQ(binary.at("scene").at("units"), units);
+        EXPECT_EQ(binary.at("histogram").at("quantity"), "temperature, K");
+    }
+}
+
 TEST(SlicesMessage, HasTheHistogramOfAField) {
     const std::vector<std::string> lines{"formula x^2+y^2+z^2 < 0.1 + w^2", "set faces=off", "set levels=0,1",
                                          "rotate xw,yz 0.7 1.1"};

@@ -3,7 +3,7 @@
 // four axes, and the strip shows how many lines pass through each point. For a field, draws for each axis a histogram
 // of the values along it.
 
-import type { HistogramScales, Slices, Viewport } from "@oval4d/protocol";
+import type { AxisUnits, HistogramScales, SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
 import type { HighlightedElements } from "./highlighted_elements";
@@ -11,6 +11,7 @@ import { cssColor, setFontAndMeasureDigits } from "./pen";
 
 const kHighlightOpacity = 0.35; // the opacity of the bands behind highlighted vertices
 const kLevelOpacity = 0.8; // the opacity of the lines of levels in a histogram
+const kPlateOpacity = 0.6; // the opacity of the plate behind the name of the quantity
 const kFocusMark = 0.009; // half the width of the mark at the focus slice's w, as a fraction of the viewport's height
 
 const density = new DensityImage();
@@ -140,12 +141,12 @@ function drawDensityStrip(
 function drawHistogram(
     pen: CanvasRenderingContext2D,
     picture: Slices,
-    { reach, range: [least, greatest], levels }: HistogramScales,
+    { reach, range: [least, greatest], levels, quantity }: HistogramScales,
     viewport: Viewport,
     leastText: number,
 ): void {
     const { height } = viewport;
-    const { colors, coordinates: layout, text } = picture.scene;
+    const { colors, coordinates: layout, text, units = {} } = picture.scene;
     const [zero, amplitude] = [(1 - layout.zero) * height, layout.amplitude * height];
     const [top, bottom] = [Math.round(zero - amplitude), Math.round(zero + amplitude)];
     const leftOf = (k: number): number => (layout.left + k * layout.line_step) * height;
@@ -172,6 +173,39 @@ function drawHistogram(
         pen.globalAlpha = 1;
         pen.fillStyle = cssColor(colors.axes[k]!);
         pen.fillRect(left, bottom, width, thickness);
-        drawName(pen, "xyzw"[k]!, left + width / 2, bottom + 1.4 * digits, viewport);
+        const label = axisLabel(k, units);
+        const fits = pen.measureText(label).width <= width;
+        drawName(pen, fits ? label : label.slice(0, 1), left + width / 2, bottom + 1.4 * digits, viewport);
     }
+    const edges = { left: Math.round(leftOf(0)), right: Math.round(leftOf(3)) + width, top };
+    if (quantity !== undefined) drawQuantity(pen, quantity, edges, digits, colors);
+}
+
+/** The name of an axis and its unit, such as "x, m"; the name alone if the unit is not known. */
+function axisLabel(axis: number, units: AxisUnits): string {
+    const name = (["x", "y", "z", "w"] as const)[axis]!;
+    const unit = units[name];
+    return unit === undefined ? name : `${name}, ${unit}`;
+}
+
+/**
+ * Draws what the values measure in the upper left corner of the histogram, unless it is longer than the histogram. A
+ * background plate keeps it legible.
+ */
+function drawQuantity(
+    pen: CanvasRenderingContext2D,
+    quantity: string,
+    { left, right, top }: { left: number; right: number; top: number },
+    digits: number,
+    colors: SceneDescription["colors"],
+): void {
+    const { width } = pen.measureText(quantity);
+    const margin = Math.round(digits / 2);
+    if (width + 2 * margin > right - left) return;
+    pen.globalAlpha = kPlateOpacity;
+    pen.fillStyle = cssColor(colors.background);
+    pen.fillRect(left, top, width + 2 * margin, digits + 2 * margin);
+    pen.globalAlpha = 1;
+    pen.fillStyle = cssColor(colors.text);
+    pen.fillText(quantity, Math.round(left + margin + width / 2), Math.round(top + margin + digits));
 }

@@ -11,7 +11,9 @@ const kPanelOpacity = 0.22;
 const kFillOpacity = 0.16;
 const kAxisOpacity = 0.55; // the opacity of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
-const kNameHeight = 0.3; // the font size of an axis' name, as a fraction of a panel's side
+const kAxes = ["x", "y", "z", "w"] as const;
+// The font sizes of an axis' name and of its unit, as fractions of a panel's side.
+const [kNameHeight, kUnitHeight] = [0.3, 0.1];
 const kFocusLine = 0.0011; // the width of the lines through the focus point, as a fraction of the viewport's height
 // For the lines that show the focus point in the focus slice: half their length, in circumradii; and their width, as a
 // fraction of the viewport's height.
@@ -77,12 +79,20 @@ function drawFocusPoint(
 }
 
 function drawNames({ pen, matrix, scene, viewport }: PanelContext): void {
-    const digits = setFontAndMeasureDigits(pen, kNameHeight * matrix.panel * viewport.height);
-    scene.colors.axes.forEach((color, axis) => {
-        const { x, y } = nameCenter(matrix, axis, viewport);
+    const panel = matrix.panel * viewport.height;
+    const digits = setFontAndMeasureDigits(pen, kNameHeight * panel);
+    const axes = kAxes.map((name, axis) => ({ name, color: scene.colors.axes[axis]!, ...nameCenter(matrix, axis, viewport) }));
+    for (const { name, color, x, y } of axes) {
         pen.fillStyle = cssColor(color);
-        pen.fillText("xyzw"[axis]!, Math.round(x), Math.round(y + digits / 2));
-    });
+        pen.fillText(name, Math.round(x), Math.round(y + digits / 2));
+    }
+    const unitDigits = setFontAndMeasureDigits(pen, kUnitHeight * panel);
+    for (const { name, color, x, y } of axes) {
+        const unit = scene.units?.[name];
+        if (unit === undefined || pen.measureText(unit).width > panel) continue;
+        pen.fillStyle = cssColor(color);
+        pen.fillText(unit, Math.round(x), Math.round(y + digits / 2 + 1.8 * unitDigits));
+    }
 }
 
 function drawPanel(panel: MatrixPanel, context: PanelContext): void {

@@ -1,0 +1,29 @@
+#pragma once
+// The units of the axes of a picture, which shows a field in a frame of reference and after a rotation.
+
+#include <array>
+#include <string>
+
+#include "fields/field.hpp"
+#include "geometry/rotation.hpp"
+
+namespace oval4d::fields {
+
+/// The unit of an axis of a picture.
+struct PictureAxisUnit {
+    std::string text;        ///< empty if it is unknown, or if the axis mixes axes of the box with different units
+    bool isToScale = false;  ///< whether a length of 1 along the axis in the picture is one such unit
+    bool operator==(const PictureAxisUnit&) const = default;
+};
+using PictureUnits = std::array<PictureAxisUnit, 4>;
+
+/// Returns the units of the axes x, y, z and w after the field has been rotated by `orientation`. After the rotation
+/// and in the frame of reference of the field, each coordinate is a sum of multiples of those coordinates of the box
+/// along which its axis runs. It has a unit if all of these have the same unit. An axis of an array is not to scale,
+/// for example, if fieldFromArray() or ReferenceFrame::pace has scaled w.
+PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
+
+/// Returns "x, m" for the axis 0 with the unit m, and "x" if its unit is unknown.
+std::string axisLabel(int axis, const PictureAxisUnit& unit);
+
+}  // namespace oval4d::fields

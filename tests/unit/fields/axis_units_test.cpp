@@ -1,0 +1,61 @@
+#include "fields/axis_units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <vector>
+
+#include "fields/array_field.hpp"
+
+namespace oval4d::fields::test {
+namespace {
+
+using geometry::Plane;
+using geometry::Rotation;
+using geometry::Turn;
+
+Field fieldWith(const AxisUnits& units) {
+    FieldArray array;
+    array.shape = {2, 2, 2, 2};
+    array.box = {glm::dvec4(0), glm::dvec4(1, 1, 1, 5)};  // as an object, the field is as long along w as along x
+    array.samples = SampleStorage(std::vector<float>(16, 1));
+    array.units = units;
+    return *fieldFromArray("run", array);
+}
+
+const PictureAxisUnit kMeters{"m", true}, kSeconds{"s", false}, kUnknown{};
+
+TEST(AxisUnits, AreThoseOfTheBoxWithoutARotation) {
+    EXPECT_EQ(pictureUnits(fieldWith({"m", "km", "", "s"}), {}),
+              (PictureUnits{kMeters, PictureAxisUnit{"km", true}, kUnknown, kSeconds}));
+    EXPECT_EQ(pictureUnits(fieldWith({}), {}), PictureUnits());
+}
+
+TEST(AxisUnits, AreUnknownWhereAxesWithDifferentUnitsAreMixed) {
+    const Field field = fieldWith({"m", "m", "m", "s"});
+    EXPECT_EQ(pictureUnits(field, Rotation(Turn{Plane::xy, 0.3})), (PictureUnits{kMeters, kMeters, kMeters, kSeconds}));
+    EXPECT_EQ(pictureUnits(field, Rotation(Turn{Plane::xw, 0.3})),
+              (PictureUnits{kUnknown, kMeters, kMeters, kUnknown}));
+    const PictureUnits quarter = pictureUnits(field, Rotation(Turn{Plane::xw, std::numbers::pi / 2}));
+    EXPECT_EQ(quarter, (PictureUnits{kSeconds, kMeters, kMeters, kMeters})) << "the axes change places";
+    const PictureUnits oneUnknown = pictureUnits(fieldWith({"m", "", "m", "s"}), Rotation(Turn{Plane::xy, 0.3}));
+    EXPECT_EQ(oneUnknown, (PictureUnits{kUnknown, kUnknown, kMeters, kSeconds}));
+}
+
+TEST(AxisUnits, FollowTheFrameOfReference) {
+    const auto seen = [](const geometry::ReferenceFrame& frame) {
+        return pictureUnits(transformedTo(fieldWith({"m", "m", "m", "s"}), frame, geometry::nextSerial()), {});
+    };
+    const auto fast = seen({.pace = 2});
+    EXPECT_EQ(fast, (PictureUnits{kMeters, kMeters, kMeters, kSeconds}));
+    EXPECT_EQ(seen({.pace = 5})[3], (PictureAxisUnit{"s", true})) << "the time takes 5 s, and the object is 1 long";
+    EXPECT_EQ(seen({.boost = {0.5, 0, 0}}), (PictureUnits{kUnknown, kMeters, kMeters, kUnknown}));
+}
+
+TEST(AxisUnits, FollowTheNames) {
+    EXPECT_EQ(axisLabel(0, kMeters), "x, m");
+    EXPECT_EQ(axisLabel(3, kUnknown), "w");
+}
+
+}  // namespace
+}  // namespace oval4d::fields::test
