@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "export/drawing/ascii_text.hpp"
 #include "scene/density_plot.hpp"
 #include "slicing/coordinate_histograms.hpp"
 
@@ -17,6 +18,12 @@ constexpr double kMaxColumn = 48;          // the maximum width of a vertex's co
 constexpr double kMinColumn = 5;           // the minimum width of a vertex's column
 constexpr double kText = 7;                // font size
 constexpr double kNameRoom = 3.2 * kText;  // the width that the label of a vertex needs
+
+/// Returns about the width of a line of text, from the mean width of characters.
+double estimatedWidth(const std::string& text) {
+    constexpr double kCharacter = 0.6;  // as a fraction of the font size
+    return kCharacter * kText * static_cast<double>(text.size());
+}
 
 /// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
 /// columns are arranged in rows.
@@ -94,7 +101,17 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
                                             .color = scene::surfaceColor(i, settings.levels.size(), scene.look)});
         }
         axes.shapes.emplace_back(Line{.from = {left, bottom}, .to = {right, bottom}, .color = color, .id = name});
-        axes.shapes.emplace_back(TextLine{{(left + right) / 2, bottom + 1.3 * kText}, kText, kDrawingText, name});
+        const std::string label = asciiText(fields::axisLabel(k, scene.axisUnits.at(static_cast<std::size_t>(k))));
+        axes.shapes.emplace_back(TextLine{{(left + right) / 2, bottom + 1.3 * kText},
+                                          kText,
+                                          kDrawingText,
+                                          estimatedWidth(label) <= width ? label : name});
+    }
+    const std::string quantity = asciiText(fields::labelOf(field.quantity));
+    const double quantityWidth = estimatedWidth(quantity);
+    if (!quantity.empty() && quantityWidth <= kDrawingWidth - 2 * kDrawingMargin) {
+        axes.shapes.emplace_back(TextLine{
+            {kDrawingMargin + quantityWidth / 2, kDrawingMargin - 0.4 * kText}, kText, kDrawingText, quantity});
     }
     drawing.groups.push_back(std::move(levels));
     drawing.groups.push_back(std::move(axes));

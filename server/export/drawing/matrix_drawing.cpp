@@ -7,12 +7,15 @@
 #include <string>
 #include <utility>
 
+#include "export/drawing/ascii_text.hpp"
+
 namespace oval4d::exports {
 
 namespace {
 
 constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
 constexpr double kNumberRoom = 14;       // the room for the numbers at the left of the matrix and below the matrix
+constexpr double kCharacterWidth = 0.6;  // the mean width of a character, as a fraction of the font size
 constexpr double kNumberCharacters = 4;  // how many characters of the size kNumberSize fit into kNumberRoom
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
@@ -93,7 +96,7 @@ class SectionDrawer {
     /// Draws tick marks and their numbers: at the left edge of each row of panels, and at the lower edge of each
     /// column. Numbers with more than kNumberCharacters characters have a smaller font size.
     ShapeGroup drawNumbers() const {
-        constexpr double kMark = 3, kWidth = 0.6;  // kWidth: of a character, as a fraction of the font size
+        constexpr double kMark = 3;
         const double half = kPanel / 2;
         ShapeGroup numbers{"numbers", {}};
         const auto add = [&](const glm::dvec2& mark, const glm::dvec2& outward, const TextLine& text) {
@@ -112,7 +115,7 @@ class SectionDrawer {
                 const double size = kNumberSize * std::min(1.0, kNumberCharacters / characters), digits = 0.73 * size;
                 const glm::dvec2 under = below + glm::dvec2(at, half), left = beside + glm::dvec2(-half, -at);
                 add(under, {0, 1}, {under + glm::dvec2(0, kMark + 1 + digits), size, colorOfAxis(axis), text});
-                const double halfWidth = kWidth * size * characters / 2;
+                const double halfWidth = kCharacterWidth * size * characters / 2;
                 add(left, {-1, 0},
                     {left + glm::dvec2(-kMark - 1 - halfWidth, digits / 2), size, colorOfAxis(axis), text});
             }
@@ -121,15 +124,25 @@ class SectionDrawer {
     }
 
     /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws below the name the
-    /// number that must be added to each of them.
+    /// number that must be added to each of them. Below this, draws the unit of the numbers, if it is known and not too
+    /// long.
     void drawName(int axis, std::vector<DrawnShape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
-        if (offset(axis) == 0) return;
-        std::array<char, 32> text{};
-        std::snprintf(text.data(), text.size(), "%+.15g", offset(axis) * step_);
-        shapes.emplace_back(
-            TextLine{below + glm::dvec2(0, 2 * kNumberSize), kNumberSize, colorOfAxis(axis), text.data()});
+        double line = 2;  // where the next text is, in font sizes below the name
+        const auto add = [&](const std::string& text) {
+            shapes.emplace_back(
+                TextLine{below + glm::dvec2(0, line * kNumberSize), kNumberSize, colorOfAxis(axis), text});
+            line += 1.5;
+        };
+        if (offset(axis) != 0) {
+            std::array<char, 32> text{};
+            std::snprintf(text.data(), text.size(), "%+.15g", offset(axis) * step_);
+            add(text.data());
+        }
+        const fields::PictureAxisUnit& unit = scene_.axisUnits.at(static_cast<std::size_t>(axis));
+        const std::string text = unit.isToScale ? asciiText(unit.text) : "";
+        if (!text.empty() && kCharacterWidth * kNumberSize * static_cast<double>(text.size()) <= kPanel) add(text);
     }
 
   private:
