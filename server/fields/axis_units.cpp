@@ -34,6 +34,11 @@ PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientat
     return units;
 }
 
+std::string lengthUnit(const PictureUnits& units) {
+    const auto& [x, y, z, w] = units;
+    return x.isToScale && x == y && y == z ? x.text : std::string();
+}
+
 std::string axisLabel(int axis, const PictureAxisUnit& unit) {
     std::string label(1, "xyzw"[axis]);
     if (!unit.text.empty()) label += ", " + unit.text;

@@ -23,6 +23,10 @@ using PictureUnits = std::array<PictureAxisUnit, 4>;
 /// for example, if fieldFromArray() or ReferenceFrame::pace has scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
+/// Returns the unit of lengths in a hyperplane w = const of the picture: that of the axes x, y and z if they have the
+/// same one and are to scale; otherwise an empty string.
+std::string lengthUnit(const PictureUnits& units);
+
 /// Returns "x, m" for the axis 0 with the unit m, and "x" if its unit is unknown.
 std::string axisLabel(int axis, const PictureAxisUnit& unit);
 

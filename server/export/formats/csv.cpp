@@ -58,13 +58,45 @@ std::size_t tableBytes(const fields::Field& field) {
     return 2 * sizeof(double) * indices;
 }
 
+// Returns a text as a cell of a table. Spreadsheets take a text that begins with certain signs for a formula, which an
+// apostrophe before it prevents.
+std::string csvText(const std::string& text) {
+    std::string cell = "\"";
+    if (text.find_first_of("=+-@") == 0) cell += '\'';
+    for (const char c : text) cell.append(c == '"' ? 2 : 1, c);
+    return cell + '"';
+}
+
+/// Columns at the end of a table with the units of other columns, as far as they are known. They are the same in all
+/// rows.
+struct UnitColumns {
+    std::string names, cells;  ///< each begins with a comma unless it is empty
+
+    void add(std::string_view name, const std::string& unit) {
+        if (unit.empty()) return;
+        (names += ',').append(name);
+        (cells += ',') += csvText(unit);
+    }
+};
+
+std::string unitOfW(const scene::Scene& scene) {
+    const fields::PictureAxisUnit& unit = scene.axisUnits[3];
+    return unit.isToScale ? unit.text : std::string();
+}
+
 std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     const geometry::Hyperplanes& planes = source.scene.slices->planes;
     const slicing::FieldSettings& settings = source.scene.look.field;
     const bool hasLevels = settings.levels.size() > 1;
     std::string out = hasLevels ? "n,w,level," : "n,w,";
     out += "volume,area,centroid_x,centroid_y,centroid_z,components,euler";
-    out += field.second ? ",mean_second_value\n" : "\n";
+    if (field.second) out += ",mean_second_value";
+    UnitColumns units;
+    units.add("w_unit", unitOfW(source.scene));
+    units.add("length_unit", fields::lengthUnit(source.scene.axisUnits));
+    units.add("level_unit", field.quantity.unit);
+    if (field.second) units.add("mean_second_value_unit", field.second->quantity.unit);
+    out += units.names + '\n';
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     slicing::FieldSection section;
     std::vector<float> values;
@@ -94,7 +126,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
                 out += ',';
                 if (const auto mean = slicing::meanOnSurface(surface, values)) appendDecimal(out, *mean);
             }
-            out += '\n';
+            out += units.cells + '\n';
         }
     }
     return out;
@@ -124,7 +156,11 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
     if (!found) throw ExportRefused{{ExportRefusal::Cause::too_long, found.error().message}};
     std::string out =
         "w,change,level,components_before,components_after,cavities_before,cavities_after,euler_before,euler_after,"
-        "tolerance\n";
+        "tolerance";
+    UnitColumns units;
+    units.add("w_unit", unitOfW(source.scene));
+    units.add("level_unit", slicing::fieldIn(source.object)->quantity.unit);
+    out += units.names + '\n';
     for (const slicing::CriticalSection& section : found->all) {
         appendDecimal(out, slicing::infoOf(source.object).originInFile.w + section.w);
         out += ',';
@@ -135,7 +171,7 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
             out += ',' + std::to_string(count);
         for (const long euler : {before.euler, after.euler}) out += ',' + std::to_string(euler);
         appendDecimal(out += ',', found->tolerance);
-        out += '\n';
+        out += units.cells + '\n';
     }
     return out;
 }

@@ -102,7 +102,7 @@ std::string vti(const SceneToWrite& source) {
     appendDecimal(attributes, lattice.spacing);
     attributes += "\"";
     std::string elements = "<Piece Extent=\"" + extent + "\">\n<PointData Scalars=\"value\">\n";
-    appendVtkArray(elements, "value", 1, std::span<const float>(values));
+    appendVtkArray(elements, "value", 1, std::span<const float>(values), field.quantity);
     elements += "</PointData>\n<CellData></CellData>\n</Piece>\n";
     return vtkFile("ImageData", attributes, elements);
 }

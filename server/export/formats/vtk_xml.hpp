@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "export/formats/little_endian.hpp"
+#include "fields/quantity.hpp"
 
 namespace oval4d::exports {
 
@@ -18,13 +19,15 @@ namespace oval4d::exports {
 std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements);
 
 /// Appends a DataArray element with `bytes` in Base64. `bytes` must be little-endian numbers of the type `type`, such
-/// as "Float32"; `components` is the number of numbers in a tuple.
+/// as "Float32"; `components` is the number of numbers in a tuple. If it is known what the numbers measure, the element
+/// has its name as the name of the first component, and its unit as vtkDataArray::UNITS_LABEL.
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
-                    std::string_view bytes);
+                    std::string_view bytes, const fields::Quantity& quantity = {});
 
 /// Appends a DataArray element with these numbers, as tuples of `components` numbers.
 template <typename Number>
-void appendVtkArray(std::string& out, std::string_view name, int components, std::span<const Number> numbers) {
+void appendVtkArray(std::string& out, std::string_view name, int components, std::span<const Number> numbers,
+                    const fields::Quantity& quantity = {}) {
     constexpr bool kReal = std::is_floating_point_v<Number>;
     constexpr std::size_t kBits = 8 * sizeof(Number);
     std::string bytes;
@@ -39,7 +42,7 @@ void appendVtkArray(std::string& out, std::string_view name, int components, std
         }
     }
     const std::string kind = kReal ? "Float" : std::is_signed_v<Number> ? "Int" : "UInt";
-    appendVtkArray(out, kind + std::to_string(kBits), name, components, bytes);
+    appendVtkArray(out, kind + std::to_string(kBits), name, components, bytes, quantity);
 }
 
 }  // namespace oval4d::exports

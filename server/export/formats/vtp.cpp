@@ -151,25 +151,27 @@ void addSurface(const SceneToWrite& source, int slice, PolyData& out) {
 }
 
 template <typename Number>
-void appendArray(std::string& out, std::string_view name, const std::vector<Number>& numbers, int components = 1) {
-    appendVtkArray(out, name, components, std::span<const Number>(numbers));
+void appendArray(std::string& out, std::string_view name, const std::vector<Number>& numbers, int components = 1,
+                 const fields::Quantity& quantity = {}) {
+    appendVtkArray(out, name, components, std::span<const Number>(numbers), quantity);
 }
 
-std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
+// `field` is null for other objects. `units` are the units of the axes.
+std::string pieceElement(const PolyData& data, const fields::Field* field, const fields::PictureUnits& units) {
     const auto countOf = [&](ListedElementKind elements) {
         return "=\"" + std::to_string(data.elements == elements ? data.ends.size() : 0) + '"';
     };
     std::string out = "<Piece NumberOfPoints=\"" + std::to_string(data.points.size() / 3) + "\" NumberOfVerts" +
                       countOf(ListedElementKind::vertices) + " NumberOfLines" + countOf(ListedElementKind::edges) +
                       " NumberOfStrips=\"0\" NumberOfPolys" + countOf(ListedElementKind::faces) + ">\n";
-    if (isField) {
+    if (field != nullptr) {
         out += "<PointData Scalars=\"value\" Normals=\"normals\">\n";
-        appendArray(out, "value", data.values);
-        if (hasSecond) appendArray(out, "second_value", data.secondValues);
+        appendArray(out, "value", data.values, 1, field->quantity);
+        if (field->second) appendArray(out, "second_value", data.secondValues, 1, field->second->quantity);
         appendArray(out, "normals", data.normals, 3);
         appendArray(out, "growth", data.growth);
         out += "</PointData>\n<CellData Scalars=\"level\">\n";
-        appendArray(out, "level", data.level);
+        appendArray(out, "level", data.level, 1, field->quantity);
         appendArray(out, "cap", data.cap);
     } else if (data.elements == ListedElementKind::faces) {
         out += "<CellData Scalars=\"cell\">\n";
@@ -178,9 +180,9 @@ std::string pieceElement(const PolyData& data, bool isField, bool hasSecond) {
         out += "<CellData Scalars=\"w\">\n";
     }
     appendArray(out, "n", data.n);
-    appendArray(out, "w", data.w);
+    appendArray(out, "w", data.w, 1, {"", units[3].isToScale ? units[3].text : ""});
     out += "</CellData>\n<Points>\n";
-    appendArray(out, "points", data.points, 3);
+    appendArray(out, "points", data.points, 3, {"", fields::lengthUnit(units)});
     const std::string list = data.elements == ListedElementKind::vertices ? "Verts"
                              : data.elements == ListedElementKind::edges  ? "Lines"
                                                                           : "Polys";
@@ -210,7 +212,7 @@ std::string vtp(const SceneToWrite& source) {
         source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, fault,
                                                     slicing::infoOf(source.object).originInFile.w));
     }
-    return vtkFile("PolyData", "", pieceElement(data, isField, isField && field->second != nullptr));
+    return vtkFile("PolyData", "", pieceElement(data, field, source.scene.axisUnits));
 }
 
 }  // namespace oval4d::exports
