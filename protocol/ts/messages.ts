@@ -1033,6 +1033,10 @@ export interface Measured {
      * Of a cell: the index of its kind in `polytope.kinds` of the `state`.
      */
     kind?: number;
+    /**
+     * Of the size of an element of a field's box, such as "m² s", if the units of the axes along which it extends are known.
+     */
+    unit?: string;
 }
 /**
  * Answers a `ping`. Between two pongs, the threads were busy for the fraction Δ`busy` / (`workers` · Δ`time`) of the time.

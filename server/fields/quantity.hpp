@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -28,6 +29,10 @@ std::string quantityText(std::string_view text);
 
 /// Returns whether quantityText() leaves `text` as it is.
 bool isQuantityText(std::string_view text);
+
+/// Returns the unit of a product of numbers with these units: "m²" for m and m, "m s" for m and s. A unit that does not
+/// consist of letters only is in parentheses if it is raised to a power. Returns an empty string if a unit is unknown.
+std::string unitOfProduct(std::span<const std::string> units);
 
 /// Returns "temperature, K" for {"temperature", "K"}, the only known text if one of them is unknown, and an empty
 /// string if both are.

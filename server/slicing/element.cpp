@@ -4,7 +4,9 @@
 #include <cmath>
 #include <numeric>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
@@ -339,6 +341,27 @@ void findPartsShowing(const Object& object, const Element& element, PartsShowing
     }
 }
 
+namespace {
+
+// Returns the product of the units of those axes of the field's box along which the vertices of an element differ.
+std::string unitOfSize(const Object& object, const fields::Field& field, std::span<const std::uint32_t> vertices) {
+    std::vector<std::string> units;
+    for (int axis = 0; axis < 4; ++axis) {
+        double least = field.box.max[axis], most = field.box.min[axis];
+        for (const std::uint32_t v : vertices) {
+            const double at = vertexInFile(object, v)[axis];
+            least = std::min(least, at);
+            most = std::max(most, at);
+        }
+        // The vertices are corners of the box, so they differ by its whole extent or not at all.
+        if (most - least > (field.box.max[axis] - field.box.min[axis]) / 2)
+            units.push_back(field.units.at(static_cast<std::size_t>(axis)));
+    }
+    return fields::unitOfProduct(units);
+}
+
+}  // namespace
+
 ElementMeasurements measureElement(const Object& object, const Element& element) {
     std::vector<std::uint32_t> vertices;
     visitElements(
@@ -353,6 +376,7 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
     out.center /= static_cast<double>(vertices.size());
     const fields::Field* const field = fieldIn(object);
     const glm::dmat4 toFile = field == nullptr ? glm::dmat4(1) : field->toFunction;
+    if (field != nullptr) out.unit = unitOfSize(object, *field, vertices);
     visitElements(Overloaded{[&](const CellComplex& complex) { measureSize(complex, element, toFile, out); },
                              [](const PointCloud& /*cloud*/) {}},
                   object);

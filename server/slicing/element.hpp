@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -104,6 +105,9 @@ struct ElementMeasurements {
     /// polyhedron encloses n times counts n times.
     std::optional<double> area, volume;
     glm::dvec4 center{0};  ///< the mean of the element's vertices
+    /// Of the length, the area or the volume of an element of a field's box: the product of the units of the axes along
+    /// which the element extends. Empty if one of these is unknown, and for all other objects.
+    std::string unit;
 };
 
 /// Measures an element in the coordinates of vertexInFile(): those of the object's file, before any rotation, or, for a

@@ -80,8 +80,9 @@ struct Measured {
     std::optional<double> length, area, volume;
     glm::dvec4 center{0};
     std::optional<std::uint64_t> kind = {};  ///< of a cell: its type, as an index into ObjectInfo::cellTypes
+    std::optional<std::string> unit = {};    ///< of the length, the area or the volume; absent if unknown
 };
-BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind))
+BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind, unit))
 
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {

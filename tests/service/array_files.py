@@ -38,6 +38,35 @@ def netcdf(values, name="v"):
     return head + struct.pack(">i", len(head) + 4) + values.astype(">f4").tobytes()
 
 
+def netcdf_with_units(values, quantity, unit, units):
+    """Returns a classic NetCDF file with a variable v of 32-bit floats, whose indices are t, z, y and x, and coordinates
+    from 0 to 1 along each. `quantity` and `unit` are the attributes long_name and units of v, as texts or bytes, and
+    `units` those of the coordinates: a dict by axis."""
+    def text(word):
+        raw = word if isinstance(word, bytes) else word.encode()
+        return struct.pack(">i", len(raw)) + raw + b"\0" * (-len(raw) % 4)
+
+    def attributes(**texts):
+        return struct.pack(">ii", 12, len(texts)) + b"".join(
+            text(name) + struct.pack(">i", 2) + text(value) for name, value in texts.items())
+
+    variables = [(axis, [index], attributes(units=units[axis]), 6, numpy.linspace(0, 1, size).astype(">f8").tobytes())
+                 for index, (axis, size) in enumerate(zip("tzyx", values.shape))]
+    variables.append(("v", range(4), attributes(long_name=quantity, units=unit), 5, values.astype(">f4").tobytes()))
+
+    def header(begin):
+        head = b"CDF\1" + struct.pack(">iii", 0, 10, 4)
+        head += b"".join(text(axis) + struct.pack(">i", size) for axis, size in zip("tzyx", values.shape))
+        head += struct.pack(">ii", 0, 0) + struct.pack(">ii", 11, len(variables))
+        for name, dimensions, about, number, data in variables:
+            head += text(name) + struct.pack(f">i{len(dimensions)}i", len(dimensions), *dimensions) + about
+            head += struct.pack(">iii", number, len(data), begin)
+            begin += len(data)
+        return head
+
+    return header(len(header(0))) + b"".join(data for *_, data in variables)
+
+
 def hdf5(values, path="group/v"):
     """Returns an HDF5 file with one dataset, written by the library."""
     name = ctypes.util.find_library("hdf5_serial") or ctypes.util.find_library("hdf5")

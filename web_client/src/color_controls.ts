@@ -3,7 +3,7 @@
 import type { Background, CellKind, Coloring, Settings, State } from "@oval4d/protocol";
 
 import { element } from "./element";
-import { isField } from "./fields";
+import { isField, labelOfQuantity, quantityOfColors } from "./fields";
 import { capitalize, formatCount, roundedToDigitsOfSize } from "./format";
 import { cssColor } from "./picture/pen";
 import type { ToolSection } from "./tools";
@@ -39,6 +39,8 @@ interface ScaleLegend {
     least: string;
     most: string;
     text: string;
+    /** What the colors show, such as "temperature, K"; "" or absent if it is not known. */
+    label?: string;
     /** CSS colors from the least value to the greatest; by default, from blue through gray to amber. */
     colors?: string[];
 }
@@ -141,7 +143,8 @@ export class ColorControls {
         this.scale.dataset["of"] = shown;
         const bar = element("span", { role: "img", "aria-label": scale.text });
         if (scale.colors) bar.style.background = `linear-gradient(90deg, ${scale.colors.join(", ")})`;
-        this.scale.replaceChildren(scale.least, bar, scale.most);
+        const label = scale.label ? [element("small", { "aria-hidden": "true" }, scale.label)] : []; // also in the text
+        this.scale.replaceChildren(scale.least, bar, scale.most, ...label);
     }
 
     private listKinds(kinds: CellKind[]): void {
@@ -176,14 +179,18 @@ function coloringSeen(state: State): Coloring {
  * The legend of the color scale of the coloring `seen`. If this coloring has no scale, but the caps are colored by
  * value, the legend of the scale of values; otherwise undefined.
  */
-function scaleOf({ caps, field }: State, seen: Coloring): ScaleLegend | undefined {
+function scaleOf(state: State, seen: Coloring): ScaleLegend | undefined {
+    const { caps, field } = state;
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
     const size = values.range[1] - values.range[0];
     const textOf = (value: number): string => withTypographicMinus(String(roundedToDigitsOfSize(size, value, kScaleDigits)));
     const [least, most] = values.range.map(textOf) as [string, string];
-    const name = values.formula ?? values.variable ?? "the values of the field";
-    return { least, most, text: `The colors of ${name}, from ${least} to ${most}`, colors: values.colors.map(cssColor) };
+    const { name, unit = "" } = quantityOfColors(state);
+    const of = name ?? values.formula ?? values.variable ?? "the values of the field";
+    const label = labelOfQuantity({ ...(name !== undefined && { name }), unit });
+    const text = `The colors of ${of}, from ${least} to ${[most, unit].filter(Boolean).join(" ")}`;
+    return { least, most, text, label, colors: values.colors.map(cssColor) };
 }
 
 /** A text for screen readers such as "colored by kind". */

@@ -5,7 +5,7 @@ import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@
 
 import { byId, element } from "./element";
 import { kExamples } from "./field_examples";
-import { isField, kFormulaName, kMaxLevels, kUsualBox, parseNumbers, queryOf, type FormulaWithBox } from "./fields";
+import { isField, kFormulaName, kMaxLevels, kUsualBox, labelOfQuantity, parseNumbers, queryOf, type FormulaWithBox } from "./fields";
 import { FogEditor } from "./fog_editor";
 import { toSentence } from "./format";
 import { comparisonOf } from "./formula";
@@ -145,6 +145,8 @@ export class FieldPanel {
             control.disabled = !isField(state);
         }
         if (document.activeElement !== this.levels) this.showLevels(levels);
+        const quantity = labelOfQuantity(state.field?.quantity);
+        for (const part of this.root.querySelectorAll("[data-quantity]")) part.textContent = quantity && ` (${quantity})`;
         this.observer.update(state);
         this.fog.update(state);
         for (const [name, value] of Object.entries({ inside, caps })) {

@@ -1,6 +1,6 @@
 // 4-D fields: their formulas and settings in messages, commands, addresses and spoken text.
 
-import type { Box, Settings, State } from "@oval4d/protocol";
+import type { Box, Quantity, Settings, State } from "@oval4d/protocol";
 
 import { textOfFog } from "./fog";
 import { formatFieldValue } from "./format";
@@ -48,19 +48,32 @@ export function loadOf({ formula, box, values }: FormulaWithBox): FormulaLoad {
     return { name: kFormulaName, format: "formula", data: formula, box, ...(values && { values }) };
 }
 
+/** A text such as "temperature, K" of what is known of a quantity; "" if nothing is. */
+export function labelOfQuantity({ name, unit }: Quantity = {}): string {
+    return [name, unit].filter(Boolean).join(", ");
+}
+
+/** What the colors of values show, as far as it is known: the quantity of the second function or, without one, the field. */
+export function quantityOfColors({ field }: State): Quantity {
+    const { values, quantity } = field ?? {};
+    const isOfSecond = values?.formula !== undefined || values?.variable !== undefined;
+    return (isOfSecond ? values?.quantity : quantity) ?? {};
+}
+
 /** The field that a line such as "formula x^2 < 1 colored by y" shows; undefined for other commands. */
 export function fieldOfLine(line: string): FormulaWithBox | undefined {
     const [, formula, values] = /^\s*:?\s*formula\s+(.*?\S)(?:\s+colored by\s+(.*?\S))?\s*$/s.exec(line) ?? [];
     return formula === undefined ? undefined : { formula, box: kUsualBox, ...(values && { values }) };
 }
 
-/** A text for screen readers such as "levels 0, 0.5, inside below, fog from −1 to 2"; "" if there is no field. */
-export function spokenLevels({ levels, inside = "below", fog = [] }: State): string {
+/** A text for screen readers such as "levels 0, 0.5 K, inside below, fog from −1 to 2 K"; "" if there is no field. */
+export function spokenLevels({ levels, inside = "below", fog = [], field }: State): string {
     if (!levels) return "";
     const named = levels.length === 1 ? "level" : "levels";
     const ends = [fog[0], fog.at(-1)].map((point) => formatFieldValue(point?.value ?? 0));
-    const fogText = fog.length > 0 ? `, fog from ${ends.join(" to ")}` : "";
-    return `${named} ${levels.map(formatFieldValue).join(", ")}, inside ${inside}${fogText}`;
+    const unit = field?.quantity?.unit ? ` ${field.quantity.unit}` : "";
+    const fogText = fog.length > 0 ? `, fog from ${ends.join(" to ")}${unit}` : "";
+    return `${named} ${levels.map(formatFieldValue).join(", ")}${unit}, inside ${inside}${fogText}`;
 }
 
 /**

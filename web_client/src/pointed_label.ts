@@ -25,7 +25,7 @@ const kGap = 14; // pixels between the pointer and the label
 const kMargin = 4; // pixels between the label and the edges of the drawing
 
 /** What the server has answered about the element that `of` identifies; nothing if it has refused to answer. */
-type Measurement = { of: string } & Partial<Pick<Measured, "kind" | "length" | "area" | "volume">>;
+type Measurement = { of: string } & Partial<Pick<Measured, "kind" | "length" | "area" | "volume" | "unit">>;
 
 export class PointedLabel {
     private readonly label = byId("pointed");
@@ -113,8 +113,9 @@ function describe(described: ElementDescription, measured: Measurement, state: S
     if (kind !== undefined) parts.push(kind);
     const { length, area, volume }: Partial<Measurement> = state && spokenReferenceFrame(state) === "" ? measured : {};
     const sizes = { length: described.length ?? length, area, volume };
+    const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // of a field's box, whose sizes are all measured
     for (const [name, size] of Object.entries(sizes)) {
-        if (size !== undefined) parts.push(`${name} ${formatLength(size)}`);
+        if (size !== undefined) parts.push(`${name} ${formatLength(size)}${unit}`);
     }
     if (range) {
         const [least, most] = range.map(format);

@@ -101,6 +101,7 @@ void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId 
     const slicing::ElementMeasurements found = slicing::measureElement(object, element);
     wire::Measured measured{revision(), found.length, found.area, found.volume, found.center};
     if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typeOfCells(object)[element.index];
+    if (!found.unit.empty()) measured.unit = found.unit;
     peer.send(textAnswer(measured, id));
 }
 

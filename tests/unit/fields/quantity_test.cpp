@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "text/message_text.hpp"
 
@@ -32,6 +33,18 @@ TEST(Quantity, TextsAreShortAndPrintable) {
             EXPECT_TRUE(isQuantityText(cut)) << cut;
         }
     }
+}
+
+TEST(Quantity, ProductsHaveProductsOfUnits) {
+    const auto product = [](const std::vector<std::string>& units) { return unitOfProduct(units); };
+    EXPECT_EQ(product({}), "");
+    EXPECT_EQ(product({"m"}), "m");
+    EXPECT_EQ(product({"m", "m"}), "m²");
+    EXPECT_EQ(product({"m", "s", "m"}), "m² s");
+    EXPECT_EQ(product({"m s-1"}), "m s-1");
+    EXPECT_EQ(product({"m s-1", "m s-1", "m s-1"}), "(m s-1)³");
+    EXPECT_EQ(product({"m", "m", "m", "m", "m"}), "m^5");
+    EXPECT_EQ(product({"m", ""}), "");
 }
 
 TEST(Quantity, LabelsHaveWhatIsKnown) {

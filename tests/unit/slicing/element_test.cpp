@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -14,6 +15,7 @@
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 
+#include "fields/array_field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "slicing/element.hpp"
 #include "unit/slicing/field_support.hpp"
@@ -286,6 +288,28 @@ TEST(ElementMeasurements, OfTrianglesFollowFromTheirSides) {
         EXPECT_NEAR(sizeIn(measureElement(object, {ElementKind::cell, i}), ElementKind::cell),
                     glm::length(normals[i]) / 6, 1e-9);
     }
+}
+
+TEST(ElementMeasurements, OfABoxHaveTheUnitsOfItsAxes) {
+    fields::FieldArray array;
+    array.shape = {2, 2, 2, 2};
+    array.box = {glm::dvec4(0), glm::dvec4(1, 2, 3, 40)};
+    array.samples = fields::SampleStorage(std::vector<float>(16, 1));
+    array.units = {"m", "m", "", "s"};
+    const Object object = std::make_shared<const fields::Field>(*fields::fieldFromArray("run", array));
+    const std::map<double, std::string> unitOfLength{{1, "m"}, {2, "m"}, {3, ""}, {40, "s"}};
+    for (std::size_t i = 0; i < elementCount(object, ElementKind::edge); ++i) {
+        const ElementMeasurements edge = measureElement(object, {ElementKind::edge, i});
+        EXPECT_EQ(edge.unit, unitOfLength.at(std::round(edge.length.value())));
+    }
+    std::map<std::string, int> unitsOfAreas, unitsOfVolumes;
+    for (std::size_t i = 0; i < elementCount(object, ElementKind::face); ++i)
+        ++unitsOfAreas[measureElement(object, {ElementKind::face, i}).unit];
+    for (std::size_t i = 0; i < elementCount(object, ElementKind::cell); ++i)
+        ++unitsOfVolumes[measureElement(object, {ElementKind::cell, i}).unit];
+    EXPECT_EQ(unitsOfAreas, (std::map<std::string, int>{{"m²", 4}, {"m s", 8}, {"", 12}}));
+    EXPECT_EQ(unitsOfVolumes, (std::map<std::string, int>{{"m² s", 2}, {"", 6}}));
+    EXPECT_EQ(measureElement(object, {ElementKind::vertex, 0}).unit, "");
 }
 
 TEST(ElementMeasurements, AreInTheCoordinatesOfTheFile) {

@@ -261,6 +261,8 @@ TEST(OtherMessages, FitTheirSchemas) {
 
     EXPECT_EQ(fitting(wire::answerMessage(wire::Measured{3, {}, {}, 8.0, glm::dvec4(0, 0, 0, -1), 0}, 5)),
               json::parse(R"({"type":"measured","id":5,"revision":3,"volume":8,"center":[0,0,0,-1],"kind":0})"));
+    EXPECT_EQ(fitting(wire::answerMessage(wire::Measured{0, 2.0, {}, {}, glm::dvec4(1, 2, 3, 4), {}, "m"}, {})),
+              json::parse(R"({"type":"measured","revision":0,"length":2,"center":[1,2,3,4],"unit":"m"})"));
     EXPECT_EQ(fitting(wire::answerMessage(wire::Measured{0, {}, {}, {}, glm::dvec4(1, 2, 3, 4)}, {})),
               json::parse(R"({"type":"measured","revision":0,"center":[1,2,3,4]})"));
 
