@@ -263,7 +263,8 @@ class Client:
         is the distance between samples, and `origin` (four numbers) the place of the first one; without both, the
         server chooses them. `levels` and `inside` are as in formula(), but without them, the level is in the middle of
         the values, and the inside is above. If `values` is given, its values color the surfaces: another array of the
-        same shape, or a formula of x, y, z and w in the units of the box."""
+        same shape, or a formula of x, y, z and w in the units of the box. A numpy array does not state its units;
+        upload() a NetCDF, HDF5 or NIfTI file that states them, and pictures name them (see state())."""
         samples = _samples(array)
         axes = axes or "tzyx"[-samples.ndim :]
         box = None if spacing is None and origin is None else _box(samples.shape, axes, spacing, origin)
@@ -351,6 +352,11 @@ class Client:
         return self.request("get", what=what, **size, **ground)
 
     def state(self) -> State:
+        """Returns a state message. Of a field from a file that states them, state()["field"] has the known units of its
+        axes and what its values measure: "units", such as {"x": "m", "w": "s"}, and "quantity", such as
+        {"name": "temperature", "unit": "K"}. What is not known is absent:
+
+            unit = oval.state()["field"].get("quantity", {}).get("unit", "")"""
         return self.get("state")
 
     def slices(self, width: Optional[int] = None, height: Optional[int] = None,
