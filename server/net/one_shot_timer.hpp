@@ -1,13 +1,13 @@
 #pragma once
 // A timer that calls its owner once.
 
-#include <boost/asio/steady_timer.hpp>
-#include <boost/system/error_code.hpp>
-#include <chrono>
+#include <boost/asio/any_io_executor.hpp>
 #include <concepts>
 #include <functional>
 #include <memory>
 #include <utility>
+
+#include "net/clock.hpp"
 
 namespace oval4d::net {
 
@@ -16,10 +16,11 @@ namespace oval4d::net {
 /// strand.
 class OneShotTimer {
   public:
-    using Clock = std::chrono::steady_clock;
+    using Clock = TimerClock::Clock;
 
-    template <typename Strand>
-    explicit OneShotTimer(const Strand& strand) : timer_(strand) {}
+    /// `clock` decides when the timer expires.
+    OneShotTimer(const TimerClock& clock, const boost::asio::any_io_executor& strand)
+        : timer_(clock.makeTimer(strand)) {}
 
     /// Schedules one call of `expired` with a reference to the owner, at the time `when`. Does nothing if a call is
     /// already scheduled. The timer skips the call if the owner has been destroyed by then. `expired`: a member
@@ -28,8 +29,7 @@ class OneShotTimer {
     void startUnlessRunning(std::weak_ptr<Owner> owner, Clock::time_point when, Expired expired) {
         if (running_) return;
         running_ = true;
-        timer_.expires_at(when);
-        timer_.async_wait([this, owner = std::move(owner), expired](boost::system::error_code) {
+        timer_->start(when, [this, owner = std::move(owner), expired] {
             const auto alive = owner.lock();
             if (!alive) return;  // this timer no longer exists either
             running_ = false;
@@ -38,7 +38,7 @@ class OneShotTimer {
     }
 
   private:
-    boost::asio::steady_timer timer_;
+    const std::unique_ptr<Timer> timer_;
     bool running_ = false;
 };
 

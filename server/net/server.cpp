@@ -132,6 +132,7 @@ class Server {
     Clients clients_;
     FieldCacheFiles fieldCacheFiles_;  // outlives all fields; declared before io_, whose handlers may hold fields
     ConnectionRegistry connections_;   // outlives all registrations; declared before io_, whose coroutines own them
+    SystemTimerClock clock_;           // outlives all timers; declared before io_, whose handlers own timers
     asio::io_context io_;
     std::vector<tcp::acceptor> acceptors_;
     Metrics metrics_;
@@ -192,8 +193,8 @@ Server::Server(Options options, parallel::ForkJoin& forkJoin, process::HeapConfi
       loadWorkers_({.threads = static_cast<std::size_t>(options_.loadWorkers),
                     .limits = options_.jobs,
                     .whenIdle = [&heap](std::size_t /*worker*/) { heap.returnFreeMemory(); }}),
-      services_{options_,     io_,      pictureWorkers_, exportWorkers_, metrics_,         clients_,
-                loadWorkers_, readers_, polytopes_,      data_,          fieldCacheFiles_, critical_},
+      services_{options_, io_,        pictureWorkers_, exportWorkers_,   metrics_,  clients_, loadWorkers_,
+                readers_, polytopes_, data_,           fieldCacheFiles_, critical_, clock_},
       sessions_(std::make_shared<SessionManager>(services_, store::openStore(storeOptions(options_)))),
       token_(requiredToken()),
       access_(options_.allowedHosts, options_.allowedOrigins, token_, listensOnlyOnLoopback()),

@@ -6,6 +6,7 @@
 #include "errors/error.hpp"
 #include "file_reading/file_reader_pool.hpp"
 #include "net/clients.hpp"
+#include "net/clock.hpp"
 #include "net/data_folder.hpp"
 #include "net/field_cache_files.hpp"
 #include "net/metrics.hpp"
@@ -48,6 +49,7 @@ struct Services {
     DataFolder& data;                        ///< the arrays that the server offers
     const FieldCacheFiles& fieldCacheFiles;  ///< files with the converted samples of large arrays in `data`
     slicing::CriticalCache& critical;        ///< cached results of searches for critical values of w
+    const TimerClock& clock;                 ///< decides when pictures, saves and deadlines are due
 };
 
 }  // namespace oval4d::net

@@ -39,7 +39,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       // The saver shares the ownership of metered_.
       saver_(std::make_shared<SessionSaver>(writeBehind, credentials_.id, fence,
                                             std::shared_ptr<const session::Session>(metered_, &metered_->value),
-                                            callAfterOn(strand_))) {
+                                            services_.clock, strand_)) {
     streams_->whenMoved([weak = std::weak_ptr(saver_)] {
         if (const auto saver = weak.lock()) saver->scheduleSave();
     });
@@ -163,7 +163,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     // A command that extends a field that is not shown changes `loaded`, but not State::source.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
-    if (applied.revision != before) streams_->sessionChanged(Clock::now());
+    if (applied.revision != before) streams_->sessionChanged(services_.clock.now());
     loading_->searches().stopUnneeded(session_.current);
     // The first picture of a new field that is larger than memory is a draft, because a picture of full quality takes
     // much longer.

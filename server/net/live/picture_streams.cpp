@@ -35,11 +35,11 @@ PictureStreams::PictureStreams(Services services, Strand strand, std::string ses
       sessionId_(std::move(sessionId)),
       metered_(std::move(metered)),
       session_(metered_->value),
-      draftTiming_(Clock::now()),
-      motionTimer_(strand_),
-      paceTimer_(strand_),
-      retryTimer_(strand_),
-      refineTimer_(strand_) {}
+      draftTiming_(services_.clock.now()),
+      motionTimer_(services_.clock, strand_),
+      paceTimer_(services_.clock, strand_),
+      retryTimer_(services_.clock, strand_),
+      refineTimer_(services_.clock, strand_) {}
 
 void PictureStreams::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
     assertOnStrand();
@@ -122,7 +122,7 @@ slicing::Quality PictureStreams::wantedQuality() const {
 void PictureStreams::scheduleRefinement() {
     if (session_.current.isMoving()) return;
     refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
-        streams.draftTiming_.endIfRested(Clock::now());
+        streams.draftTiming_.endIfRested(streams.services_.clock.now());
         streams.sendAndRequestPictures();
     });
 }
@@ -138,7 +138,7 @@ void PictureStreams::advanceMotion() {
     if (inProgress_.isQueuedOrDrawing() ||
         std::ranges::none_of(subscribers_, [this](const auto& entry) { return readyForNext(entry.second); }))
         return;
-    const auto now = Clock::now();
+    const auto now = services_.clock.now();
     const auto passed = motionTiming_.step(now);
     if (!passed) {
         motionTimer_.startUnlessRunning(weak_from_this(), motionTiming_.due(), &PictureStreams::sendAndRequestPictures);
@@ -198,7 +198,7 @@ const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::
 
 /// Schedules another attempt after the pool has rejected a job because its queue is full.
 void PictureStreams::scheduleRetry() {
-    retryTimer_.startUnlessRunning(weak_from_this(), Clock::now() + kRetryInterval,
+    retryTimer_.startUnlessRunning(weak_from_this(), services_.clock.now() + kRetryInterval,
                                    &PictureStreams::sendAndRequestPictures);
 }
 
@@ -273,9 +273,9 @@ void PictureStreams::sendStateAndPicture(Subscriber& subscriber, const OutgoingM
     peer->send({snapshot.stateTextFor(subscriber.streamKey.scheme), false});
     peer->send(picture,
                [weak = weak_from_this(), to = subscriber.peer, sent = snapshot.revision, since = snapshot.changed] {
-                   const auto now = Clock::now();
                    const auto self = weak.lock();
                    if (!self) return;
+                   const auto now = self->services_.clock.now();
                    self->services_.metrics.latency.Observe(Seconds(now - since).count());
                    asio::post(self->strand_, [self, to, sent, now] {
                        const auto written = self->subscribers_.find(to.lock().get());
@@ -382,7 +382,7 @@ void PictureStreams::scheduleShownTimeout() {
 }
 
 void PictureStreams::assumeOverduePicturesShown() {
-    for (auto& [key, subscriber] : subscribers_) subscriber.pacing.assumeShown(Clock::now(), shownTimeout());
+    for (auto& [key, subscriber] : subscribers_) subscriber.pacing.assumeShown(services_.clock.now(), shownTimeout());
     sendAndRequestPictures();
     scheduleShownTimeout();
 }

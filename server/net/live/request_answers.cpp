@@ -108,7 +108,7 @@ void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId 
 void RequestAnswers::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id) {
     const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
     peer.send(textAnswer(wire::Pong{workers.size(), workers.waiting(), workers.busyTime().count(),
-                                    Seconds(PictureStreams::Clock::now().time_since_epoch()).count()},
+                                    Seconds(services_.clock.now().time_since_epoch()).count()},
                          id));
 }
 

@@ -63,7 +63,8 @@ Seconds decodingCost(const store::Record& record) {
 SessionManager::SessionManager(Services services, std::unique_ptr<store::Store> store)
     : services_(services),
       byClient_(std::chrono::duration_cast<SessionsByClient::Clock::duration>(services.options.sessionExpiry)),
-      writeBehind_(std::move(store), settingsFrom(services.options), listener()) {}
+      writeBehind_(std::move(store), settingsFrom(services.options), listener(),
+                   [&clock = services.clock] { return clock.now(); }) {}
 
 WriteBehindStore::Listener SessionManager::listener() {
     return {[this](const std::string& id) { dropTakenSession(id); },
@@ -80,7 +81,7 @@ WriteBehindStore::Listener SessionManager::listener() {
 /// sessions, evicts an unmodified closed session to make room. Returns an error if the limit per minute is reached, or
 /// if there is no session to evict. Requires that mutex_ is held.
 std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& client) {
-    const auto now = SessionsByClient::Clock::now();
+    const auto now = services_.clock.now();
     const Options& options = services_.options;
     // Sessions are evicted only once no limit can refuse the new one anymore.
     std::optional<std::string> evicted;
@@ -253,7 +254,7 @@ void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::sha
         const auto found = self->live_.find(id);
         if (found == self->live_.end() || found->second.session != session || --found->second.clients > 0) return false;
         const bool unmodified = value.revision == 0 && value.loaded.empty();
-        self->byClient_.recordClosed(id, unmodified, SessionsByClient::Clock::now());
+        self->byClient_.recordClosed(id, unmodified, self->services_.clock.now());
         self->writeBehind_.close(id, value);
         self->live_.erase(found);
         spdlog::info("session closed session={}", id);

@@ -8,24 +8,19 @@ using SaveScope = store::WriteBehindStore::SaveScope;
 using WritePolicy = store::Store::WritePolicy;
 
 SessionSaver::SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
-                           std::shared_ptr<const session::Session> session, CallAfter callAfter)
+                           std::shared_ptr<const session::Session> session, const TimerClock& clock,
+                           const boost::asio::any_io_executor& strand)
     : writeBehind_(writeBehind),
       id_(std::move(id)),
       fence_(fence),
       session_(std::move(session)),
-      callAfter_(std::move(callAfter)) {}
+      clock_(clock),
+      timer_(clock, strand) {}
 
 void SessionSaver::scheduleSave() {
     if (writeBehind_.writePolicy() == WritePolicy::at_close) return;
     writeBehind_.noteChange(id_, fence_);
-    if (scheduled_) return;
-    scheduled_ = true;
-    callAfter_(kDelay, [weak = weak_from_this()] {
-        const auto self = weak.lock();
-        if (!self) return;
-        self->scheduled_ = false;
-        self->saveNow();
-    });
+    timer_.startUnlessRunning(weak_from_this(), clock_.now() + kDelay, [](SessionSaver& saver) { saver.saveNow(); });
 }
 
 void SessionSaver::saveNow(store::SaveCallback written) {

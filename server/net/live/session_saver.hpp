@@ -1,13 +1,15 @@
 #pragma once
 // Decides when a session is saved, and until when.
 
+#include <boost/asio/any_io_executor.hpp>
 #include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "net/call_after.hpp"
+#include "net/clock.hpp"
+#include "net/one_shot_timer.hpp"
 #include "session/session.hpp"
 #include "store/write_behind_store.hpp"
 
@@ -26,9 +28,10 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     using Write = std::function<void(store::SaveCallback written)>;
 
     /// `fence`: the fence with which the session was created in the store or fetched from it (see store::Fence).
-    /// `session`: the session, which the caller changes. `callAfter`: the timer of the delay.
+    /// `session`: the session, which the caller changes on `strand`. `clock` measures the delay.
     SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
-                 std::shared_ptr<const session::Session> session, CallAfter callAfter);
+                 std::shared_ptr<const session::Session> session, const TimerClock& clock,
+                 const boost::asio::any_io_executor& strand);
 
     /// Schedules a save. Must be called after each change.
     void scheduleSave();
@@ -53,8 +56,8 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     const std::string id_;
     const store::Fence fence_;
     const std::shared_ptr<const session::Session> session_;
-    const CallAfter callAfter_;
-    bool scheduled_ = false;  // whether a save is scheduled
+    const TimerClock& clock_;
+    OneShotTimer timer_;  // of the delay
     bool detached_ = false;
 };
 

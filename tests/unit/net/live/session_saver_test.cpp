@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/asio/io_context.hpp>
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <future>
 #include <memory>
 #include <mutex>
@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "store/session_codec.hpp"
+#include "unit/net/virtual_timer_clock.hpp"
 #include "unit/polytopes/support.hpp"
 #include "unit/store/faulty_store.hpp"
 
@@ -24,40 +25,27 @@ namespace {
 using namespace std::chrono_literals;
 using WritePolicy = store::Store::WritePolicy;
 
-/// A timer whose time passes only when a test says so.
-class VirtualTimer {
-  public:
-    CallAfter callAfter() {
-        return [this](std::chrono::steady_clock::duration delay, std::function<void()> call) {
-            EXPECT_FALSE(call_) << "only one call may be scheduled";
-            due_ = now_ + delay;
-            call_ = std::move(call);
-        };
-    }
-    bool isRunning() const { return call_ != nullptr; }
-    void advance(std::chrono::steady_clock::duration by) {
-        now_ += by;
-        if (call_ && now_ >= due_) std::exchange(call_, nullptr)();
-    }
-
-  private:
-    std::chrono::steady_clock::duration now_{0}, due_{0};
-    std::function<void()> call_;
-};
-
 /// A session that is saved in a store with this write policy.
 struct SavedSession {
     explicit SavedSession(WritePolicy policy)
         : control(std::make_shared<store::StoreControl>(store::kDefaultQuota, policy)) {}
 
     std::shared_ptr<SessionSaver> makeSaver(store::Fence fence = store::kFirstFence) {
-        return std::make_shared<SessionSaver>(writeBehind, id, fence, value, timer.callAfter());
+        return std::make_shared<SessionSaver>(writeBehind, id, fence, value, clock, io.get_executor());
     }
     /// Changes the session.
     void change() {
         ++value->revision;
         saver->scheduleSave();
     }
+    /// Lets time pass.
+    void advance(TimerClock::Clock::duration by) {
+        clock.advanceTo(clock.now() + by);
+        io.restart();
+        io.poll();
+    }
+    /// Returns whether a save is scheduled.
+    bool isScheduled() const { return clock.nextCall().has_value(); }
     /// Returns the revision in the store; an empty optional if the session is not stored.
     std::optional<std::uint64_t> stored() {
         std::string whole, head;
@@ -96,7 +84,8 @@ struct SavedSession {
         control->clock.now<store::WriteBehindStore::Clock>()};
     const std::string id = writeBehind.create().id;
     const std::shared_ptr<session::Session> value = std::make_shared<session::Session>();
-    VirtualTimer timer;
+    boost::asio::io_context io;
+    VirtualTimerClock clock;
     std::shared_ptr<SessionSaver> saver = makeSaver();
 };
 
@@ -104,13 +93,13 @@ TEST(SessionSaver, SavesAfterADelayThatFurtherChangesDoNotProlong) {
     SavedSession saved(WritePolicy::soon);
     saved.change();
     EXPECT_EQ(saved.writeBehind.unsaved(), 1U) << "the store knows of the change at once";
-    saved.timer.advance(SessionSaver::kDelay - 1ms);
-    EXPECT_TRUE(saved.timer.isRunning());
+    saved.advance(SessionSaver::kDelay - 1ms);
+    EXPECT_TRUE(saved.isScheduled());
     saved.waitForWrites();
     EXPECT_FALSE(saved.stored());
     saved.change();
-    saved.timer.advance(1ms);
-    EXPECT_FALSE(saved.timer.isRunning());
+    saved.advance(1ms);
+    EXPECT_FALSE(saved.isScheduled());
     saved.waitForWrites();
     EXPECT_EQ(saved.stored(), 2U);
     EXPECT_EQ(saved.writeBehind.unsaved(), 0U);
@@ -120,11 +109,11 @@ TEST(SessionSaver, SavesEveryLaterChangeToo) {
     SavedSession saved(WritePolicy::soon);
     for (std::uint64_t revision = 1; revision < 4; ++revision) {
         saved.change();
-        saved.timer.advance(SessionSaver::kDelay);
+        saved.advance(SessionSaver::kDelay);
         saved.waitForWrites();
         EXPECT_EQ(saved.stored(), revision);
     }
-    saved.timer.advance(1h);
+    saved.advance(1h);
     saved.waitForWrites();
     EXPECT_EQ(saved.control->saves.load(), 3 + 4) << "nothing is saved without a change";
 }
@@ -132,7 +121,7 @@ TEST(SessionSaver, SavesEveryLaterChangeToo) {
 TEST(SessionSaver, LeavesChangesToTheEndIfTheStoreWantsThemOnlyThen) {
     SavedSession saved(WritePolicy::at_close);
     saved.change();
-    EXPECT_FALSE(saved.timer.isRunning());
+    EXPECT_FALSE(saved.isScheduled());
     EXPECT_EQ(saved.writeBehind.unsaved(), 0U);
     EXPECT_FALSE(saved.saver->writeBeforeAcknowledgment(true));
     EXPECT_FALSE(SavedSession(WritePolicy::soon).saver->writeBeforeAcknowledgment(true));
@@ -170,7 +159,7 @@ TEST(SessionSaver, NeverWritesADetachedSession) {
     EXPECT_FALSE(saved.saver->isDetached());
     saved.saver->detach();
     EXPECT_TRUE(saved.saver->isDetached());
-    saved.timer.advance(SessionSaver::kDelay);
+    saved.advance(SessionSaver::kDelay);
     EXPECT_FALSE(SavedSession::resultOf(*write));
     const auto held = std::make_shared<int>();
     bool called = false;
@@ -185,7 +174,7 @@ TEST(SessionSaver, MayBeDestroyedWhileASaveIsScheduled) {
     SavedSession saved(WritePolicy::soon);
     saved.change();
     saved.saver.reset();
-    saved.timer.advance(SessionSaver::kDelay);
+    saved.advance(SessionSaver::kDelay);
     saved.waitForWrites();
     EXPECT_FALSE(saved.stored());
 }
