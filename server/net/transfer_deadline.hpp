@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 
+#include "net/clock.hpp"
 #include "net/options.hpp"
 
 namespace oval4d::net {
@@ -16,26 +17,28 @@ namespace oval4d::net {
 /// of 0 turns this second limit off.
 class TransferDeadline {
   public:
-    using Clock = std::chrono::steady_clock;
+    using Clock = TimerClock::Clock;
 
-    explicit TransferDeadline(const Options& options)
-        : grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
+    /// `clock` must outlive this object.
+    TransferDeadline(const Options& options, const TimerClock& clock)
+        : clock_(clock), grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
 
     /// Counts bytes that the client has accepted or sent.
     void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
 
     /// Returns the time within which the next fragment must be transferred; 1 ms if the client is already too slow.
     Clock::duration nextFragmentTimeout() const {
-        const Seconds lived = Clock::now() - start_;
+        const Seconds lived = clock_.now() - start_;
         const Seconds left = perSecond_ > 0 ? 2 * grace_ + Seconds(taken_ / perSecond_) - lived : grace_;
         return std::chrono::duration_cast<Clock::duration>(std::clamp(left, Seconds(0.001), grace_));
     }
 
   private:
+    const TimerClock& clock_;  // declared first, because start_ is initialized from it
     const Seconds grace_;
     const double perSecond_;
     double taken_ = 0;
-    const Clock::time_point start_ = Clock::now();
+    const Clock::time_point start_ = clock_.now();
 };
 
 }  // namespace oval4d::net

@@ -325,7 +325,7 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
 /// complete.
 asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
-    TransferDeadline deadline(options());
+    TransferDeadline deadline(options(), context_.services.clock);
     if (left > 0 && buffer_.size() == 0 && request.count(http::field::expect) > 0) {
         constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
         stream_.expires_after(deadline.nextFragmentTimeout());
@@ -411,7 +411,7 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     spdlog::debug("request method={} path=\"{}\" status={}", std::string_view(request.method_string()),
                   target.substr(0, target.find('?')), reply.status);
     http::response_serializer<http::span_body<const char>> serializer(response);
-    TransferDeadline deadline(options());
+    TransferDeadline deadline(options(), context_.services.clock);
     while (!serializer.is_done()) {
         stream_.expires_after(deadline.nextFragmentTimeout());
         const auto [fault, size] = co_await http::async_write_some(stream_, serializer, kAsTuple);

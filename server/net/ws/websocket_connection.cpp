@@ -34,6 +34,13 @@ constexpr std::size_t kMinQueue = 64U << 10U;
 
 constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
 
+/// Returns a function that starts the timer, which then calls the function's argument at the time `when`.
+std::function<void(std::function<void(std::monostate)>)> timerStarter(Timer& timer, Timer::Clock::time_point when) {
+    return [&timer, when](const std::function<void(std::monostate)>& done) {
+        timer.start(when, [done] { done(std::monostate{}); });
+    };
+}
+
 }  // namespace
 
 WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services services,
@@ -45,11 +52,11 @@ WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services serv
       client_(std::move(client)),
       requestedId_(std::move(session)),
       joined_(std::move(joined)),
-      rate_(services.options.maxRequestsPerSecond, RateLimit::Clock::now()),
-      deadline_(stream_.get_executor()),
+      rate_(services.options.maxRequestsPerSecond, services.clock.now()),
+      deadline_(services.clock.makeTimer(stream_.get_executor())),
+      helloDeadline_(services.clock.makeTimer(stream_.get_executor())),
       drainedSignal_(stream_.get_executor()),
-      executedSignal_(stream_.get_executor()),
-      helloDeadline_(stream_.get_executor()) {}
+      executedSignal_(stream_.get_executor()) {}
 
 asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     configureStream(upgrade.count(beast::http::field::sec_websocket_protocol) > 0);
@@ -65,14 +72,15 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     // socket reads its bytes.
     beast::get_lowest_layer(stream_).close();
     if (!writing_) outbox_.clear();
-    deadline_.cancel();
-    helloDeadline_.cancel();
+    deadline_->cancel();
+    helloDeadline_->cancel();
     if (session_) sessions_->leave(std::exchange(session_, nullptr), shared_from_this());
     services_.pictureWorkers.workers().cleanUpWhenIdle();
 }
 
 void WebSocketConnection::configureStream(bool offersSubprotocol) {
-    // The WebSocket stream has its own timeouts, so Beast requires that those of the TCP stream are off.
+    // The WebSocket stream has its own timeouts, so Beast requires that those of the TCP stream are off. Beast measures
+    // these timeouts, such as that of pings, with the system's clock, and not with Services::clock.
     beast::get_lowest_layer(stream_).expires_never();
     const auto ping = toSteadyDuration(services_.options.pingInterval);
     stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), 2 * ping, true});
@@ -88,10 +96,10 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
 /// which may take long because the session is read from the store; if this hello fails, handleHello() closes the
 /// connection.
 void WebSocketConnection::startHelloTimer() {
-    helloDeadline_.expires_after(toSteadyDuration(services_.options.helloTimeout));
-    helloDeadline_.async_wait([weak = weak_from_this()](boost::system::error_code canceled) {
+    helloDue_ = services_.clock.now() + toSteadyDuration(services_.options.helloTimeout);
+    helloDeadline_->start(helloDue_, [weak = weak_from_this()] {
         const auto self = weak.lock();
-        if (!canceled && self && !self->session_ && !self->joining_ && !self->ended_) self->closeWithoutHello();
+        if (self && !self->session_ && !self->joining_ && !self->ended_) self->closeWithoutHello();
     });
 }
 
@@ -149,7 +157,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() 
 /// Handles the message in `message_`.
 asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
     services_.metrics.messagesReceived.Increment();
-    co_await pause(client_->countMessage(message_.size(), AddressAccount::Clock::now()));
+    co_await pause(client_->countMessage(message_.size(), services_.clock.now()));
     if (closing_) {
         // Ignore all messages that arrive before the client's close frame.
     } else if (!incoming.isText) {
@@ -179,7 +187,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
             admitOrRefuseLongMessage(incoming);
         }
         if (incoming.refusal) {
-            client_->countMessage(buffer_.size(), AddressAccount::Clock::now());
+            client_->countMessage(buffer_.size(), services_.clock.now());
             buffer_.consume(buffer_.size());
         }
     } while (!stream_.is_message_done());
@@ -205,8 +213,9 @@ void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
 
 asio::awaitable<void> WebSocketConnection::pause(std::chrono::duration<double> wait) {
     if (wait.count() <= 0) co_return;
-    asio::steady_timer timer(stream_.get_executor(), toSteadyDuration(wait));
-    co_await timer.async_wait(kAsTuple);
+    const auto timer = services_.clock.makeTimer(stream_.get_executor());
+    auto start = timerStarter(*timer, services_.clock.now() + toSteadyDuration(wait));
+    co_await awaitCallback<std::monostate>(std::move(start));
 }
 
 /// Waits until `isTrue` returns true or the connection has ended. Tests again whenever `changed` is canceled.
@@ -220,7 +229,7 @@ asio::awaitable<void> WebSocketConnection::waitUntil(asio::steady_timer& changed
 asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text) {
     RequestId id;
     try {
-        if (const auto verdict = rate_.take(RateLimit::Clock::now()); verdict != RateLimit::Verdict::allowed) {
+        if (const auto verdict = rate_.take(services_.clock.now()); verdict != RateLimit::Verdict::allowed) {
             sendError({ErrorCode::too_many, "at most " + std::to_string(services_.options.maxRequestsPerSecond) +
                                                 " messages per second are allowed; this one was ignored"},
                       wire::peekRequest(text.substr(0, services_.options.maxRequestBytes)).id);
@@ -293,12 +302,12 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
         if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
         if (joined.error().code == ErrorCode::bad_token) close(close_code::kBadToken, "wrong token");
         if (joined.error().code == ErrorCode::internal) close(close_code::kTryLater, "try again later");
-        if (!session_ && helloDeadline_.expiry() <= std::chrono::steady_clock::now()) closeWithoutHello();
+        if (!session_ && helloDue_ <= services_.clock.now()) closeWithoutHello();
         co_return;
     }
     if (!session_) {
         session_ = *joined;
-        helloDeadline_.cancel();
+        helloDeadline_->cancel();
         stream_.read_message_max(services_.options.maxLoadMessageBytes);
         if (joined_) joined_();
     }
@@ -319,11 +328,11 @@ asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinOrCreateSes
         co_return Error{ErrorCode::bad_token, "a token requires a session in the path: /ws/{session}"};
     }
     // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
-    if (hello.token && !client_->mayTryToken(AddressAccount::Clock::now()))
+    if (hello.token && !client_->mayTryToken(services_.clock.now()))
         co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
     auto open = sessionOpener(token);
     auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(open));
-    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(AddressAccount::Clock::now());
+    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(services_.clock.now());
     co_return joined;
 }
 
@@ -407,7 +416,7 @@ void WebSocketConnection::writeNext() {
     writing_ = !outbox_.empty();
     if (writing_) {
         stream_.binary(outbox_.front().message.binary);
-        transferDeadline_.emplace(services_.options);
+        transferDeadline_.emplace(services_.options, services_.clock);
         writeFragmentsFrom(0);
     } else if (closing_ && !ended_) {
         stream_.async_close(*closing_, [self = shared_from_this()](boost::system::error_code) {});
@@ -436,7 +445,7 @@ void WebSocketConnection::writeFragmentsFrom(std::size_t from) {
 
 void WebSocketConnection::onMessageWritten(boost::system::error_code fault) {
     ++writes_;
-    deadline_.cancel();
+    deadline_->cancel();
     if (ended_ || fault) {
         outbox_.clear();
         unsent_ = 0;
@@ -456,9 +465,9 @@ void WebSocketConnection::onMessageWritten(boost::system::error_code fault) {
 
 /// Starts the deadline of the current write. If the write is not complete by then, the client is dropped.
 void WebSocketConnection::startWriteDeadline() {
-    deadline_.expires_after(transferDeadline_->nextFragmentTimeout());
-    deadline_.async_wait([self = shared_from_this(), watched = writes_](boost::system::error_code canceled) {
-        if (canceled || self->writes_ != watched || !self->writing_ || self->ended_) return;
+    const auto due = services_.clock.now() + transferDeadline_->nextFragmentTimeout();
+    deadline_->start(due, [self = shared_from_this(), watched = writes_] {
+        if (self->writes_ != watched || !self->writing_ || self->ended_) return;
         self->services_.metrics.droppedSlowClients.Increment();
         spdlog::warn("client dropped: it reads too slowly");
         beast::get_lowest_layer(self->stream_).close();

@@ -14,6 +14,7 @@
 #include <string>
 #include <variant>
 
+#include "net/clock.hpp"
 #include "net/live/peer.hpp"
 #include "net/live/session_manager.hpp"
 #include "net/services.hpp"
@@ -119,10 +120,12 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     std::uint64_t writes_ =
         0;  // number of completed writes; tells the handler of deadline_ whether the write that it limits is complete
     std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
-    std::optional<TransferDeadline> transferDeadline_;  // gives the timeouts of the message that is being written
-    // The deadlines of the current write and of the hello, and two timers that are canceled to wake waiting coroutines:
-    // `drainedSignal_` when messages were written, `executedSignal_` when a message was handled.
-    boost::asio::steady_timer deadline_, drainedSignal_, executedSignal_, helloDeadline_;
+    std::optional<TransferDeadline> transferDeadline_;       // gives the timeouts of the message that is being written
+    const std::unique_ptr<Timer> deadline_, helloDeadline_;  // the deadlines of the current write and of the hello
+    Timer::Clock::time_point helloDue_;                      // when helloDeadline_ expires
+    // Timers that are canceled to wake waiting coroutines: `drainedSignal_` when messages were written,
+    // `executedSignal_` when a message was handled.
+    boost::asio::steady_timer drainedSignal_, executedSignal_;
 };
 
 }  // namespace oval4d::net

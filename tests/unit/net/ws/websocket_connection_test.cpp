@@ -1,0 +1,166 @@
+// The deadlines of connections, in times that the tests choose. The sockets are real.
+
+#include "net/ws/websocket_connection.hpp"
+
+#include <array>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/write.hpp>
+#include <boost/beast/core/tcp_stream.hpp>
+#include <boost/beast/http/field.hpp>
+#include <boost/beast/http/verb.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "store/memory_store.hpp"
+#include "unit/net/virtual_server.hpp"
+
+namespace oval4d::net {
+namespace {
+
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+using asio::ip::tcp;
+using namespace std::chrono_literals;
+
+constexpr std::uint8_t kText = 1, kPing = 9;  // opcodes
+
+/// Returns a WebSocket frame as a client sends it, of less than 126 bytes. Its mask is 0, which changes no byte.
+std::string clientFrame(std::uint8_t opcode, const std::string& content) {
+    std::string frame;
+    frame += static_cast<char>(0x80U | opcode);
+    frame += static_cast<char>(0x80U | content.size());
+    return frame + std::string(4, '\0') + content;
+}
+
+Options optionsWithRarePings() {
+    Options options;
+    options.pingInterval = 24h;  // Beast measures it with the system's clock
+    options.helloTimeout = 10s;
+    options.writeTimeout = 10s;
+    return options;
+}
+
+class WebSocketConnectionTest : public testing::Test {
+  protected:
+    void TearDown() override {
+        connection->drop();
+        EXPECT_TRUE(server.eventually([&] { return ended; }));
+        server.settle();
+        manager->stop(support::hangLimit());
+    }
+
+    /// Opens a connection. The client reads all that the server sends, if `reads` is true.
+    void open(bool reads) {
+        tcp::acceptor acceptor(server.io, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0));
+        client.open(tcp::v4());
+        if (!reads) client.set_option(asio::socket_base::receive_buffer_size(4096));
+        client.connect(acceptor.local_endpoint());
+        tcp::socket accepted(asio::make_strand(server.io));
+        acceptor.accept(accepted);
+        const auto executor = accepted.get_executor();
+        connection = std::make_shared<WebSocketConnection>(beast::tcp_stream(std::move(accepted)), server.services,
+                                                           manager, server.account, "", [] {});
+        UpgradeRequest upgrade{beast::http::verb::get, "/ws", 11};
+        upgrade.set(beast::http::field::host, "localhost");
+        upgrade.set(beast::http::field::connection, "Upgrade");
+        upgrade.set(beast::http::field::upgrade, "websocket");
+        upgrade.set(beast::http::field::sec_websocket_version, "13");
+        upgrade.set(beast::http::field::sec_websocket_key, "dGhlIHNhbXBsZSBub25jZQ==");
+        asio::co_spawn(executor, connection->run(std::move(upgrade)),
+                       [this](const std::exception_ptr& /*failure*/) { ended = true; });
+        if (reads) read();
+        ASSERT_TRUE(server.eventually([&] { return server.metrics.webSockets.Value() == 1; }));
+    }
+    void send(const std::string& bytes) { asio::write(client, asio::buffer(bytes)); }
+    bool hasReceived(const std::string& text) const { return received.find(text) != std::string::npos; }
+    void waitFor(const std::string& text) {
+        EXPECT_TRUE(server.eventually([&] { return hasReceived(text); })) << text;
+    }
+
+    VirtualServer server{optionsWithRarePings()};
+    const std::shared_ptr<SessionManager> manager = std::make_shared<SessionManager>(
+        server.services,
+        std::make_unique<store::MemoryStore>(store::kDefaultQuota, [this] { return server.clock.now(); }));
+    tcp::socket client{server.io};
+    std::shared_ptr<WebSocketConnection> connection;
+    bool ended = false;  // whether the server has ended the connection
+    std::string received;
+
+  private:
+    void read() {
+        client.async_read_some(asio::buffer(chunk_), [this](boost::system::error_code fault, std::size_t size) {
+            received.append(chunk_.data(), size);
+            if (!fault) read();
+        });
+    }
+
+    std::array<char, 65536> chunk_{};
+};
+
+TEST_F(WebSocketConnectionTest, AConnectionWithoutHelloIsClosedInTimeWhateverElseItSends) {
+    open(true);
+    send(clientFrame(kPing, "x"));
+    send(clientFrame(kText, R"({"type":"undo","id":1})"));
+    waitFor("hello_first");
+    server.advance(5s);
+    send(clientFrame(kText, R"({"type":"hello"})").substr(0, 12));
+    server.advance(5s - 1ns);
+    EXPECT_FALSE(hasReceived("no hello"));
+    server.advance(1ns);
+    waitFor("no hello arrived in time");
+    waitFor(std::string("\x03\xf0", 2) + "no hello");  // the close frame, with the code 1008
+}
+
+TEST_F(WebSocketConnectionTest, AConnectionWithHelloStays) {
+    open(true);
+    server.advance(10s - 1ns);
+    send(clientFrame(kText, R"({"type":"hello"})"));
+    waitFor("\"welcome\"");
+    server.advance(100h);
+    send(clientFrame(kText, R"({"type":"ping","id":2})"));
+    waitFor("\"pong\"");
+    EXPECT_FALSE(hasReceived("no hello"));
+    EXPECT_FALSE(ended);
+}
+
+TEST_F(WebSocketConnectionTest, AClientThatReadsNothingIsDropped) {
+    constexpr std::size_t kMoreThanTheKernelHolds = std::size_t{64} << 20U;
+    open(false);
+    send(clientFrame(kText, R"({"type":"hello"})"));
+    ASSERT_TRUE(server.eventually([&] { return manager->openCount() == 1; }));
+    connection->send(textMessage(std::string(kMoreThanTheKernelHolds, ' ')));
+    EXPECT_TRUE(server.eventually([&] {
+        server.advance(10s);
+        return server.metrics.droppedSlowClients.Value() == 1;
+    }));
+    EXPECT_TRUE(server.eventually([&] { return ended; }));
+    EXPECT_EQ(server.metrics.webSockets.Value(), 0);
+}
+
+TEST_F(WebSocketConnectionTest, MessagesAboveTheRateAreDelayed) {
+    open(true);
+    send(clientFrame(kText, R"({"type":"hello"})"));
+    waitFor("\"welcome\"");
+    // Takes all that the client's address may send in an hour.
+    const std::size_t most = server.options.client.messageBytesPerSecond;
+    static_cast<void>(server.account->countMessage(3601 * most, server.clock.now()));
+    const double before = server.metrics.messagesReceived.Value();
+    send(clientFrame(kText, R"({"type":"ping","id":2})"));
+    ASSERT_TRUE(server.eventually([&] { return server.metrics.messagesReceived.Value() == before + 1; }));
+    server.advance(1h - 1s);
+    EXPECT_FALSE(hasReceived("\"pong\""));
+    server.advance(2s);
+    waitFor("\"pong\"");
+}
+
+}  // namespace
+}  // namespace oval4d::net
