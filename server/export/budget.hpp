@@ -25,6 +25,8 @@ struct ExportLimits {
     std::size_t sliceEdges = std::numeric_limits<std::size_t>::max();
     /// The maximum number of slices that ExportRequest::chosenW or ExportRequest::fittedSlices may choose.
     int slices = 201;
+    /// Returns the time by which `time` is measured. Tests pass a function that returns a virtual time. Thread-safe.
+    std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
 /// Why an export produces no file: the cause, and a text for the user. Functions throw it within ExportRefused;
@@ -50,10 +52,10 @@ struct ExportRefused {
 class Budget {
   public:
     Budget(const ExportLimits& limits, std::stop_token stop)
-        : limits_(limits), stop_(std::move(stop)), start_(std::chrono::steady_clock::now()) {}
+        : limits_(limits), stop_(std::move(stop)), start_(limits_.now()) {}
 
     /// Returns whether the time limit is exceeded or a stop is requested.
-    bool mustStop() const { return stop_.stop_requested() || std::chrono::steady_clock::now() - start_ > limits_.time; }
+    bool mustStop() const { return stop_.stop_requested() || limits_.now() - start_ > limits_.time; }
     /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call this
     /// function often, because nothing else interrupts them.
     void checkTimeAndStop() const {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <string_view>
+#include <utility>
 
 #include "store/secret.hpp"
 
@@ -130,8 +131,8 @@ Number numberIn(std::string_view text, const std::string& what, Number least, Nu
 void RedisStore::RedisDeleter::operator()(redisContext* context) const { redisFree(context); }
 void RedisStore::RedisDeleter::operator()(redisReply* reply) const { freeReplyObject(reply); }
 
-RedisStore::RedisStore(const StoreOptions& options)
-    : expiry_(options.expiry), timeout_(options.timeout), self_(randomName(10)) {
+RedisStore::RedisStore(const StoreOptions& options, ClockFunction<Clock> now)
+    : expiry_(options.expiry), timeout_(options.timeout), self_(randomName(10)), now_(std::move(now)) {
     std::string_view rest = options.url;
     rest.remove_prefix(std::string_view("redis://").size());
     if (const auto at = rest.rfind('@'); at != std::string_view::npos) {
@@ -187,10 +188,10 @@ void RedisStore::updatePlainTokenDeadline() {
     const std::int64_t now = std::stoll(textOf(*time->element[0])) * 1000;
     const Reply noted = ask({"EVAL", kNoteSince, "1", kHashedSince, std::to_string(now)});
     const std::int64_t since = std::stoll(textOf(*noted));
-    plainUntil_ = std::chrono::steady_clock::now() + Milliseconds(since - now) + expiry_;
+    plainUntil_ = now_() + Milliseconds(since - now) + expiry_;
 }
 
-bool RedisStore::alsoStoresPlainTokens() const { return std::chrono::steady_clock::now() < plainUntil_; }
+bool RedisStore::alsoStoresPlainTokens() const { return now_() < plainUntil_; }
 
 /// Closes the connection, because its replies can no longer be matched with requests, and throws StoreError. The next
 /// operation opens a new connection.

@@ -1,6 +1,7 @@
 #pragma once
 // A store in Redis: servers that use the same Redis share their sessions.
 
+#include <chrono>
 #include <memory>
 
 #include "store/store.hpp"
@@ -17,9 +18,11 @@ namespace oval4d::store {
 /// shows that. Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:
+    using Clock = std::chrono::steady_clock;
+
     /// Does not connect; the first operation connects. Throws std::invalid_argument unless `options.url` is
     /// redis://[user:password@]host[:port][/database]. The password is not percent-decoded.
-    explicit RedisStore(const StoreOptions& options);
+    explicit RedisStore(const StoreOptions& options, ClockFunction<Clock> now = Clock::now);
     ~RedisStore() override;
 
     WritePolicy writePolicy() const override { return WritePolicy::at_once; }
@@ -57,11 +60,12 @@ class RedisStore final : public Store {
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
     const std::string self_;  // random name of this server in Redis
+    const ClockFunction<Clock> now_;
     std::unique_ptr<redisContext, RedisDeleter> context_;
     // SHA-1 digests of the loaded scripts.
     std::string claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
     // Until this time, tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same Redis.
-    std::chrono::steady_clock::time_point plainUntil_;
+    Clock::time_point plainUntil_;
     std::size_t size_ = 0;
 };
 

@@ -73,12 +73,13 @@ class Redis {
     }
 
     /// Returns a store that is connected to this Redis, or null if that is not possible.
-    std::unique_ptr<Store> connect(Milliseconds expiry = std::chrono::hours(1)) const {
+    std::unique_ptr<Store> connect(Milliseconds expiry = std::chrono::hours(1),
+                                   ClockFunction<RedisStore::Clock> now = RedisStore::Clock::now) const {
         StoreOptions options;
         options.url = "redis://127.0.0.1:" + std::to_string(port_.number);
         options.expiry = expiry;
         options.timeout = support::hangLimit();
-        auto store = std::make_unique<RedisStore>(options);
+        auto store = std::make_unique<RedisStore>(options, std::move(now));
         const auto answers = [&] {
             try {
                 store->pollTakenOverSessions();
@@ -97,6 +98,22 @@ class Redis {
         const std::unique_ptr<redisReply, decltype(&freeReplyObject)> reply(
             static_cast<redisReply*>(redisCommand(context.get(), "PTTL %s", key.c_str())), freeReplyObject);
         return Milliseconds(reply ? reply->integer : -1);
+    }
+
+    /// Returns whether the hash `key` has the field `field`.
+    bool hasField(const std::string& key, const std::string& field) const {
+        const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
+                                                                          redisFree);
+        const std::unique_ptr<redisReply, decltype(&freeReplyObject)> reply(
+            static_cast<redisReply*>(redisCommand(context.get(), "HEXISTS %s %s", key.c_str(), field.c_str())),
+            freeReplyObject);
+        return reply && reply->integer == 1;
+    }
+    /// Loads a script, as a server that uses it does.
+    void loadScript(const std::string& script) const {
+        const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
+                                                                          redisFree);
+        freeReplyObject(redisCommand(context.get(), "SCRIPT LOAD %s", script.c_str()));
     }
 
     /// Makes Redis execute a command.

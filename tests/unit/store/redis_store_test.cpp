@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "store/redis_store.hpp"
+#include "store/secret.hpp"
+#include "unit/parallel/virtual_clock.hpp"
 #include "unit/store/redis_server.hpp"
 
 namespace oval4d::store {
@@ -65,6 +67,48 @@ TEST(RedisStore, PollTellsTheFenceOfSessionsThatTheServerHasClaimedBack) {
     const std::vector<std::string> ids{"id"};
     two->remove(ids);
     EXPECT_EQ(one->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 0}}));
+}
+
+// The script with which servers of version 0.1.0 save sessions.
+constexpr const char* kSaveScriptOfFirstVersion = R"(
+local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
+local mine = tonumber(ARGV[3])
+if fence then
+  fence = tonumber(fence)
+  if fence > mine or (fence == mine and owner and owner ~= '' and owner ~= ARGV[1]) then return 1 end
+elseif ARGV[6] == '' then return 2 end
+local keeper = ARGV[1]
+if ARGV[7] == '1' then keeper = '' end
+redis.call('HSET', KEYS[1], 'fence', mine, 'owner', keeper, 'head', ARGV[5])
+if ARGV[6] ~= '' then
+  redis.call('HSET', KEYS[1], 'token', ARGV[4], 'whole', ARGV[6])
+  redis.call('PEXPIRE', KEYS[1], ARGV[2])
+  redis.call('PEXPIRE', KEYS[2], ARGV[2])
+end
+local last = 8 + 2 * tonumber(ARGV[8])
+for i = 9, last, 2 do redis.call('HSET', KEYS[2], ARGV[i], ARGV[i + 1]) end
+if last > 8 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
+for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
+return 0)";
+
+TEST(RedisStore, StoresPlainTokensUntilTheSessionsOfOlderServersHaveExpired) {
+    const Redis redis;
+    ASSERT_TRUE(redis.connect()) << "Redis answers";
+    redis.loadScript(kSaveScriptOfFirstVersion);
+    support::VirtualClock clock;
+    const auto store = redis.connect(1h, clock.now<RedisStore::Clock>());
+    ASSERT_TRUE(store);
+    const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
+    const std::vector<std::string> ids{"id"};
+    EXPECT_EQ(store->save({&update, 1}).at(0), SaveResult::saved);
+    EXPECT_TRUE(redis.hasField("oval4d:{id}", "token"));
+    clock.advance(59min);
+    store->restartExpiry(ids);
+    EXPECT_TRUE(redis.hasField("oval4d:{id}", "token"));
+    clock.advance(2min);
+    store->restartExpiry(ids);
+    EXPECT_FALSE(redis.hasField("oval4d:{id}", "token"));
+    EXPECT_EQ(store->tokenHash("id"), hashToken("secret"));
 }
 
 TEST(RedisStore, RemovesOnlyItsOwnSessions) {
