@@ -344,15 +344,6 @@ class WebSocket(Socket):
         except ConnectionEnded:
             return True  # the server reset the connection during the transmission
 
-    def wait_for_end_time(self):
-        """Waits until the server ends the connection; returns the time."""
-        try:
-            while self.next_message()[0] != CLOSE:
-                pass
-        except ConnectionEnded:
-            pass
-        return time.monotonic()
-
 
 class SharedSession:
     """A session that all connections of a test join."""

@@ -1,7 +1,5 @@
 """Drafts: while a field turns or changes quickly, its pictures are coarser; once it rests, a complete one follows."""
 
-import asyncio
-
 import png
 import pytest
 from surfaces import field_client
@@ -56,15 +54,6 @@ async def test_the_last_frame_is_complete_and_equal_to_a_requested_one(server):
         assert "draft" not in png.state_in(complete)
         assert png.pixels(complete) == png.pixels(await client.request_frame(**SIZE))
         assert any("draft" in m for m in client.states())
-
-
-async def test_a_single_change_has_no_draft(server):
-    async with field_client(server, TIGER, stream="geometry", **SIZE) as client:
-        await client.wait_for_slices(1)
-        await asyncio.sleep(0.5)  # changes less than 0.3 s apart are quick, as the server measures it
-        done = await client.request("key", key="h")
-        await client.wait_for_slices(done["revision"])
-        assert not [m for m in client.states() if m["revision"] == done["revision"] and "draft" in m]
 
 
 async def test_a_field_that_turns_continuously_has_drafts_until_it_stops(server):

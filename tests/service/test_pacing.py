@@ -35,15 +35,6 @@ async def test_at_most_two_pictures_are_in_flight():
             assert len(client.pictures()) == len(client.states()) == 4
 
 
-async def test_clients_that_never_acknowledge_get_the_newest_picture():
-    with Server("--shown-timeout", 0.2) as server:
-        async with Client(server, stream="frames", width=64, height=64, acknowledges=False) as client:
-            for _ in range(10):
-                last = await client.request("key", key="r")
-            frame = await client.wait_for_frame(last["revision"])
-            assert png.state_in(frame)["revision"] == last["revision"]
-
-
 @pytest.mark.parametrize("stream", ["geometry", "frames", "none"])
 async def test_every_key_of_a_flood_is_applied(server, stream):
     count = 1000

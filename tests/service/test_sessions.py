@@ -1,9 +1,6 @@
 """Sessions: sharing, leaving and returning."""
 
-import asyncio
-
 import pytest
-from harness import Server
 from wire import Client, credentials_of, hello_refusal
 
 
@@ -75,14 +72,3 @@ async def test_leaving_during_a_frame_does_not_affect_other_clients(server):
                 leaver.socket.transport.abort()
         await owner.request("key", key="y")
         assert len(await owner.request_frame(width=64, height=64)) > 100
-
-
-async def test_sessions_without_clients_expire():
-    with Server("--session-expiry", 0.2) as server:
-        async with Client(server) as staying:
-            async with Client(server) as leaving:
-                credentials = credentials_of(leaving)
-            await asyncio.get_running_loop().run_in_executor(
-                None, lambda: server.wait_for(lambda: server.metric("oval4d_sessions") == 1))
-            assert await hello_refusal(server, **credentials) == ("not_found", 4404)
-            await staying.request("key", key="y")
