@@ -1,7 +1,9 @@
 """Sessions that earlier versions have stored are opened with every setting that they had, and their undo steps."""
 
+import asyncio
 import json
 import math
+import re
 import shutil
 from pathlib import Path
 
@@ -9,7 +11,22 @@ import pytest
 from harness import Server
 from wire import Client
 
+ROOT = Path(__file__).resolve().parents[2]
 VERSIONS = sorted(path for path in Path(__file__).with_name("stored_sessions").iterdir() if path.is_dir())
+
+
+def version():
+    """Returns the version of these sources."""
+    return re.search(r"project\(oval4d VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"))[1]
+
+
+async def state_at_rest(client):
+    """Returns the state after the motion toward an element, if there is one, has ended."""
+    while True:
+        state = await client.request("get", what="state")
+        if state["turning"] or not state.get("moving"):  # which 0.1.0 does not say
+            return state
+        await asyncio.sleep(0.01)
 
 
 def expect_contains(value, stored, where):
@@ -33,10 +50,14 @@ async def test_sessions_of_every_version_are_opened(tmp_path, folder):
     shutil.copy(folder / "sessions.sqlite", tmp_path)
     sessions = json.loads((folder / "sessions.json").read_text(encoding="utf-8"))
     assert sessions
-    with Server("--store", f"sqlite:{tmp_path}/sessions.sqlite", "--session-expiry", "1e9") as server:
+    data = ("--data", folder / "data") if (folder / "data").exists() else ()
+    with Server("--store", f"sqlite:{tmp_path}/sessions.sqlite", "--session-expiry", "1e9", *data) as server:
         for stored in sessions:
             async with Client(server, stored["session"], token=stored["token"]) as client:
                 for state in stored["states"]:  # the newest first
                     expect_contains(await client.request("get", what="state"), state, stored["name"])
                     if state is not stored["states"][-1]:
                         await client.request("undo")
+                if "next" in stored:
+                    await client.request(stored["next"]["type"], **stored["next"]["members"])
+                    expect_contains(await state_at_rest(client), stored["next"]["state"], stored["name"])
