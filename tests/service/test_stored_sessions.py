@@ -7,6 +7,7 @@ import re
 import shutil
 from pathlib import Path
 
+import all_settings
 import pytest
 from harness import Server
 from wire import Client
@@ -61,3 +62,18 @@ async def test_sessions_of_every_version_are_opened(tmp_path, folder):
                 if "next" in stored:
                     await client.request(stored["next"]["type"], **stored["next"]["members"])
                     expect_contains(await state_at_rest(client), stored["next"]["state"], stored["name"])
+
+
+def test_the_sessions_of_this_version_have_all_that_it_stores():
+    file = Path(__file__).with_name("stored_sessions") / version() / "sessions.json"
+    how = "a new version or setting needs new stored sessions: run tests/service/stored_sessions/make"
+    assert file.exists(), how
+    sessions = json.loads(file.read_text(encoding="utf-8"))
+    states = [state for session in sessions for state in session["states"]]
+    states += [session["next"]["state"] for session in sessions if "next" in session]
+    for name in all_settings.setting_names() | {("turning",), ("last",)}:
+        values = {json.dumps(all_settings.value(state, name)) for state in states if name[0] in state}
+        assert len(values) > 1, f"{'.'.join(name)} has the same value in all sessions: {how}"
+    found = {member for state in states for member in state.get("field", {})}
+    # Only an array that is too large for a test has an estimated range.
+    assert found >= all_settings.properties("settings")["field"]["properties"].keys() - {"estimated"}, how
