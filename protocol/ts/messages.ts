@@ -18,15 +18,15 @@ export type Request =
     | TowardRequest
     | UndoRequest;
 /**
- * What follows each change of the state: slices messages, PNG frames, or nothing. "none" if absent.
+ * What follows each change: `slices` messages, frames, or nothing. `"none"` if absent.
  */
 export type Stream = "geometry" | "frames" | "none";
 /**
- * The encoding of slices messages. "json" if absent.
+ * The encoding of `slices` messages. `"json"` if absent.
  */
 export type Encoding = "json" | "cbor" | "msgpack" | "bjdata";
 /**
- * What this client sees if the background is auto: a dark or a light one. "dark" if absent.
+ * Which pictures this client gets while the `background` of the session is `auto`. `"dark"` if absent.
  */
 export type Scheme = "dark" | "light";
 export type Plane = "xy" | "xz" | "xw" | "yz" | "yw" | "zw";
@@ -71,7 +71,7 @@ export type Turn = {
      */
     planes: Plane[];
     /**
-     * In radians; one angle for each plane.
+     * One angle for each plane, in radians.
      */
     angles: number[];
 } | null;
@@ -104,7 +104,7 @@ export interface Address {
      */
     id?: number;
     /**
-     * Without the question mark, percent-encoded, such as polytope=24-cell&rotate=xw:0.3. The parameters are those of frame.png; width, height and token are ignored.
+     * The query of an address, without the question mark, percent-encoded, such as `polytope=24-cell&rotate=xw:0.3`. The parameters are those of `frame.png`; `width`, `height` and `token` are ignored.
      */
     query: string;
 }
@@ -118,7 +118,7 @@ export interface CommandRequest {
      */
     id?: number;
     /**
-     * With or without the leading ':'.
+     * The command, with or without the leading `:`.
      */
     line: string;
 }
@@ -131,53 +131,56 @@ export interface GetRequest {
      * Chosen by the client; the answer or error has the same id.
      */
     id?: number;
+    /**
+     * What to get.
+     */
     what: "state" | "slices" | "frame" | "at" | "file" | "critical" | "catalogue" | "keymap" | "address";
     /**
-     * In pixels, for slices, frames and at; must be given together with height. If absent, the size in hello applies.
+     * The width of `slices`, of a `frame`, or of the picture for `at`; together with `height`. By default the size in `hello`.
      */
     width?: number;
     /**
-     * In pixels, for slices, frames and at; must be given together with width. If absent, the size in hello applies.
+     * The height of `slices`, of a `frame`, or of the picture for `at`; together with `width`. By default the size in `hello`.
      */
     height?: number;
     /**
-     * For slices and frames: the background of this answer. If absent, that of the session applies.
+     * The background of `slices` or a `frame`; by default that of the session.
      */
     background?: Background;
     /**
-     * For at: the distance from the left edge of the picture in pixels.
+     * A coordinate of the point, for `at`.
      */
     x?: number;
     /**
-     * For at: the distance from the top edge of the picture in pixels.
+     * A coordinate of the point, for `at`.
      */
     y?: number;
     /**
-     * Required for a file: a name that export_formats.json lists.
+     * Required for a `file`; see Files.
      */
     format?: string;
     /**
-     * For a file: the focus slice, all slices, the highlighted element alone, the critical w, the whole object in four dimensions, the parallel coordinates or the histogram of a field, the projection of the whole object, or the matrix of planar sections. export_formats.json lists those that each format can contain; the first is the default.
+     * What a `file` contains: the focus slice, all slices, the highlighted element alone, the critical w, the whole object in four dimensions, the parallel coordinates or the histogram of a field, the projection of the whole object, or the matrix of planar sections. The first one of the format is the default.
      */
     of?: "focus" | "oval" | "highlight" | "critical" | "object" | "coordinates" | "projection" | "matrix";
     /**
-     * For a file with bodies: filled (default), or balls and bars merged into one body. "frame" is the former name of "skeleton".
+     * For a `file` with bodies: filled, or balls and bars merged into one body. `"frame"` is the former name of `"skeleton"`.
      */
     body?: "solid" | "skeleton" | "frame";
     /**
-     * In millimeters. For a file with bodies: the diameter of the polytope's circumscribed sphere; 60 if absent. For a drawing: its width or height, whichever is larger; 170 if absent, at least 10 and at most 5000.
+     * In millimeters: the diameter of the polytope's circumscribed sphere, by default 60; or the width or height of a drawing, whichever is larger, by default 170.
      */
     size?: number;
     /**
-     * For a file of oval: its slices are those at these w, in the coordinates of the object's file, instead of those of the session. Different numbers within 10 circumradii of the point about which the object turns, at most as many as the limit slices in welcome; a text has expressions, as those of command. If it is given, oval is the default of of. Not together with fit.
+     * For a `file` of the oval: the w of its slices, in the coordinates of the object's file, instead of those of the session; at most as many as the limit `slices`. Not together with `fit`.
      */
     at?: number[] | string;
     /**
-     * For a file of oval: the number of its slices, which are spread evenly over the polytope's extent along w, instead of those of the session. The server's limit is in welcome. If it is given, oval is the default of of. Not together with at.
+     * For a `file` of the oval: the number of its slices, spread evenly over the polytope's extent along w, instead of those of the session. Not together with `at`.
      */
     fit?: number;
     /**
-     * For a file with bodies: whether the polytope's name and w are absent (default), engraved into a face, or on a separate plate.
+     * For a `file` with bodies: whether the polytope's name and w are absent (default), engraved into a face, or on a separate plate.
      */
     label?: "none" | "engraved" | "separate";
 }
@@ -194,15 +197,15 @@ export interface HelloRequest {
     encoding?: Encoding;
     scheme?: Scheme;
     /**
-     * In pixels; the server's limits are in welcome. If absent, 1280, or as near to it as they allow.
+     * The width of frames; with geometry, of the window that the picture is laid out for. If absent, 1280, or as near to it as the limits in `welcome` allow.
      */
     width?: number;
     /**
-     * In pixels; the server's limits are in welcome. If absent, 720, or as near to it as they allow.
+     * The height of frames; with geometry, of the window that the picture is laid out for. If absent, 720, or as near to it as the limits in `welcome` allow.
      */
     height?: number;
     /**
-     * The token in the session's welcome. Required if the path names a session.
+     * The token of the session in the path. Required if the path names a session.
      */
     token?: string;
 }
@@ -216,7 +219,7 @@ export interface KeyRequest {
      */
     id?: number;
     /**
-     * The value of KeyboardEvent.key. For a digit key, the digit on the key, even if Shift types another character. An upper-case letter means the letter with Shift.
+     * The key as typed, as in `KeyboardEvent.key`: `"y"`, `"K"`, `"2"`, `" "`, `"["`. For a digit key, the digit on the key, even if Shift types another character. An upper-case letter means the letter with Shift.
      */
     key: string;
     /**
@@ -238,31 +241,31 @@ export interface LoadRequest {
      */
     id?: number;
     /**
-     * Must not be a name of the catalogue. An object that was loaded under the same name is replaced.
+     * The object's name, which must not be in the catalogue. Replaces an object loaded under the same name.
      */
     name: string;
     /**
-     * "off": 4OFF, of a polytope or, without cells, of a surface. "points": one point x y z w per line; the polytope is their convex hull. "cloud": the optional word CLOUD, then one point x y z w [radius] per line; each is shown as a ball. "formula": a function of x, y, z, w, also called t, and r = sqrt(x^2+y^2+z^2), such as x^2+y^2-z^2 < w; named constants follow it, as in x*y-a; a=0.5.
+     * The format of `data`: `"off"` is 4OFF, `"points"` and `"cloud"` are tables of points, and `"formula"` is a formula, which makes a field as the others do. Required with `data`.
      */
     format?: string;
     /**
-     * The file's text, in Base64 if it is an array, or the formula. Absent with path.
+     * The text of the file, which is in Base64 if it is an array, or the formula. Absent with `path`.
      */
     data?: string;
     /**
-     * A file or a series of the server's data folder, as the catalogue lists it, instead of data. The format may then be absent.
+     * An array in the server's data folder, as the catalogue lists it, instead of `data`. The format may then be absent.
      */
     path?: string;
     /**
-     * Whether this load belongs to the undo step of the previous command, as when a constant of a formula is dragged. Between two fields, levels and inside then stay the same, and if both have the same circumradius, slices and point. False if it is absent.
+     * Whether the load belongs to the undo step of the previous command, as when a slider changes a constant of a formula. If a field then replaces a field, `levels`, `inside` and `fog` stay the same; if both have the same circumradius, `slices` and `point` stay the same, too. False if absent.
      */
     continues?: boolean;
     /**
-     * The domain of a formula or an array. If it is absent, that of a formula is from -2 to 2 along each axis, and that of an array is what the file states.
+     * For a formula: the box on which it is shown, by default −2 to 2 along each axis. For an array: where its first and last samples lie, by default what the file states.
      */
     box?: Box;
     /**
-     * The axes of the array's dimensions, in the order of its indices in Python: different letters of x, y, z and w; t means w. What the file states if it is absent, else "tzyx", or its end if there are fewer dimensions.
+     * The axes of an array's dimensions, in the order of its indices in Python, such as `"tzyx"`; see Fields. What the file states if it is absent, else `"tzyx"`, or its end if there are fewer dimensions.
      */
     axes?: string;
     /**
@@ -278,11 +281,11 @@ export interface LoadRequest {
      */
     values_variable?: string;
     /**
-     * The point of the file's coordinates about which a polytope, a surface or points turn and around which their slices lie: "object", their center; "origin"; or x, y, z, w. If it is absent, the center of an object that is far from the origin, else the origin.
+     * For polytopes, surfaces and points: the point of the file's coordinates about which the object turns and around which its slices lie: `"object"`, its center; `"origin"`; or x, y, z, w. If it is absent, the center of an object that is far from the origin, else the origin. See Center.
      */
     center?: string | [number, number, number, number];
     /**
-     * Whether the moments in the file are added to the array that is loaded under this name, at the end of w, instead of replacing it. False if it is absent.
+     * Whether the moments in the file are added to the array that is loaded under this name, at the end of w, instead of replacing it; false if absent. See Growing fields.
      */
     append?: boolean;
 }
@@ -362,11 +365,11 @@ export interface RotateRequest {
      */
     planes: Plane[];
     /**
-     * In radians; one angle for each plane.
+     * One angle for each plane, in radians.
      */
     angles: number[];
     /**
-     * Whether the rotation belongs to the undo step of the previous command, as in a gesture; the default is false.
+     * Whether the rotation belongs to the undo step of the previous command, as the parts of one gesture do; false if absent.
      */
     continues?: boolean;
 }
@@ -691,11 +694,11 @@ export interface TowardRequest {
      */
     element: ElementKind;
     /**
-     * The element, counted from 0. If absent, the element of this kind that is closest to +w, or the next one if that is already there.
+     * The element, counted from 0. If absent, the one that is closest to +w or, if it is already there, the next one. If an element is highlighted, only those count that contain it or are contained in it, or itself if it is of this kind.
      */
     number?: number;
     /**
-     * Whether to jump there instead of moving; the default is false.
+     * Whether to jump there instead of moving; false if absent.
      */
     immediately?: boolean;
 }
