@@ -51,6 +51,7 @@ struct ExportRequest {
 
     /// Returns whether `chosenW` or `fittedSlices` is given.
     bool choosesSlices() const { return !chosenW.empty() || fittedSlices.has_value(); }
+    bool operator==(const ExportRequest&) const = default;
 };
 
 /// Returns the default options for a format, which is a row of formats().

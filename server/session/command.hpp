@@ -41,6 +41,7 @@ struct Rotate {
     geometry::Turn turn;
     /// Whether the rotation belongs to the undo step of the previous command, as within a gesture.
     bool continues = false;
+    bool operator==(const Rotate&) const = default;
 };
 /// Turns an element of the object toward +w, by the shortest rotation.
 struct TurnToward {
@@ -85,6 +86,7 @@ struct LoadObject {
 
     /// Returns whether the object is an array in files or in a folder, not in `data`; the format may then be empty.
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
+    bool operator==(const LoadObject&) const = default;
 };
 /// Values of the plain settings (see forEachSetting() in setting_table.hpp), by their names on the command line.
 class PlainSettings {

@@ -43,6 +43,7 @@ struct Hello {
     std::optional<scene::Viewport> viewport;     ///< the size of the pictures; if absent, the server chooses it
     scene::Scheme scheme = scene::Scheme::dark;  ///< for pictures with scene::Background::automatic
     std::optional<std::string> token;            ///< the token of the session that the connection joins
+    bool operator==(const Hello&) const = default;
 };
 /// The data that a `get` message requests.
 enum class GetTarget : std::uint8_t { state, slices, frame, at, file, critical, catalogue, keymap, address };
@@ -65,6 +66,7 @@ struct Get {
     std::optional<scene::Background> background;  ///< for GetTarget::slices and frame; if absent, that of the session
     glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
     exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
+    bool operator==(const Get&) const = default;
 };
 /// Asks for the center and the size of an element.
 struct Measure {
