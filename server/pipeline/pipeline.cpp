@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "pipeline/picture_of_state.hpp"
 #include "scene/pick.hpp"
 #include "slicing/slice_edges.hpp"
 #include "wire/messages.hpp"
@@ -63,7 +64,8 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     times_ = {};
     slicing::checkSliceEdges(state.object, state.orientation, state.hyperplanes(), limits_.sliceEdges);
-    const image::ImageView image{viewport.width, viewport.height, rasterizer_->draw(state, viewport, quality, times_),
+    const auto pixels = rasterizer_->draw(pictureOfState(state, viewport, quality), times_);
+    const image::ImageView image{viewport.width, viewport.height, pixels,
                                  state.look.background == scene::Background::transparent};
     if (drawn) drawn();
     times_.encode = measureSeconds([&] { workspace_.encoder.encode(image, stateText, out); });

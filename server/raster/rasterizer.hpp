@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "parallel/fork_join.hpp"
+#include "raster/picture_request.hpp"
 #include "render/renderer.hpp"
 #include "scene/composer.hpp"
-#include "session/session.hpp"
 #include "slicing/slicer.hpp"
 
 namespace oval4d::raster {
@@ -21,7 +21,7 @@ struct DrawTimes {
     double slice = 0, compose = 0, draw = 0;
 };
 
-/// Draws pictures of session states, in this process or in another one. Only one thread at a time may use a rasterizer.
+/// Draws pictures, in this process or in another one. Only one thread at a time may use a rasterizer.
 class Rasterizer {
   public:
     virtual ~Rasterizer() = default;
@@ -30,10 +30,9 @@ class Rasterizer {
     /// ready to draw. Throws std::runtime_error if pictures cannot be drawn.
     virtual void warmUp() = 0;
 
-    /// Draws the picture of `state` and sets `times`. Returns the pixels, with the layout of image::Image, which are
-    /// valid until the next call of draw() or freeMemory(). Throws std::runtime_error if drawing fails.
-    virtual std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport,
-                                               slicing::Quality quality, DrawTimes& times) = 0;
+    /// Draws a picture and sets `times`. Returns the pixels, with the layout of image::Image, which are valid until the
+    /// next call of draw() or freeMemory(). Throws std::runtime_error if drawing fails.
+    virtual std::span<const std::uint8_t> draw(const PictureRequest& picture, DrawTimes& times) = 0;
 
     /// Frees the memory that this object keeps between pictures, to draw the next one faster.
     virtual void freeMemory() = 0;
@@ -51,16 +50,14 @@ class LocalRasterizer : public Rasterizer {
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
-    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
-                                       DrawTimes& times) override;
+    std::span<const std::uint8_t> draw(const PictureRequest& picture, DrawTimes& times) override;
     /// Frees the memory that this object keeps between pictures, except what Renderer::freeMemory() keeps, such as the
     /// GL context.
     void freeMemory() override;
 
     /// Draws into `pixels`. Throws std::invalid_argument if `pixels` does not have the size of the viewport (see
     /// image::byteCount()).
-    void draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
-              std::span<std::uint8_t> pixels, DrawTimes& times);
+    void draw(const PictureRequest& picture, std::span<std::uint8_t> pixels, DrawTimes& times);
 
   private:
     // What this object keeps between pictures, so that the next one needs no new memory.

@@ -35,8 +35,8 @@ RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& optio
     : limits_(options.limits), process_(childOptions(threads, options)) {}
 
 /// Receives messages until one of the type `drawn` or `failed` comes, and keeps its type in answer_ and its body in
-/// body_. Sends the object if the process asks for it.
-TransferResult RasterizerProcess::receiveAnswerSendingObject(const session::State& state, const Channel& channel,
+/// body_. Sends the object `source` if the process asks for it.
+TransferResult RasterizerProcess::receiveAnswerSendingObject(const slicing::Object& source, const Channel& channel,
                                                              const WaitLimit& limit) {
     for (bool sent = false;; sent = true) {
         TransferResult transfer = channel.receive(answer_, body_, nullptr, limit, kMaxAnswer);
@@ -46,7 +46,7 @@ TransferResult RasterizerProcess::receiveAnswerSendingObject(const session::Stat
             throw std::runtime_error("a rasterizer process sent an unexpected message");
         std::string object;  // local, so that its memory is freed: the object is large and rarely sent
         slicing::MappedFiles files;
-        slicing::encodeObject(state.source, object, files);
+        slicing::encodeObject(source, object, files);
         for (const auto& file : files) {
             transfer = channel.send(MessageType::file_descriptor, {}, file->descriptor(), limit);
             if (transfer != TransferResult::complete) return transfer;
@@ -60,15 +60,14 @@ void RasterizerProcess::warmUp(const std::stop_token& stop) {
     process_.converseWithRetry([](const Channel&, const WaitLimit&) { return TransferResult::complete; }, stop);
 }
 
-std::span<const std::uint8_t> RasterizerProcess::draw(const session::State& state, scene::Viewport viewport,
-                                                      slicing::Quality quality, SharedPixels& pixels, DrawTimes& times,
-                                                      const std::stop_token& stop) {
-    encodeRequest(state, viewport, quality, limits_, request_);
-    const auto drawn = pixels.resize(image::byteCount(viewport));
+std::span<const std::uint8_t> RasterizerProcess::draw(const PictureRequest& picture, SharedPixels& pixels,
+                                                      DrawTimes& times, const std::stop_token& stop) {
+    encodeRequest(picture, limits_, request_);
+    const auto drawn = pixels.resize(image::byteCount(picture.viewport));
     process_.converseWithRetry(
         [&](const Channel& channel, const WaitLimit& limit) {
             const TransferResult sent = channel.send(MessageType::draw, request_, pixels.file(), limit);
-            return sent == TransferResult::complete ? receiveAnswerSendingObject(state, channel, limit) : sent;
+            return sent == TransferResult::complete ? receiveAnswerSendingObject(picture.source, channel, limit) : sent;
         },
         stop);
     if (answer_ == MessageType::failed) throw std::runtime_error(body_);

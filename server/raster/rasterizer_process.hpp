@@ -51,12 +51,12 @@ class RasterizerProcess {
 
     /// Like Rasterizer::draw(), but draws into `pixels`, which this function resizes if necessary. The result is valid
     /// until `pixels` is resized again.
-    std::span<const std::uint8_t> draw(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
-                                       SharedPixels& pixels, DrawTimes& times, const std::stop_token& stop);
+    std::span<const std::uint8_t> draw(const PictureRequest& picture, SharedPixels& pixels, DrawTimes& times,
+                                       const std::stop_token& stop);
 
   private:
     // Receives the answer to a draw request. Before that, sends the object if the process asks for it.
-    process::TransferResult receiveAnswerSendingObject(const session::State& state, const process::Channel& channel,
+    process::TransferResult receiveAnswerSendingObject(const slicing::Object& source, const process::Channel& channel,
                                                        const process::WaitLimit& limit);
 
     const RasterizerLimits limits_;

@@ -36,7 +36,7 @@ class RecentObjects {
         if (found == kept_.end()) return nullptr;
         kept_.splice(kept_.begin(), kept_, found);
         if (slicing::infoOf(found->inFrame).serial != request.object) {
-            found->inFrame = slicing::transformedTo(found->source, request.state.referenceFrame, request.object);
+            found->inFrame = slicing::transformedTo(found->source, request.picture.referenceFrame, request.object);
             const std::size_t bytes = found->inFrame == found->source ? 0 : slicing::memoryOf(found->inFrame);
             bytes_ += bytes - std::exchange(found->inFrameBytes, bytes);
             shrink(request.limits.objectBytes);
@@ -82,7 +82,7 @@ class RasterizerService {
             if (type == MessageType::file_descriptor) continue;  // the object that refers to this file comes later
             if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
-                request_.state.object = *object;
+                request_.picture.object = *object;
                 attempt([this] { draw(); });
             } else {
                 channel_.send(MessageType::object_missing);
@@ -127,8 +127,8 @@ class RasterizerService {
     void draw() {
         rasterizer_.limitFaceFilling(request_.limits.fillSteps);
         DrawTimes times;
-        rasterizer_.draw(request_.state, request_.viewport, request_.quality,
-                         pixelFiles_.at(currentFile_)->remap(image::byteCount(request_.viewport)), times);
+        const std::size_t size = image::byteCount(request_.picture.viewport);
+        rasterizer_.draw(request_.picture, pixelFiles_.at(currentFile_)->remap(size), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }
 

@@ -37,9 +37,8 @@ void WorkerRasterizer::warmUp() {
     if (lock && shared_.multithreaded_) shared_.multithreaded_->warmUp(stop_);
 }
 
-std::span<const std::uint8_t> WorkerRasterizer::draw(const session::State& state, scene::Viewport viewport,
-                                                     slicing::Quality quality, DrawTimes& times) {
-    const auto drawn = drawInFasterProcess(state, viewport, quality, times);
+std::span<const std::uint8_t> WorkerRasterizer::draw(const PictureRequest& picture, DrawTimes& times) {
+    const auto drawn = drawInFasterProcess(picture, times);
     shared_.lastDrawSeconds_ = times.draw;
     return drawn;
 }
@@ -48,9 +47,7 @@ void WorkerRasterizer::freeMemory() {
     if (pixels_) pixels_->resize(0);
 }
 
-std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const session::State& state,
-                                                                    scene::Viewport viewport, slicing::Quality quality,
-                                                                    DrawTimes& times) {
+std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const PictureRequest& picture, DrawTimes& times) {
     struct DrawingCounter {
         std::atomic<int>& drawing;
         const bool alone = drawing++ == 0;
@@ -62,10 +59,9 @@ std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const sessio
         shared_.lastQueued_ = now;
     } else if (now - shared_.lastQueued_.load() > kCrowded && shared_.lastDrawSeconds_ > kLarge) {
         const std::unique_lock lock(shared_.multithreadedInUse_, std::try_to_lock);
-        if (lock && shared_.multithreaded_)
-            return shared_.multithreaded_->draw(state, viewport, quality, *pixels_, times, stop_);
+        if (lock && shared_.multithreaded_) return shared_.multithreaded_->draw(picture, *pixels_, times, stop_);
     }
-    return own_.draw(state, viewport, quality, *pixels_, times, stop_);
+    return own_.draw(picture, *pixels_, times, stop_);
 }
 
 }  // namespace oval4d::raster

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "image/png.hpp"
+#include "pipeline/picture_of_state.hpp"
 #include "raster/rasterizer.hpp"
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
@@ -84,7 +85,7 @@ class Drawer {
         image.height = viewport.height;
         image.pixels.resize(image::byteCount(viewport));
         raster::DrawTimes times;
-        rasterizer_.draw(state_, viewport, slicing::Quality::full, image.pixels, times);
+        rasterizer_.draw(pipeline::pictureOfState(state_, viewport, slicing::Quality::full), image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }
 

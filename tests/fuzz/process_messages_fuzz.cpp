@@ -4,7 +4,10 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <stdexcept>
+
+#include <glm/matrix.hpp>
 
 #include "process/channel.hpp"
 #include "raster/rasterizer_messages.hpp"
@@ -19,7 +22,7 @@ namespace {
 void readOrder(std::string_view bytes) {
     raster::DrawRequest order;
     raster::decodeRequest(bytes, order);
-    const glm::dmat4 matrix = order.state.orientation.matrix();
+    const glm::dmat4 matrix = order.picture.orientation.matrix();
     require(std::abs(glm::determinant(matrix) - 1) < 1e-6, "a draw request has a rotation");
 }
 

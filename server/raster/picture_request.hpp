@@ -1,0 +1,27 @@
+#pragma once
+
+#include "geometry/hyperplanes.hpp"
+#include "geometry/reference_frame.hpp"
+#include "geometry/rotation.hpp"
+#include "scene/camera.hpp"
+#include "scene/look.hpp"
+#include "slicing/object.hpp"
+#include "slicing/surface_detail.hpp"
+
+namespace oval4d::raster {
+
+/// What a picture shows, and how: all that affects its pixels, and nothing else.
+struct PictureRequest {
+    slicing::Object source;  ///< the object as it was built or loaded
+    geometry::ReferenceFrame referenceFrame;
+    slicing::Object object;  ///< `source` in `referenceFrame` (see slicing::transformedTo())
+    geometry::Rotation orientation;
+    geometry::Hyperplanes planes;
+    int focus = 0;  ///< the index n of the focus slice (see SlicePlacement::index)
+    scene::Look look;
+    scene::Viewport viewport;
+    slicing::Quality quality = slicing::Quality::full;
+    bool operator==(const PictureRequest&) const = default;
+};
+
+}  // namespace oval4d::raster
