@@ -6,8 +6,6 @@
 #include <span>
 #include <vector>
 
-#include "scene/camera.hpp"
-
 namespace oval4d::image {
 
 /// An RGBA image with 8 bits per channel: 4 · width · height bytes. The bottom row comes first, as in OpenGL. Rows have
@@ -17,9 +15,9 @@ struct Image {
     std::vector<std::uint8_t> pixels;
 };
 
-/// Returns the size, in bytes, of the pixels of an image that has the size of `viewport`.
-inline std::size_t byteCount(scene::Viewport viewport) {
-    return 4 * static_cast<std::size_t>(viewport.width) * static_cast<std::size_t>(viewport.height);
+/// Returns the size, in bytes, of the pixels of an image with this width and height.
+constexpr std::size_t byteCount(int width, int height) {
+    return 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
 /// A reference to an image with the layout of Image. Does not own the pixels.

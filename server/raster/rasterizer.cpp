@@ -7,7 +7,7 @@ void LocalRasterizer::warmUp() {
 }
 
 std::span<const std::uint8_t> LocalRasterizer::draw(const PictureRequest& picture, DrawTimes& times) {
-    workspace_.pixels.resize(image::byteCount(picture.viewport));
+    workspace_.pixels.resize(image::byteCount(picture.viewport.width, picture.viewport.height));
     draw(picture, workspace_.pixels, times);
     return workspace_.pixels;
 }

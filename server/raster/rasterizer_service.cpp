@@ -127,7 +127,7 @@ class RasterizerService {
     void draw() {
         rasterizer_.limitFaceFilling(request_.limits.fillSteps);
         DrawTimes times;
-        const std::size_t size = image::byteCount(request_.picture.viewport);
+        const std::size_t size = image::byteCount(request_.picture.viewport.width, request_.picture.viewport.height);
         rasterizer_.draw(request_.picture, pixelFiles_.at(currentFile_)->remap(size), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }

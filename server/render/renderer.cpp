@@ -354,12 +354,12 @@ void Renderer::freeMemory() {
 void Renderer::draw(const scene::Scene& scene, image::Image& out) {
     out.width = scene.viewport.width;
     out.height = scene.viewport.height;
-    out.pixels.resize(image::byteCount(scene.viewport));
+    out.pixels.resize(image::byteCount(scene.viewport.width, scene.viewport.height));
     draw(scene, std::span(out.pixels));
 }
 
 void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
-    if (pixels.size() != image::byteCount(scene.viewport))
+    if (pixels.size() != image::byteCount(scene.viewport.width, scene.viewport.height))
         throw std::invalid_argument("the pixel buffer does not have the size of the viewport");
     ShapeBatch& shapes = impl_->shapes;
     Overlay& overlay = impl_->overlay;

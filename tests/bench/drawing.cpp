@@ -83,7 +83,7 @@ class Drawer {
         const scene::Viewport viewport;
         image.width = viewport.width;
         image.height = viewport.height;
-        image.pixels.resize(image::byteCount(viewport));
+        image.pixels.resize(image::byteCount(viewport.width, viewport.height));
         raster::DrawTimes times;
         rasterizer_.draw(pipeline::pictureOfState(state_, viewport, slicing::Quality::full), image.pixels, times);
     }

@@ -95,7 +95,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
                                                                         Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
         // Reserve the size of the pixels until the size of the file is known: a PNG file is rarely larger.
-        auto held = client->byteAccount().reserve(image::byteCount(viewport));
+        auto held = client->byteAccount().reserve(image::byteCount(viewport.width, viewport.height));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
         pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
