@@ -1,50 +1,24 @@
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "fields/array_field.hpp"
-#include "fields/formula_field.hpp"
 #include "geometry/surface_mesh.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
 #include "store/object_list.hpp"
 #include "unit/session/setting_values.hpp"
+#include "unit/store/object_table.hpp"
 #include "unit/store/support.hpp"
 
 namespace oval4d::store {
 namespace {
 
 using session::Session;
-
-/// Stores objects in encoded form.
-class ObjectTable {
-  public:
-    ObjectKeyLookup keyOf = [this](const slicing::Object& object) {
-        const auto [found, isNew] =
-            keys_.try_emplace(slicing::infoOf(object).serial, "key" + std::to_string(keys_.size()));
-        if (isNew) bytes_[found->second] = encodeObjectRecord(object);
-        return found->second;
-    };
-    ObjectLookup objectOf = [this](const std::string& key) {
-        auto& object = built_[key];
-        if (!object && bytes_.contains(key)) object = decodeObjectRecord(bytes_[key]);
-        return object;
-    };
-    std::size_t size() const { return bytes_.size(); }
-
-  private:
-    std::map<std::uint64_t, std::string> keys_;
-    std::map<std::string, std::string> bytes_;
-    std::map<std::string, std::optional<slicing::Object>> built_;
-};
 
 TEST(Codec, DecodesWhatItEncodes) {
     std::mt19937 random(4);
@@ -385,262 +359,6 @@ TEST(Codec, SurvivesDamage) {
         }
     }
     EXPECT_GT(unreadable, 1000);
-}
-
-TEST(Codec, BringsSurfacesBack) {
-    geometry::JaggedArray faces;
-    faces.add(std::vector<std::uint32_t>{0, 1, 2});
-    faces.add(std::vector<std::uint32_t>{2, 1, 0, 3});
-    geometry::SurfaceMesh surface = geometry::makeSurfaceMesh(
-        "s", {{1, 0, 0, 0}, {0, 1, 0, 0.25}, {0, 0, 1, -1.0 / 3}, {-1, 0, 2, 1e-9}}, std::move(faces));
-    for (const glm::dvec4& origin : {glm::dvec4(0), glm::dvec4(1, 2, 3, 1e6)}) {
-        surface.originInFile = origin;
-        const std::string record = encodeObjectRecord(std::make_shared<const geometry::SurfaceMesh>(surface));
-        EXPECT_FALSE(refersToFile(record));
-        const slicing::Object back = decodeObjectRecord(record);
-        EXPECT_EQ(encodeObjectRecord(back), record);
-        const auto& copy = *std::get<slicing::SurfacePtr>(back);
-        EXPECT_EQ(copy.name, "s");
-        EXPECT_EQ(copy.vertices, surface.vertices);
-        EXPECT_EQ(copy.faces, surface.faces);
-        EXPECT_EQ(copy.edges, surface.edges);
-        EXPECT_EQ(copy.originInFile, origin);
-    }
-}
-
-TEST(Codec, RefusesInvalidSurfaces) {
-    const auto recordOf = [](const std::string& faces, const std::string& last) {
-        return encodeCbor(nlohmann::json::parse(R"([1,"s",[[1,0,0,0],[0,1,0,0],[0,0,1,0]],)" + faces +
-                                                ",null,null,null," + last + ']'));
-    };
-    EXPECT_EQ(recordOf("[[0,1,2]]", "null")[0], '\x88') << "eight members, unlike the records of all other kinds";
-    EXPECT_NO_THROW(decodeObjectRecord(recordOf("[[0,1,2]]", "null")));
-    EXPECT_THROW(decodeObjectRecord(recordOf("[[0,1,2]]", "1")), UnreadableRecord) << "of a later version";
-    for (const char* faces : {"[]", "[[0,1]]", "[[0,1,3]]", "[[0,1,1]]", "[[0,1,-1]]", "[0,1,2]"})
-        EXPECT_THROW(decodeObjectRecord(recordOf(faces, "null")), UnreadableRecord) << faces;
-}
-
-TEST(Codec, FieldsKeepTheirSecondFunction) {
-    fields::FieldArray array;
-    array.shape = {2, 2, 2, 3};
-    array.box = {glm::dvec4(-1), glm::dvec4(1)};
-    std::vector<float> samples(24);
-    for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i);
-    array.samples = fields::SampleStorage(std::move(samples));
-    fields::Field twoArrays = *fields::fieldFromArray("run", array), withFormula = twoArrays;
-    std::string longName;  // of 256 characters, but more bytes
-    while (longName.size() < 512) longName += "é";
-    EXPECT_FALSE(fields::setSecondArray(twoArrays, array, longName));
-    EXPECT_FALSE(fields::setSecondFormula(withFormula, "x + a; a=2"));
-    const fields::Field formula = *fields::fieldFromFormula("formula", "q - a; a=2, q=x*y", fields::kFormulaBox, "a*q");
-    for (const fields::Field& field : {twoArrays, withFormula, formula}) {
-        const std::string record = encodeObjectRecord(std::make_shared<const fields::Field>(field));
-        const slicing::Object back = decodeObjectRecord(record);
-        EXPECT_EQ(encodeObjectRecord(back), record);
-        const fields::Field& copy = *slicing::fieldIn(back);
-        ASSERT_TRUE(copy.second);
-        EXPECT_EQ(copy.second->formula, field.second->formula);
-        EXPECT_EQ(copy.second->variable, field.second->variable);
-        EXPECT_EQ(copy.second->array != nullptr, field.second->array != nullptr);
-    }
-    EXPECT_THROW(
-        decodeObjectRecord(encodeCbor({kRecordVersion, "a", "x", nlohmann::json::parse("[[0,0,0,0],[1,1,1,1]]"),
-                                       nlohmann::json::array(), "y*", "field"})),
-        std::runtime_error);
-}
-
-// A field of an array with units, and with a second array if it `hasSecond`.
-fields::Field fieldWithUnits(bool hasSecond) {
-    fields::FieldArray array;
-    array.shape = {2, 1, 1, 1};
-    array.box = {glm::dvec4(-1), glm::dvec4(1)};
-    array.samples = fields::SampleStorage(std::vector<float>{1, 2});
-    array.units = {"m", "", "km", "s"};
-    array.quantity = {"temperature", "K"};
-    fields::Field field = *fields::fieldFromArray("run", array);
-    array.quantity = {"pressure", "Pa"};
-    if (hasSecond) {
-        EXPECT_FALSE(fields::setSecondArray(field, array, "p"));
-    }
-    return field;
-}
-
-TEST(Codec, FieldsKeepTheirUnits) {
-    for (const bool hasSecond : {false, true}) {
-        const fields::Field field = fieldWithUnits(hasSecond);
-        const std::string record = encodeObjectRecord(std::make_shared<const fields::Field>(field));
-        EXPECT_EQ(record[0], '\x89') << "nine members, unlike the records of all other kinds";
-        EXPECT_FALSE(refersToFile(record));
-        const slicing::Object back = decodeObjectRecord(record);
-        EXPECT_EQ(encodeObjectRecord(back), record);
-        const fields::Field& copy = *slicing::fieldIn(back);
-        EXPECT_EQ(copy.units, field.units);
-        EXPECT_EQ(copy.quantity, field.quantity);
-        ASSERT_EQ(copy.second != nullptr, hasSecond);
-        if (hasSecond) {
-            EXPECT_EQ(copy.second->quantity, field.second->quantity);
-        }
-    }
-}
-
-TEST(Codec, FieldsWithoutUnitsAreStoredAsBefore) {
-    fields::Field field = fieldWithUnits(true);
-    field.units = {};
-    field.quantity = {};
-    fields::SecondFunction second = *field.second;
-    second.quantity = {};
-    field.second = std::make_shared<const fields::SecondFunction>(second);
-    EXPECT_EQ(encodeObjectRecord(std::make_shared<const fields::Field>(field))[0], '\x87');
-    field.second.reset();
-    EXPECT_EQ(encodeObjectRecord(std::make_shared<const fields::Field>(field))[0], '\x85');
-}
-
-TEST(Codec, RefusesInvalidUnits) {
-    using nlohmann::json;
-    const json valid = json::from_cbor(encodeObjectRecord(std::make_shared<const fields::Field>(fieldWithUnits(true))));
-    const auto refusal = [&](const json::json_pointer& at, const json& member) {
-        json record = valid;
-        record[at] = member;
-        try {
-            decodeObjectRecord(encodeCbor(record));
-        } catch (const UnreadableRecord& fault) {
-            return std::string(fault.what());
-        }
-        return std::string();
-    };
-    EXPECT_EQ(refusal(json::json_pointer("/7/0"), "cm"), "");
-    for (const char* text : {"/7/0", "/7/3", "/7/4/0", "/7/4/1", "/8/0", "/8/1"}) {
-        const json::json_pointer at(text);
-        for (const std::string& wrong : {std::string(65, 'm'), std::string("K\n")})
-            EXPECT_NE(refusal(at, wrong).find("too long or is not printable"), std::string::npos) << text;
-        EXPECT_NE(refusal(at, 1), "") << text;
-    }
-    EXPECT_NE(refusal(json::json_pointer("/7/5"), "m").find("later version"), std::string::npos);
-    EXPECT_NE(refusal(json::json_pointer("/8/2"), "m").find("later version"), std::string::npos);
-    EXPECT_NE(refusal(json::json_pointer("/7"), json::array()), "");
-    EXPECT_NE(refusal(json::json_pointer("/2"), "x").find("a formula has units"), std::string::npos);
-    std::string record = encodeCbor(valid);
-    const std::size_t at = record.find("km");
-    ASSERT_NE(at, std::string::npos);
-    record[at] = '\xff';
-    EXPECT_THROW(decodeObjectRecord(record), UnreadableRecord) << "not UTF-8";
-}
-
-// --- What the server accepts can be read
-
-// Returns the session after it was stored and read again.
-Session readAgain(const Session& session) {
-    ObjectTable table;
-    return decodeSession(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
-}
-
-// Makes a field of an array.
-slicing::Object fieldOf(const fields::Shape& shape, const fields::Box& box, const std::vector<float>& samples) {
-    fields::FieldArray array;
-    array.shape = shape;
-    array.box = box;
-    array.samples = fields::SampleStorage(std::vector<float>(samples));
-    return std::make_shared<const fields::Field>(*fields::fieldFromArray("array", array));
-}
-
-TEST(Codec, ReadsBoxesOfAnySizeThatFieldsMayHave) {
-    for (const double size : {1e16, 1e30}) {
-        const fields::Box box{glm::dvec4(-size), glm::dvec4(size)};
-        Session session;
-        session::LoadObject load{"wide", "formula", "x+y+z+w"};
-        load.box = box;
-        session::must(session, load);
-        EXPECT_TRUE(same(session, readAgain(session))) << size;
-        const std::string record = encodeObjectRecord(fieldOf({2, 2, 2, 2}, box, std::vector<float>(16)));
-        EXPECT_EQ(encodeObjectRecord(decodeObjectRecord(record)), record) << size;
-    }
-    EXPECT_THROW(decodeObjectRecord(
-                     encodeCbor({kRecordVersion, "a", "x", nlohmann::json::parse("[[-1e31,-1,-1,-1],[1e31,1,1,1]]"),
-                                 nlohmann::json::array()})),
-                 UnreadableRecord);
-}
-
-TEST(Codec, ReadsFieldsWithSamplesBeyondAllLevels) {
-    for (const float sample : {1e35F, -1e35F, 3e38F}) {
-        Session session;
-        session::ObjectLoader loader({}, support::cache());
-        const fields::Box box{glm::dvec4(-1), glm::dvec4(1)};
-        const auto field = fieldOf({2, 2, 2, 2}, box, std::vector<float>(16, sample));
-        ASSERT_TRUE(session::replaceObject(session.current, field, loader));
-        EXPECT_EQ(session.current.look.field.levels, std::vector{std::copysign(slicing::kMaxLevel, double{sample})});
-        EXPECT_TRUE(same(session, readAgain(session))) << sample;
-    }
-}
-
-// The second time step changes the proportions of the domain, and with them the bounds of the settings.
-TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
-    struct Array {
-        std::size_t samples;  // along x, y and z
-        glm::dvec4 max;       // of its box
-    };
-    for (const auto& [samples, max] : {Array{2, {1, 1, 1, 0}}, Array{1, {0, 0, 0, 100}}}) {
-        const session::FileReader reader = [&](const session::LoadObject&, const session::Limits&) {
-            const fields::Shape shape{samples, samples, samples, 1};
-            const std::vector<float> values(samples * samples * samples, 1.F);
-            return Result<session::ObjectWithWarnings>({fieldOf(shape, {glm::dvec4(0), max}, values), {}});
-        };
-        for (const bool alongW : {false, true}) {
-            Session session;
-            session::LoadObject load{"run", "npy", ""};
-            const auto execute = [&] {
-                session::ObjectLoader loader({}, support::cache(), session::ObjectLoader::Mode::deferred, reader);
-                Result<std::monostate> done = std::monostate{};
-                session::ordersOf(session, load, loader, done);
-                EXPECT_TRUE(done);
-            };
-            execute();
-            const double radius = slicing::infoOf(session.current.object).circumradius;
-            session::Set set;
-            set.spacing = 9 * radius;
-            if (alongW) set.offset = -9 * radius;
-            set.focusPoint = glm::dvec4(9, -9, 9, -9) * radius;
-            if (slicing::infoOf(session.current.object).cellTypes.size() > 1) set.hidden = {{1}};
-            session::must(session, set);
-            load.append = true;
-            execute();
-            const session::State& state = session.current;
-            const double grown = slicing::infoOf(state.object).circumradius;
-            EXPECT_NE(grown, radius);
-            EXPECT_LE(state.slices.spacing, session::kMaxSpacing * grown);
-            EXPECT_LE(std::abs(state.slices.offset), session::kMaxOffset * grown);
-            EXPECT_LE(std::abs(state.look.focusPoint.y), session::kMaxOffset * grown);
-            EXPECT_TRUE(same(session, readAgain(session))) << samples;
-        }
-    }
-}
-
-TEST(Codec, ReadsTheFocusPointAtItsBoundsFarFromTheOrigin) {
-    Session session;
-    constexpr double kFar = 99'999'999'999'990;
-    session::must(session, session::LoadObject{"far", "cloud",
-                                               "99999999999990 1.001 0 0\n"
-                                               "99999999999990 -1.001 0 0\n"});
-    const geometry::ObjectInfo& info = slicing::infoOf(session.current.object);
-    ASSERT_EQ(info.originInFile, glm::dvec4(kFar, 0, 0, 0));
-    const double reach = session::kMaxOffset * info.circumradius;
-    ASSERT_GT(kFar + reach - kFar, reach * (1 + 1e-6)) << "the sum is rounded up";
-    session::Set set;
-    set.focusPoint = glm::dvec4(kFar + reach, 0, 0, 0);
-    session::must(session, set);
-    EXPECT_EQ(session.current.look.focusPoint.x, reach);
-    EXPECT_TRUE(same(session, readAgain(session)));
-}
-
-TEST(Codec, ReadsALargeFieldInManyFramesOfReference) {
-    constexpr std::size_t kSide = 32, kFrames = 300;
-    const std::vector<float> samples(kSide * kSide * kSide * kSide, 1.F);
-    const auto field = fieldOf({kSide, kSide, kSide, kSide}, {glm::dvec4(-1), glm::dvec4(1)}, samples);
-    ASSERT_GT(kFrames * slicing::memoryOf(field), std::size_t{1'000'000'000}) << "the limit, if each counted in full";
-    Session session;
-    session::ObjectLoader loader({}, support::cache());
-    ASSERT_TRUE(session::replaceObject(session.current, field, loader));
-    for (std::size_t i = 1; i <= kFrames; ++i) session::line(session, "set pace=" + std::to_string(1 + 0.01 * i));
-    EXPECT_EQ(readAgain(session).undoSteps.size(), session.undoSteps.size());
 }
 
 }  // namespace

@@ -1,0 +1,137 @@
+// What the server accepts can be read from the store, also at the bounds of the settings.
+
+#include <cmath>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fields/array_field.hpp"
+#include "session/settings.hpp"
+#include "store/cbor.hpp"
+#include "unit/store/object_table.hpp"
+#include "unit/store/support.hpp"
+
+namespace oval4d::store {
+namespace {
+
+using session::Session;
+
+// Returns the session after it was stored and read again.
+Session readAgain(const Session& session) {
+    ObjectTable table;
+    return decodeSession(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
+}
+
+// Makes a field of an array.
+slicing::Object fieldOf(const fields::Shape& shape, const fields::Box& box, const std::vector<float>& samples) {
+    fields::FieldArray array;
+    array.shape = shape;
+    array.box = box;
+    array.samples = fields::SampleStorage(std::vector<float>(samples));
+    return std::make_shared<const fields::Field>(*fields::fieldFromArray("array", array));
+}
+
+TEST(Codec, ReadsBoxesOfAnySizeThatFieldsMayHave) {
+    for (const double size : {1e16, 1e30}) {
+        const fields::Box box{glm::dvec4(-size), glm::dvec4(size)};
+        Session session;
+        session::LoadObject load{"wide", "formula", "x+y+z+w"};
+        load.box = box;
+        session::must(session, load);
+        EXPECT_TRUE(same(session, readAgain(session))) << size;
+        const std::string record = encodeObjectRecord(fieldOf({2, 2, 2, 2}, box, std::vector<float>(16)));
+        EXPECT_EQ(encodeObjectRecord(decodeObjectRecord(record)), record) << size;
+    }
+    EXPECT_THROW(decodeObjectRecord(
+                     encodeCbor({kRecordVersion, "a", "x", nlohmann::json::parse("[[-1e31,-1,-1,-1],[1e31,1,1,1]]"),
+                                 nlohmann::json::array()})),
+                 UnreadableRecord);
+}
+
+TEST(Codec, ReadsFieldsWithSamplesBeyondAllLevels) {
+    for (const float sample : {1e35F, -1e35F, 3e38F}) {
+        Session session;
+        session::ObjectLoader loader({}, support::cache());
+        const fields::Box box{glm::dvec4(-1), glm::dvec4(1)};
+        const auto field = fieldOf({2, 2, 2, 2}, box, std::vector<float>(16, sample));
+        ASSERT_TRUE(session::replaceObject(session.current, field, loader));
+        EXPECT_EQ(session.current.look.field.levels, std::vector{std::copysign(slicing::kMaxLevel, double{sample})});
+        EXPECT_TRUE(same(session, readAgain(session))) << sample;
+    }
+}
+
+// The second time step changes the proportions of the domain, and with them the bounds of the settings.
+TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
+    struct Array {
+        std::size_t samples;  // along x, y and z
+        glm::dvec4 max;       // of its box
+    };
+    for (const auto& [samples, max] : {Array{2, {1, 1, 1, 0}}, Array{1, {0, 0, 0, 100}}}) {
+        const session::FileReader reader = [&](const session::LoadObject&, const session::Limits&) {
+            const fields::Shape shape{samples, samples, samples, 1};
+            const std::vector<float> values(samples * samples * samples, 1.F);
+            return Result<session::ObjectWithWarnings>({fieldOf(shape, {glm::dvec4(0), max}, values), {}});
+        };
+        for (const bool alongW : {false, true}) {
+            Session session;
+            session::LoadObject load{"run", "npy", ""};
+            const auto execute = [&] {
+                session::ObjectLoader loader({}, support::cache(), session::ObjectLoader::Mode::deferred, reader);
+                Result<std::monostate> done = std::monostate{};
+                session::ordersOf(session, load, loader, done);
+                EXPECT_TRUE(done);
+            };
+            execute();
+            const double radius = slicing::infoOf(session.current.object).circumradius;
+            session::Set set;
+            set.spacing = 9 * radius;
+            if (alongW) set.offset = -9 * radius;
+            set.focusPoint = glm::dvec4(9, -9, 9, -9) * radius;
+            if (slicing::infoOf(session.current.object).cellTypes.size() > 1) set.hidden = {{1}};
+            session::must(session, set);
+            load.append = true;
+            execute();
+            const session::State& state = session.current;
+            const double grown = slicing::infoOf(state.object).circumradius;
+            EXPECT_NE(grown, radius);
+            EXPECT_LE(state.slices.spacing, session::kMaxSpacing * grown);
+            EXPECT_LE(std::abs(state.slices.offset), session::kMaxOffset * grown);
+            EXPECT_LE(std::abs(state.look.focusPoint.y), session::kMaxOffset * grown);
+            EXPECT_TRUE(same(session, readAgain(session))) << samples;
+        }
+    }
+}
+
+TEST(Codec, ReadsTheFocusPointAtItsBoundsFarFromTheOrigin) {
+    Session session;
+    constexpr double kFar = 99'999'999'999'990;
+    session::must(session, session::LoadObject{"far", "cloud",
+                                               "99999999999990 1.001 0 0\n"
+                                               "99999999999990 -1.001 0 0\n"});
+    const geometry::ObjectInfo& info = slicing::infoOf(session.current.object);
+    ASSERT_EQ(info.originInFile, glm::dvec4(kFar, 0, 0, 0));
+    const double reach = session::kMaxOffset * info.circumradius;
+    ASSERT_GT(kFar + reach - kFar, reach * (1 + 1e-6)) << "the sum is rounded up";
+    session::Set set;
+    set.focusPoint = glm::dvec4(kFar + reach, 0, 0, 0);
+    session::must(session, set);
+    EXPECT_EQ(session.current.look.focusPoint.x, reach);
+    EXPECT_TRUE(same(session, readAgain(session)));
+}
+
+TEST(Codec, ReadsALargeFieldInManyFramesOfReference) {
+    constexpr std::size_t kSide = 32, kFrames = 300;
+    const std::vector<float> samples(kSide * kSide * kSide * kSide, 1.F);
+    const auto field = fieldOf({kSide, kSide, kSide, kSide}, {glm::dvec4(-1), glm::dvec4(1)}, samples);
+    ASSERT_GT(kFrames * slicing::memoryOf(field), std::size_t{1'000'000'000}) << "the limit, if each counted in full";
+    Session session;
+    session::ObjectLoader loader({}, support::cache());
+    ASSERT_TRUE(session::replaceObject(session.current, field, loader));
+    for (std::size_t i = 1; i <= kFrames; ++i) session::line(session, "set pace=" + std::to_string(1 + 0.01 * i));
+    EXPECT_EQ(readAgain(session).undoSteps.size(), session.undoSteps.size());
+}
+
+}  // namespace
+}  // namespace oval4d::store
