@@ -31,7 +31,7 @@ constexpr double kColumnFocusDrop = 0.8;
 // In a grid, the step from a slice to the slice below it leaves this much room between them, in heights of text: for
 // the label, with gaps above and below it.
 constexpr double kGridLabelRoom = 2.3;
-constexpr double kGridFocusRoom = 2.1;    // the additional room for the label of the focus slice, which is farther down
+constexpr double kGridFocusRoom = 2.1;    // additional room below the focus slice, in heights of text
 constexpr double kGridLabelWidth = 0.94;  // the greatest width of the other labels, as a fraction of the column step
 // The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
 // farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.
@@ -90,7 +90,8 @@ Arrangement columnOf(int count, double reach) {
 // balls.
 Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
     // The square of the projection takes the share kProjectionShare of the width of the room if it is to the left of
-    // the grid, or of the height if it is above the grid; but at most the share kProjectionBreadth of the other side.
+    // the grid, or of the height if it is above the grid; but its side is at most the share kProjectionBreadth of the
+    // other dimension of the room.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
     constexpr double kLeastWideAspect = 1.3;  // from this width / height on, the projection is to the left
     if (count == 1) return focusSliceAlone();

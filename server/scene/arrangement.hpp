@@ -14,27 +14,28 @@
 
 namespace oval4d::scene {
 
-/// The room that a picture has for the slices, their labels and the projection. All sizes are a width and a height, in
-/// viewport heights.
+/// The room that a picture has for the slices, their labels and the projection. Sizes are (width, height), in viewport
+/// heights.
 struct AvailableSpace {
     glm::dvec2 size{0};
-    std::array<glm::dvec2, 2> besideAxes{};  ///< the sizes of the parts to the right of the axes symbol and below it
+    std::array<glm::dvec2, 2> besideAxes{};  ///< the sizes of two parts: to the right of the axes symbol, and below it
     bool hasProjection = false;              ///< whether the projection is shown
 };
 
-/// The places of slices that stand in rows, in the order in which a text is read. Each row but the last has the same
-/// number of slices. All lengths are in world units. The focus slice stands at the origin. It is the middle one or, if
-/// the number of slices is even, the last one before the middle.
+/// The places of slices that stand in rows, from left to right and from top to bottom. Each row but the last has the
+/// same number of slices. All lengths are in world units. The focus slice stands at the origin. It is the middle one
+/// or, if the number of slices is even, the last one before the middle.
 struct SliceGrid {
     int count = 0;  ///< the number of slices; 0 if the view has no grid
     int columns = 1;
     double columnStep = 0, rowStep = 0;
-    double focusGap = 0;  ///< how much longer the step from the row of the focus slice to the next row is
-    /// The side of the square to the left of the grid or above it in which the projection is; 0 if it is not shown.
+    double focusGap = 0;  ///< the additional length of the step from the row of the focus slice to the next row
+    /// The side of the square that contains the projection, to the left of the grid or above it; 0 if the projection is
+    /// not shown.
     double projectionSide = 0;
     bool projectionIsAbove = false;
 
-    /// Returns the position of slice i. No coordinate is −0.
+    /// Returns the position of slice i. No coordinate is −0, because messages would contain the sign.
     glm::dvec3 positionOf(int i) const {
         const int focus = (count - 1) / 2;
         const int right = i % columns - focus % columns, down = i / columns - focus / columns;
@@ -44,9 +45,9 @@ struct SliceGrid {
 
 /// The arrangement of the slices in a view, before the viewer moves the camera. All lengths are in world units. The
 /// slices stand in a grid or on a curve: a parabola, a straight row, a straight column or a single place. The middle of
-/// the curve is the origin. In a grid, the focus slice always stands at the origin; on a curve, unless the number of
-/// slices is even, as it may be in exported files. The camera looks at the origin from the distance `distance`,
-/// downward by the angle `pitch` (radians).
+/// the curve is the origin. The focus slice stands at the origin, except on a curve with an even number of slices, as
+/// exported files may have. The camera looks at the origin from the distance `distance`, downward by the angle `pitch`
+/// (radians).
 struct Arrangement {
     double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth. In a grid, the greatest |x|
     double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight. In a grid, the greatest |y|
@@ -58,11 +59,11 @@ struct Arrangement {
     /// If false, they may overlap it.
     bool isClearOfAxes = false;
     bool showsMatrix = false;  ///< whether the matrix of planar sections is beside the slices
-    /// The direction from a slice to its label: a downward vector of this length is added to the unit vector away from
-    /// the curve. With a longer vector, labels would cover the next slice; with a shorter one, labels at the sides
+    /// The direction from a slice to its label is the sum of the unit vector away from the curve and a downward vector
+    /// of this length. With a longer vector, labels would cover the next slice; with a shorter one, labels at the sides
     /// would leave less room for the slices.
     double labelDrop = 0.54;
-    double focusLabelDrop = 0;  ///< how much larger the gap to its label is for the focus slice, in heights of text
+    double focusLabelDrop = 0;  ///< the additional gap between the focus slice and its label, in heights of text
     /// Whether the labels are to the right of the slices, so that they take a part of the width of the room.
     bool labelsAreBeside = false;
     /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
@@ -75,7 +76,8 @@ struct Arrangement {
 
     /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
     /// coordinate is −0, because messages would contain the sign. In a grid, parameters between those of two slices
-    /// belong to the nearer slice. So a grid has no direction at a slice, and the label is straight below it.
+    /// belong to the nearer slice. So a grid, unlike a curve, has no direction at a slice, and the label is straight
+    /// below the slice.
     glm::dvec3 positionAt(double u) const {
         if (grid.count > 0) return grid.positionOf(static_cast<int>(std::lround((grid.count - 1) / 2.0 * (1 + u))));
         return glm::dvec3(halfWidth * u, halfHeight * u, -depth * u * u) + 0.0;
@@ -95,8 +97,8 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
 
 /// Places the projection of the whole object beside the slices of a view. `count`: the number of slices. `aspect`: the
 /// aspect ratio of the room that the slices and the projection have, without the part of the width that labels beside
-/// the slices take. If the view has the projection between its slices, returns a placement that is not `shown`; the
-/// caller must then call projectionInside().
+/// the slices take. If the view shows the projection between its slices, returns a placement that is not `shown`; in
+/// this case, the caller must call projectionInside().
 ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
 
 /// Places the projection in the middle of the oval, on the axis of the parabola: at the point where the largest circle

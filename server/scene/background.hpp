@@ -13,7 +13,8 @@ enum class Scheme : std::uint8_t { dark, light };
 inline constexpr auto kSchemes =
     std::to_array<text::NamedValue<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
 
-/// The background of a picture. Stored sessions contain the numbers of the enumerators; therefore they must not change.
+/// The background of a picture. Stored sessions contain the numbers of the enumerators; therefore these numbers must
+/// not change.
 enum class Background : std::uint8_t {
     automatic = 0,    ///< dark or light, as the viewer prefers; dark if the preference is unknown; "auto" in messages
     dark = 1,         ///< nearly black

@@ -64,9 +64,9 @@ Color distinct(std::size_t i, std::size_t count, Scheme scheme) {
     return colorFor(scheme, i % 2 == 0 ? Lightness{0.76, 0.61} : Lightness{0.69, 0.5}, 0.18, hue);
 }
 
-// Gives up to kFew cells well-separated hues. For more cells, the Hopf map takes the direction of each cell's center to
-// a point on the 2-sphere; the longitude of this point determines the hue, and its latitude the lightness. The cells of
-// a ring along a Hopf fiber therefore have the same color.
+// If there are at most kFew cells, gives them well-separated hues. If there are more, the Hopf map takes the direction
+// of each cell's center to a point on the 2-sphere; the longitude of this point determines the hue, and its latitude
+// the lightness. The cells of a ring along a Hopf fiber therefore have the same color.
 void assignByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
@@ -123,8 +123,8 @@ const ScalePerScheme& divergingScales() {
 const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
 // A color scale of one hue. The values are cosines of angles between the normals of cells and the direction toward the
-// light. The lightness also falls from 0 to −1, so that cells that are turned away from the light differ from each
-// other.
+// light. The lightness also decreases with negative values, so that cells that are turned away from the light differ
+// from each other.
 ColorScale lightScale(Scheme scheme) {
     constexpr double kHue = 4.2;
     constexpr Lightness kDark{0.3, 0.22}, kRange{0.58, 0.4};

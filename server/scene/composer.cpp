@@ -15,8 +15,8 @@ using slicing::Object;
 using slicing::SliceSet;
 
 // Writes to `out`, for each of `elements`, the cell that determines the color of the element. `sourceOf` returns the
-// source number of an element (see SliceSet). If all source numbers are those of cells, which then determine the
-// colors, leaves `out` empty.
+// source number of an element (see SliceSet). If all source numbers are numbers of cells, each element has the color of
+// its source, and `out` is left empty.
 template <typename Sources, typename SourceOf>
 void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {
@@ -26,8 +26,8 @@ void findCells(const Object& object, const slicing::Visibilities& visibilities, 
     for (const auto& element : elements) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(element)));
 }
 
-// Returns the opacity of translucent faces which, with the setting 1, have the opacity `own`. It is always below 1,
-// because 1 tells clients that faces may cross each other; the greatest one looks opaque.
+// Returns the opacity of translucent faces: `own` times Look::opacity. The result is always below 1, because 1 tells
+// clients that faces may cross each other; the greatest result looks opaque.
 double translucent(double own, const Look& look) {
     constexpr double kMost = 0.999;
     return std::min(own * look.opacity, kMost);
@@ -138,8 +138,7 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
     }
 }
 
-// Restores the color that highlight() replaced, because the cell painter does not write colors again that stay the
-// same.
+// Restores the color that highlight() replaced, because the cell painter does not write unchanged colors again.
 void Composer::removeHighlightColor(Scene& out) {
     if (!replacedColor_) return;
     const auto [cell, color] = *std::exchange(replacedColor_, {});
@@ -245,8 +244,8 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
     }
 }
 
-// Finds the contours in the planes of the matrix, unless the scene has them from the last call. It often does, because
-// the camera and the colors do not move them.
+// Finds the contours in the planes of the matrix, unless the scene still has them from the last call: changes of the
+// camera and of colors do not move the contours.
 void Composer::traceContours(const Object& object, const geometry::Rotation& orientation, slicing::Quality quality,
                              Scene& out) {
     SectionMatrix& matrix = out.sectionMatrix;

@@ -33,8 +33,9 @@ class Composer {
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
-    /// index n of the focus slice (see SlicePlacement::index). `quality` is that of the contours in the matrix of a
-    /// field. Overwrites `out` and reuses its memory. `out` keeps a pointer to `slices`; `slices` must outlive `out`.
+    /// index n of the focus slice (see SlicePlacement::index). `quality` is the quality of the contours of a field in
+    /// the matrix. Overwrites `out` and reuses its memory. `out` keeps a pointer to `slices`; `slices` must outlive
+    /// `out`.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
                  int focus, const Look& look, Viewport viewport, Scene& out,
                  slicing::Quality quality = slicing::Quality::full);
@@ -42,8 +43,8 @@ class Composer {
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
     /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,
     /// SurfaceDetail::fogSteps is empty if there is no fog, and both are empty if `object` is not a field. The steps
-    /// are 0 for slices that are not drawn or lie behind the eye. If there are any steps, also lays out `scene`, which
-    /// must be the Scene that compose() gets next.
+    /// are 0 for slices that are not drawn or lie behind the eye. If SurfaceDetail::steps or SurfaceDetail::fogSteps is
+    /// not empty, also lays out `scene`, which must be the Scene that compose() gets next.
     void layOutAndChooseDetail(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus,
                                const Look& look, Viewport viewport, slicing::Quality quality, Scene& scene,
                                slicing::SurfaceDetail& out);

@@ -34,7 +34,7 @@ void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& ou
 
 glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out) {
     const glm::ivec3 blocks = glm::max((fog.size - 1 + kFogBlock - 1) / kFogBlock, 1);
-    // Entry v: how many of the values less than v are not transparent.
+    // Entry v: how many entries of `table` with an index less than v are not transparent.
     std::array<std::uint16_t, kFogEntries + 1> visibleBelow{};
     for (std::size_t value = 0; value < kFogEntries; ++value)
         visibleBelow[value + 1] = static_cast<std::uint16_t>(visibleBelow[value] + (table[value] >> 24 != 0 ? 1 : 0));

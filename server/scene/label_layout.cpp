@@ -34,7 +34,7 @@ LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double or
     for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
     const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
     width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
-    // A number with an exponent is shorter. None of its characters is wider than a digit.
+    // With an exponent, the number is shorter than with all its decimals. No character of it is wider than a digit.
     if (decimals > kMaxPlainDecimals)
         width_ = kSignWidth + static_cast<double>(labelNumber(w, decimals).size()) * kDigitWidth;
 }
@@ -111,8 +111,8 @@ void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, d
         if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
                         overlapsOtherSlice(i, box, camera, toView, aspect)))
             return false;
-        // The labels of slices nearer to the focus slice have been decided before this one, and so has the label at the
-        // same distance if its index is less. This label must not overlap any of them that is kept.
+        // Two kinds of labels have been decided before this one: those of slices nearer to the focus slice, and the one
+        // at the same distance if its index is less. This label must not overlap any of these labels that is kept.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

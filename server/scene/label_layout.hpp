@@ -24,7 +24,7 @@ class LabelLayout {
     LabelLayout(const Arrangement& arrangement, int decimals, double originW, std::vector<SlicePlacement>& placements);
 
     /// Reduces the size of labels, so that they fit side by side in columns of this width, in viewport heights; see
-    /// Arrangement::labelColumns. The labels keep a minimum size, even if they then do not fit.
+    /// Arrangement::labelColumns. The labels keep a minimum size, even if they do not fit at this size.
     void shrink(double columnWidth);
 
     /// Returns how far the labels extend beyond the slices on each side, in viewport heights. `bounds`: the bounds of

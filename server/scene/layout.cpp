@@ -151,8 +151,8 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
     return inside;
 }
 
-// Returns the part of `room` to the right of the axes symbol, and the part below it. They have at least half the width
-// or height of `room`. `axes`: the box of the symbol.
+// Returns the part of `room` to the right of the axes symbol, and the part below it. The first part has at least half
+// the width of `room`, the second at least half its height. `axes`: the box of the symbol.
 std::array<Rect, 2> partsBeside(const Box& axes, const Rect& room) {
     Rect right = room, below = room;
     right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);

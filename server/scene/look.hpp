@@ -21,7 +21,7 @@
 namespace oval4d::scene {
 
 /// Which slices are shown, and how they are arranged. Stored sessions contain the numbers of the enumerators; therefore
-/// they must not change.
+/// these numbers must not change.
 enum class View : std::uint8_t {
     oval = 0,    ///< all slices, on the oval
     single = 1,  ///< only the focus slice
@@ -56,8 +56,8 @@ constexpr bool isExportedInPortrait(View view) {
 }
 
 /// The property that determines the colors of cells or, for fields, of surfaces. Each face of a slice has the color of
-/// the cell from which it was cut. Stored sessions contain the numbers of the enumerators; therefore they must not
-/// change.
+/// the cell from which it was cut. Stored sessions contain the numbers of the enumerators; therefore these numbers must
+/// not change.
 enum class Coloring : std::uint8_t {
     cell = 0,       ///< the cell itself; for fields: the level
     cell_type = 1,  ///< the type of the cell; called "kind" in messages
@@ -77,8 +77,8 @@ inline constexpr auto kColorings = std::to_array<text::NamedValue<Coloring>>({{"
 constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 
 /// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
-/// body inside a surface where the domain ends. Stored sessions contain the numbers of the enumerators; therefore they
-/// must not change.
+/// body inside a surface where the domain ends. Stored sessions contain the numbers of the enumerators; therefore these
+/// numbers must not change.
 enum class CapStyle : std::uint8_t {
     plain = 0,  ///< in the color of the level or of the slice
     value = 1,  ///< colored as with Coloring::value
@@ -89,7 +89,7 @@ inline constexpr auto kCapStyles = std::to_array<text::NamedValue<CapStyle>>(
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
 /// The kinds of projection of the whole object to three dimensions. projectionBeside() says where each view shows the
-/// projection. Stored sessions contain the numbers of the enumerators; therefore they must not change.
+/// projection. Stored sessions contain the numbers of the enumerators; therefore these numbers must not change.
 enum class ProjectionKind : std::uint8_t {
     off = 0,
     perspective = 1,  ///< from an eye on the positive w axis

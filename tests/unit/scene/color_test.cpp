@@ -105,7 +105,7 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
         EXPECT_GT(brightness(toward), brightness(away) + 20) << axis;
         lit.at(axis) = toward;
     }
-    // A quarter turn from y to z gives each cell the color of that whose place it takes.
+    // After a quarter turn from y to z, each cell has the color of the cell whose place it has taken.
     const geometry::Rotation quarter(geometry::Turn{geometry::Plane::yz, std::numbers::pi / 2, {}});
     cellColors.updateCellColors(objectOf(polytope), Coloring::light, Scheme::dark, quarter, colors);
     EXPECT_EQ(colors.at(cellToward({0, 1, 0, 0})), lit[2]);

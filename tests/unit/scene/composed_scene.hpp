@@ -22,7 +22,8 @@ namespace oval4d::scene {
 inline const std::vector<Viewport> kWindows{{1280, 720}, {1920, 1080}, {2560, 1440}, {3000, 800},
                                             {640, 640},  {375, 667},   {320, 568},   {667, 375}};
 
-/// Returns a scene without its slices. By default, the outermost of them touch the polytope.
+/// Returns a scene without its slices. By default, the hyperplanes of the outermost slices touch the circumscribed
+/// sphere.
 inline Scene composed(std::string_view name, int count = 21, Viewport viewport = {}, Look look = {}, int focus = 0,
                       double spacing = 0) {
     const auto& p = support::named(name);
@@ -42,7 +43,8 @@ inline glm::dvec2 project(const Scene& s, const glm::dvec3& world) {
     return {(clip.x / clip.w + 1) / 2 * s.viewport.width, (1 - clip.y / clip.w) / 2 * s.viewport.height};
 }
 
-/// Returns the circle on the screen that a sphere about a world position appears as, nearly: its radius in pixels.
+/// Returns the radius, in pixels, of the circle as which a sphere approximately appears on the screen. `center` and
+/// `radius` are in world space.
 inline double radiusOnScreen(const Scene& s, const glm::dvec3& center, double radius) {
     const double depth = -(s.camera.view() * glm::dvec4(center, 1)).z;
     return radius / depth * s.viewport.height / (2 * std::tan(s.camera.fieldOfView / 2));
@@ -57,7 +59,7 @@ struct LabelBox {
         for (const char c : placement.label) {
             const bool continuation = (c & 0xC0) == 0x80;  // of the sign U+2212, whose width is 0.838
             const bool narrow = c == '.' || c == ',' || c == ' ';
-            const bool letter = 'a' <= c && c <= 'z' && c != 'w';  // at most 0.6 on the average of a name
+            const bool letter = 'a' <= c && c <= 'z' && c != 'w';  // the mean width in a name is at most 0.6
             if (!continuation) width += narrow ? 0.318 : letter ? 0.6 : '0' <= c && c <= '9' ? 0.636 : 0.838;
         }
         const double size = style().textHeight * placement.labelSize * s.viewport.height, digits = 0.729 * size;

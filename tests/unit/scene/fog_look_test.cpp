@@ -42,7 +42,7 @@ TEST(FogTable, PointsWithoutAColorHaveThatOfTheScale) {
 
 TEST(FogTable, IsEmptyWithoutFog) { EXPECT_TRUE(tableOf({}).empty()); }
 
-// A block of fog has a cell whose values pass a visible one.
+// A block contains fog if a visible value lies between the least and the greatest value of its points.
 TEST(FogBlocks, AreThoseWhoseValuesPassAVisibleOne) {
     FogTable table(kFogEntries, 0);
     for (std::size_t value = 100; value < 110; ++value) table[value] = 0x01ffffff;

@@ -53,7 +53,7 @@ TEST(Labels, areInThePictureAndApart) {
     }
 }
 
-// Expects the labels of all slices but the focus slice to stand beside the other slices, whose balls may touch them.
+// Expects that no label but that of the focus slice overlaps another slice. Ignores the balls of the slices.
 void expectLabelsBesideSlices(const Scene& s) {
     for (const auto& placement : s.placements) {
         if (!placement.drawn || placement.focus || placement.label.empty()) continue;
@@ -200,7 +200,7 @@ TEST(Labels, areAtTheFocusAndEveryKthSlice) {
         EXPECT_GT(step, 1);
         for (std::size_t i = 1; i < offsets.size(); ++i) EXPECT_EQ(offsets[i] - offsets[i - 1], step);
         EXPECT_NE(std::ranges::find(offsets, 0), offsets.end());
-        // There is room for more of them where the slices are magnified.
+        // There is room for more labels where the slices are magnified.
         const std::vector<int> magnified = labeledSlices(count, 2);
         ASSERT_GT(magnified.size(), 1U);
         EXPECT_LT(magnified[1] - magnified[0], step);

@@ -65,7 +65,7 @@ TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
             if (!nearest) continue;
             const auto hit = picture.at(pixel);
             ASSERT_TRUE(hit) << name << ", slice " << i;
-            if (hit->area != PictureArea::slice || hit->slice != i) continue;  // another slice is before it
+            if (hit->area != PictureArea::slice || hit->slice != i) continue;  // another slice is in front of it
             EXPECT_EQ(hit->element, (slicing::Element{ElementKind::edge, picture.slices.vertexSource[*nearest]}));
         }
     }
