@@ -60,9 +60,9 @@ struct LoadObject {
     std::string name;    ///< the name to give to the object
     std::string format;  ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
     std::string data;    ///< the text of the file (of an array: its bytes in Base64), or the formula
-    /// Whether the command belongs to the undo step of the previous command, as while a user edits a formula. If it
-    /// does, and if a field replaces a field, FieldSettings stay the same; if both fields also have the same
-    /// circumradius, HyperplaneSettings and the focus point stay the same, too.
+    /// Whether the command belongs to the undo step of the previous command, as while a user edits a formula. If true,
+    /// and if a field replaces a field, FieldSettings stay the same; if both fields also have the same circumradius,
+    /// HyperplaneSettings and the focus point stay the same, too.
     bool continues = false;
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states or, without one, fields::defaultBox().
@@ -84,7 +84,8 @@ struct LoadObject {
     std::string dataName = {};        ///< the name of an array in the server's data folder, instead of `data`
     geometry::Centering center = {};  ///< for a polytope, a surface or points: the point about which they turn
 
-    /// Returns whether the object is an array in files or in a folder, not in `data`; the format may then be empty.
+    /// Returns whether the object is an array in files or in a folder, not in `data`. The format of such an array may
+    /// be empty.
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
     bool operator==(const LoadObject&) const = default;
 };

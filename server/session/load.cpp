@@ -217,7 +217,7 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
                                       const SecondFunctionSource& second) {
     Result<fields::FieldArray> array = read(options);
     if (!array) return array.error();
-    if (options.box) array->units = {};  // those of the file are of the file's box
+    if (options.box) array->units = {};  // the units in the file belong to the box in the file, not to this one
     if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
     auto field = fields::fieldFromArray(name, *array);
     if (!field) return field.error();

@@ -47,9 +47,9 @@ CriticalSearchArguments criticalSearchArguments(const State& state);
 /// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
 /// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With Mode::deferred,
 /// they return an error if the object is not available yet, and the object becomes pending. needsLoading() calls them
-/// to find what a command needs; the caller then calls completePending(), on any thread, and asks again, until nothing
-/// is pending. What was available once stays available, even if a cache drops it in the meantime. A loader can be
-/// moved, also while something is pending.
+/// to find what a command needs; the caller must call completePending(), on any thread, and needsLoading() again, until
+/// nothing is pending. What was available once stays available, even if a cache drops it in the meantime. A loader can
+/// be moved, also while something is pending.
 class ObjectLoader {
   public:
     enum class Mode : bool { immediate, deferred };
@@ -68,8 +68,9 @@ class ObjectLoader {
     /// readObject().
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
-    /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is always
-    /// transformed at once, even with Mode::deferred, which makes each image once.
+    /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is
+    /// transformed at once even with Mode::deferred. With this mode, the loader keeps the results and transforms an
+    /// object to a frame only once.
     Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the result of session::appendTimeSteps().
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
@@ -135,8 +136,8 @@ class ObjectLoader {
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalPtr>> critical_;
-    // In the frame before the command and in the one after it, because a command may change both the object and the
-    // frame of reference; more only if the session changes while they are made.
+    // The transformed objects: at most one in the frame before the command and one in the frame after it, because a
+    // command may change both the object and the frame; more only if the session changes in the meantime.
     std::vector<ObjectInReferenceFrame> objectsInFrames_;
 };
 

@@ -31,15 +31,15 @@ namespace {
 
 using VoidResult = Result<std::monostate>;
 
-// An extended field, transformed to frames of reference (see slicing::transformedTo()). The key is the
-// slicing::identityOf() of the field before the extension in a frame; the value is the extended field in this frame.
+// A field that has been extended by time steps, in several frames of reference (see slicing::transformedTo()). Each
+// value is the extended field in one frame; its key is slicing::identityOf() of the original field in the same frame.
 using ExtendedFieldsByOriginal = std::map<const void*, slicing::Object>;
 
-// If `state` shows the field `before`, replaces it by `after`, a longer version of it, and returns true; otherwise
-// returns false. Keeps all settings, except that spacing and offset keep their ratios to slicing::initialSliceExtent(),
-// that they and the focus point are clamped to their bounds, and that no cells of the domain are hidden or faded if
-// their types change. If states share `before` in a frame of reference, they also share `after` in this frame: `images`
-// has the transformed fields that have been made so far.
+// If `state` shows the field `before`, replaces it by `after`, the same field with more time steps, and returns true;
+// else returns false. Keeps all settings with these exceptions: spacing and offset keep their ratios to
+// slicing::initialSliceExtent(); spacing, offset and focus point are clamped to their bounds; and if the cell types of
+// the domain change, all its cells become visible. `images` contains the transformed fields that have been made so far,
+// so that states with the same frame of reference share one field.
 bool extendField(State& state, const slicing::Object& before, const slicing::Object& after,
                  ExtendedFieldsByOriginal& images) {
     if (state.source != before) return false;
@@ -49,8 +49,8 @@ bool extendField(State& state, const slicing::Object& before, const slicing::Obj
     const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
     const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
     // Spacing and offset grow in proportion to initialSliceExtent(), but their bounds in proportion to the
-    // circumradius. When an array gets its second time step, the extent grows by a greater factor than the
-    // circumradius, so the products may exceed the bounds.
+    // circumradius. When an array gets its second time step, the ratio of the extent to the circumradius grows, so the
+    // new values may exceed the bounds.
     state.slices.spacing = std::clamp(state.slices.spacing * ratio, kMinSpacing * radius, kMaxSpacing * radius);
     state.slices.offset = std::clamp(state.slices.offset * ratio, -reach, reach);
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
@@ -92,7 +92,7 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     return {left, quaternion()};
 }
 
-// What a session is after a command: its state and its loaded objects.
+// The result of a command: the new state and the new loaded objects of the session.
 struct Outcome {
     State next;
     std::optional<LoadedObjects> loaded = {};  // empty if they stay the same
@@ -122,7 +122,7 @@ class OutcomeOfCommand {
         if (VoidResult done = applySet(outcome.next, command, loaded, limits_, loader_); !done) return done.error();
         return outcome;
     }
-    // The command replaces an object: `append` is false.
+    // Requires that LoadObject::append is false.
     Result<Outcome> of(const LoadObject& command) const {
         if (VoidResult room = checkRoom(session_.loaded, command.name); !room) return room.error();
         const auto reading = loader_.objectFrom(command);
@@ -223,8 +223,8 @@ class CommandApplier {
         State next = session_.current;
         rotate(next, command.turn);
         const State* const before = command.continues ? stateBeforeAmendableStep(session_) : nullptr;
-        // While the object turns continuously, that motion changes the orientation, too. turnOfStep() then cannot
-        // derive the rotations of the step from the orientations.
+        // While the object turns continuously, the orientation changes between the rotations of a step, so turnOfStep()
+        // cannot derive them from the orientations.
         if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
@@ -262,8 +262,8 @@ class CommandApplier {
     VoidResult operator()(const OpenAddress& command) { return finish(outcome_.of(command), false); }
 
   private:
-    // Makes an outcome that is not an error that of the session. `continues`: whether it belongs to the undo step of
-    // the previous command.
+    // Stores the outcome of a command in the session, unless it is an error. `continues`: whether the command belongs
+    // to the undo step of the previous one.
     VoidResult finish(Result<Outcome> outcome, bool continues) {
         if (!outcome) return outcome.error();
         if (outcome->loaded) session_.loaded = std::move(*outcome->loaded);
@@ -296,8 +296,8 @@ class CommandApplier {
     const OutcomeOfCommand outcome_;
 };
 
-// Asks the loader for what a command needs, as CommandApplier does. Only the loader remembers it: the outcome of the
-// command, which may be an error, is dropped. Commands that need nothing are not computed.
+// Computes the outcome of a command like CommandApplier, only to make the loader note what the command needs. Drops the
+// outcome, which may be an error. Does nothing for commands that need nothing from the loader.
 class NeedsOfCommand {
   public:
     NeedsOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)

@@ -82,7 +82,7 @@ struct State {
     /// empty while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
 
-    /// Returns pointers to `source` and `object`, which hold the same object in the default frame of reference.
+    /// Returns pointers to `source` and `object`. Both hold the same object if `referenceFrame` is the default.
     std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
@@ -141,8 +141,8 @@ struct Session {
     std::vector<State> redoSteps;  ///< redo steps, the next one last
     LoadedObjects loaded;
     std::string pendingKey;  ///< the first key of a sequence that has begun, such as the "g" of "gg"; else empty
-    /// Counts the changes of `current`: increases by one with every command and every step of the motion after which
-    /// `current` is not equal to what it was before, and never otherwise.
+    /// Counts the changes of `current`: increases by one with every command and every step of the motion that changes
+    /// `current`, and with nothing else.
     std::uint64_t revision = 0;
     bool operator==(const Session&) const = default;
 };
@@ -160,16 +160,17 @@ std::size_t historyMemoryWithoutObjects(const Session& session);
 
 class ObjectLoader;
 
-/// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. They are then
-/// pending, and the caller completes them (ObjectLoader::completePending()) and asks again: a command may need first an
-/// object and then its image in the frame of reference. Does not change the session.
+/// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. If so, they
+/// become pending; the caller must complete them with ObjectLoader::completePending() and call needsLoading() again,
+/// because a command may need an object first and its image in the frame of reference next. Does not change the
+/// session.
 bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is
 /// refused ends the sequence to which it belongs (see Session::pendingKey). Every change adds an undo step, except
 /// moves of the camera, the end of continuous turning, commands with `continues`, and added time steps; see
-/// history.hpp. `loader` builds polytopes and reads files; if it defers this, needsLoading() must have returned false
-/// for this session and this loader.
+/// history.hpp. `loader` builds polytopes and reads files. If it has Mode::deferred, needsLoading() must have returned
+/// false for this session, this command and this loader.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.

@@ -369,7 +369,7 @@ Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind
     std::optional<slicing::Element>& highlight = state.look.highlight;
     std::optional<std::size_t> found;
     if (highlight && highlight->kind == kind) {
-        const std::size_t step = forward ? 1 : count - 1;  // modulo `count`, the latter is a step backward
+        const std::size_t step = forward ? 1 : count - 1;  // modulo `count`, adding count − 1 is a step backward
         std::size_t index = highlight->index;
         for (std::size_t i = 0; i < count && !found; ++i) {
             index = (index + step) % count;

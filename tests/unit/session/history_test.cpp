@@ -209,7 +209,8 @@ TEST(History, TurningByTheAngleZeroChangesNothing) {
     EXPECT_EQ(session, before);
 }
 
-// A record of an earlier version of the program may have such steps; so does one whose head differs by a camera move.
+// Sessions stored by earlier versions of the program may have steps that equal the current state. Other sessions may
+// have steps that differ from it only in the camera.
 TEST(History, StoredStepsMayEqualTheCurrentState) {
     Session session;
     press(session, "r");

@@ -84,7 +84,7 @@ TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
         EXPECT_EQ(names.contains(action), !row.value("client", false)) << action;
         unused.erase(action);
     }
-    // Actions that settings have without code of their own need no key.
+    // An action that the table of settings provides, and that has the name of a setting, needs no key.
     forEachSetting([&](const auto& setting) { unused.erase(setting.name.text); });
     EXPECT_TRUE(unused.empty()) << "no key has the action " << *unused.begin();
 }

@@ -134,7 +134,7 @@ TEST(Load, RefusesInvalidSurfaces) {
                   "at most 2 are allowed", Limits{.maxVertices = 2});
 }
 
-// What is exported is a surface again, with the coordinates of the file.
+// An exported surface is read as a surface again, with the coordinates of the original file.
 TEST(Load, ReadsASurfaceBack) {
     LoadObject load{"s", "off", "4OFF\n4 2 5\n0.1 0 0 0\n0 1 0 0.3\n0 0 1 -2\n1 1 1 1\n3 0 1 2\n3 2 1 3\n"};
     load.center = {geometry::Centering::OriginChoice::object};
@@ -191,7 +191,7 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
-    // Its elements coincide, which is found only when the polytope is built.
+    // The elements of this polytope coincide, which is found only when it is built.
     ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);

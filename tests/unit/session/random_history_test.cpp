@@ -237,8 +237,8 @@ bool isUndoOrRedo(const Command& command) {
 
 // --- Invariants
 
-// Moves through the history with `move`, at most `atMost` times, and returns the number of moves. Each must change the
-// state, but not the camera, and count once; after the last one, a refused one must change nothing.
+// Moves through the history with `move`, at most `atMost` times, and returns the number of moves. Each move must change
+// the state but not the camera, and increase the revision by one. If a move is refused, it must change nothing.
 std::size_t moveThrough(Session& session, Result<std::monostate> (*move)(Session&), std::size_t atMost) {
     for (std::size_t moves = 0;; ++moves) {
         if (moves == atMost) return moves;

@@ -33,7 +33,8 @@ TEST(SettingTable, SaysWhatAnotherObjectAndResetSetBack) {
 }
 
 TEST(SettingTable, ASettingChangesNoOther) {
-    // What else a setting may change. w of the focus point is that of the focus slice, and the slices span the object.
+    // For some settings: the other settings that they may change. w of the focus point is that of the focus slice, and
+    // the slices span the object.
     const std::map<std::string, std::set<std::string>, std::less<>> others{{"pace", {"spacing"}},
                                                                            {"follow", {"spacing"}},
                                                                            {"boost", {"spacing"}},

@@ -1,5 +1,5 @@
 #pragma once
-// A value of each setting, for tests that no setting is lost on a way.
+// A value of each setting, for tests that no setting is lost when a state is converted or sent.
 
 #include <algorithm>
 #include <cmath>
@@ -60,7 +60,8 @@ inline std::string lineText(const nlohmann::json& value) {
     return point;
 }
 
-/// Returns the first example of the schema, which is not the initial value, or the opposite of a default.
+/// Returns a value that is not the initial one: the first example of the schema or, without examples, the opposite of
+/// the default.
 inline nlohmann::json exampleOf(const SettingName& name) {
     const nlohmann::json schema = schemaOf(name);
     if (schema.contains("examples")) return schema.at("examples").at(0);
