@@ -48,8 +48,8 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
     overlay.text(x, baseline, size, placement.label, placement.focus ? style.focusText : style.text);
 }
 
-/// Adds what the values of a field measure, in the upper left corner of the histogram, unless it is longer than the
-/// histogram. A background plate keeps it legible.
+/// Adds the text HistogramAxes::quantity, which says what the values of a field measure, in the upper left corner of
+/// the histogram, on a plate that keeps it legible. Does nothing if the text is wider than the histogram.
 void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::Style& style,
                  Overlay& overlay) {
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));

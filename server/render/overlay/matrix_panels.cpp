@@ -62,7 +62,8 @@ class SectionPainter {
     }
 
   private:
-    // Draws the unit of an axis below its name, whose baseline has the middle `name`, unless it is wider than a panel.
+    // Draws the unit of an axis below the name of the axis, unless the unit is wider than a panel. `name`: the middle
+    // of the baseline of the name.
     void paintUnit(const std::string& unit, const glm::vec2& name, Color color) const {
         const int size = static_cast<int>(std::lround(kUnitHeight * scene_.matrix.panel * height_));
         if (unit.empty() || size < 1) return;

@@ -103,7 +103,8 @@ struct StartValues {
     __m256 u, v, halfRadius, nearness;
 };
 
-// Returns the values at two pixels of those functions that this form of patch has.
+// Returns the values of the functions of `paint` at the pixels (x1, y1) and (x2, y2); 0 for functions that this form of
+// patch does not need.
 template <Form form, DepthUse depth>
 OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, int y1, int x2, int y2) {
     const auto of = [&](const LinearFunction& f) OVAL4D_AVX2 {
@@ -156,8 +157,9 @@ struct PixelsOfTwoRows {
     }
 };
 
-// Draws eight pixels of a patch. `offsets`: how many columns they are to the right of those of `start`. `inside`: all
-// bits of a pixel are set if it is in the patch. The formulas are those of the fragment shader in shape_batch.cpp.
+// Draws eight pixels of a patch. `offsets`: how many columns each pixel is to the right of the pixel whose values are
+// in `start`. `inside`: all bits of a pixel are set if it is in the patch. The formulas are those of the fragment
+// shader in shape_batch.cpp.
 template <Form form, DepthUse depth, typename Pixels>
 OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading& paint, const Pixels& pixels,
                                    const StartValues& start, __m256i offsets, __m256 inside) {

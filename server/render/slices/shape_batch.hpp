@@ -42,10 +42,10 @@ inline constexpr float kNearPlane = 1e-3F;
 struct Patch {
     /// The form of the shape, and the parts of ShapeVertex::place in which the vertices differ.
     enum class Form : std::uint8_t {
-        face,   ///< a face: none
-        rim,    ///< a part of the soft edge of a face: place.z
-        strip,  ///< a bar without its foot (see ShapeBatch::addBarFromFarEnd()): place.x; place.y is 0
-        disk,   ///< a ball, or the foot of a bar: place.x and place.y
+        face,   ///< a face; no part differs
+        rim,    ///< a part of the soft edge of a face; place.z differs
+        strip,  ///< a bar without its foot (see ShapeBatch::addBarFromFarEnd()); place.x differs, and place.y is 0
+        disk,   ///< a ball, or the foot of a bar; place.x and place.y differ
     };
     std::uint32_t first, count;  ///< the index of the first vertex; the number of vertices
     Form form;

@@ -28,7 +28,7 @@ class SurfaceBatch {
     /// farther slices have about half of the triangles each.
     enum class DepthHalf : std::uint8_t { whole, near, far };
 
-    /// Collects the surfaces of a scene, or of its nearer or farther slices. opaqueIndices() then has the opaque
+    /// Collects the surfaces of a scene, or of its nearer or farther slices. Afterward, opaqueIndices() has the opaque
     /// surfaces, from the nearest slice to the farthest. If caps close a surface, opaqueIndices() omits the triangles
     /// of this surface that face away from the eye, because the surface hides them. translucentIndices() has the
     /// translucent surfaces, from the farthest slice to the nearest; within a slice, from the innermost level to the

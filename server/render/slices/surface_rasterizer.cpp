@@ -95,7 +95,7 @@ using IntLanes = std::array<std::int32_t, kLanes>;
 // first.
 struct alignas(32) TriangleSetup {
     FloatLanes baseP, baseQ;    // the first row whose center is not below p, or q
-    IntLanes rowP, rowQ, rowR;  // the first rows for p, q and r, clamped to beginRow … endRow
+    IntLanes rowP, rowQ, rowR;  // the first rows whose centers are not below p, q, r; clamped to beginRow … endRow
     // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
     FloatLanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
     // The factors of gradients. A quantity with the values a, b and c at the corners, in the order of the indices, has

@@ -70,8 +70,8 @@ TEST_P(ShapesInMemory, AreTheSameWithTwoThreads) {
     for (int i = 0; i < 4; ++i) EXPECT_EQ(subject.draw(two).pixels, expected.pixels);
 }
 
-// In the projection, OpenGL lets the edges of shapes hide what is behind them also where they cover less than half of a
-// pixel.
+// In the projection, OpenGL lets the edge of a shape hide what is behind it even in pixels of which the shape covers
+// less than half.
 INSTANTIATE_TEST_SUITE_P(
     All, ShapesInMemory,
     testing::Values(

@@ -113,7 +113,8 @@ scene::Look lookOf(const scene::Parts& parts, std::vector<double> levels, scene:
     return look;
 }
 
-// With OpenGL, the edges of bars hide translucent surfaces behind them also where they cover less than half of a pixel.
+// With OpenGL, the edge of a bar hides translucent surfaces behind it even in pixels of which the bar covers less than
+// half.
 INSTANTIATE_TEST_SUITE_P(
     All, SurfacesInMemory,
     testing::Values(
@@ -161,7 +162,7 @@ class Triangles : public testing::Test {
         surface = &picture.slices.surfaces.emplace_back();
     }
 
-    /// Adds a level. The next triangles belong to it. A level without an opacity of 1 is translucent.
+    /// Adds a level. The next triangles belong to it. A level with an opacity below 1 is translucent.
     void addLevel(scene::Color color, double opacity) {
         picture.scene.surfaces.levels.push_back({picture.scene.surfaces.levels.size(), color, opacity, false});
     }
