@@ -34,7 +34,7 @@ class Rasterizer {
     /// next call of draw() or freeMemory(). Throws std::runtime_error if drawing fails.
     virtual std::span<const std::uint8_t> draw(const PictureRequest& picture, DrawTimes& times) = 0;
 
-    /// Frees the memory that this object keeps between pictures, to draw the next one faster.
+    /// Frees the memory that this object keeps between pictures. The next picture takes longer to draw.
     virtual void freeMemory() = 0;
 };
 
@@ -77,7 +77,7 @@ class LocalRasterizer : public Rasterizer {
     Workspace workspace_;
 };
 
-/// Runs `work` and returns how many seconds it took. It is a template and does not take a std::function, which might
+/// Runs `work` and returns how many seconds it took. A template, because a parameter of the type std::function might
 /// allocate memory.
 template <typename Work>
 double measureSeconds(Work&& work) {
