@@ -63,8 +63,8 @@ class ActiveList {
 
     std::vector<UnsortedEntry> unsorted_;
     std::vector<Entry> sorted_, active_;
-    // Per hyperplane: the elements whose range begins at this hyperplane. Before sortByFirstHyperplane(), their number;
-    // afterward, the index in sorted_ at which they end.
+    // Per hyperplane: before sortByFirstHyperplane(), the number of elements whose range begins at this hyperplane;
+    // afterward, the index in sorted_ at which these elements end.
     std::vector<std::uint32_t> end_;
     // The numbers of elements that were added, that are active, and that have become active since
     // sortByFirstHyperplane().

@@ -290,9 +290,9 @@ void CellComplexSlicer::addFaceCrossing(const geometry::CellComplex& complex, st
             if (from == first && to == last) edge = found;
         }
         // In a complex without cells, whose 2-faces need not be flat, it is possible that no edge joins the two
-        // vertices; the slice then has no segment between them. In a complex with cells, this happens only by rounding
-        // errors, if the 2-face nearly lies in the hyperplane; the segment is then kept, because the section of a cell
-        // must be closed.
+        // vertices; if so, the slice has no segment between them. In a complex with cells, this happens only by
+        // rounding errors, if the 2-face nearly lies in the hyperplane; the segment is kept, because the section of a
+        // cell must be closed.
         if (edge == kNewEdge && complex.cells.size() == 0) edge = kNone;
     }
     faceCrossings_.push_back({plane, up, down, edge});
@@ -416,8 +416,9 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
 }
 
 // A 2-face in the hyperplane is a face of the slice if exactly one of its two cells stands on it, above the hyperplane,
-// or if one of its cells lies in the hyperplane, on top of the complex. The slice face then has the orientation of the
-// 2-face in this cell. If the complex only touches the hyperplane in this 2-face, the 2-face is the whole slice.
+// or if one of its cells lies in the hyperplane, on top of the complex. In both cases, the slice face has the
+// orientation of the 2-face in this one cell. If the complex only touches the hyperplane in this 2-face, the 2-face is
+// the whole slice.
 void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);

@@ -52,8 +52,8 @@ std::size_t elementCount(const Object& object, ElementKind kind);
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
 /// Returns the rotation by the smallest angle that, applied after `orientation`, turns the direction of the element to
-/// +w. The direction of the element is the result of directionOf(), to which the direction that `orientation` alone
-/// turns to +w is passed as `preferred`. Requires element.index < elementCount(object, element.kind).
+/// +w. The direction of the element is the result of directionOf(), where `preferred` is the direction that
+/// `orientation` turns to +w. Requires element.index < elementCount(object, element.kind).
 geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
 /// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
@@ -105,8 +105,8 @@ struct ElementMeasurements {
     /// polyhedron encloses n times counts n times.
     std::optional<double> area, volume;
     glm::dvec4 center{0};  ///< the mean of the element's vertices
-    /// Of the length, the area or the volume of an element of a field's box: the product of the units of the axes along
-    /// which the element extends. Empty if one of these is unknown, and for all other objects.
+    /// The unit of the length, area or volume, for an element of a field's box: the product of the units of the axes
+    /// along which the element extends. Empty if one of these is unknown, and for all other objects.
     std::string unit;
 };
 

@@ -59,8 +59,8 @@ void visitSurface(Archive& archive, Surface& surface) {
     for (auto* array : {&surface.faces, &surface.faceEdges}) visitArray(archive, *array);
 }
 
-// Writes samples inline or, if they are in a file and too many for that (see writeObjectContent()), the index of their
-// file and their place in this file.
+// Writes samples inline or, if they are in a file and exceed the limit for inline samples (see writeObjectContent()),
+// the index of their file and their place in this file.
 class SampleWriter {
   public:
     SampleWriter(ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory)

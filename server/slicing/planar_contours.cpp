@@ -15,9 +15,9 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Returns where a function that is linear from p to q is 0, given its values `a` and `b` there, one of which is
-// negative and the other is not. The result does not depend on the order of the two ends, so both cells at the sides of
-// a segment find the same point. If a value is infinite, returns the middle.
+// Returns where a function that is linear from p to q is 0, given its values, `a` at p and `b` at q, exactly one of
+// which is negative. The result does not depend on the order of the two ends, so both cells at the sides of a segment
+// find the same point. If a value is infinite, returns the middle.
 glm::dvec2 zeroOnSegment(glm::dvec2 p, glm::dvec2 q, double a, double b) {
     if (std::tie(q.x, q.y) < std::tie(p.x, p.y)) {
         std::swap(p, q);
@@ -202,7 +202,8 @@ void PlanarContourTracer::addSegments(std::span<const std::uint32_t> corners, do
     // If there are more than two crossings, corners below the level alternate with corners above it. The value in the
     // middle decides which of them are connected within the cell: in a square, the value at the saddle point of the
     // bilinear interpolation (G. M. Nielson and B. Hamann, "The asymptotic decider", 1991), else the mean of all
-    // corners. Segments separate each run of the other corners from the middle.
+    // corners. For each run of successive corners on the other side of the level than the middle, a segment separates
+    // the run from the middle.
     double middle = sum;
     if (corners.size() == 4 && crossings_.size() == 4) {
         const auto value = [&](std::size_t i) { return values_[corners[i]] - level; };

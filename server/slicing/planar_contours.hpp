@@ -46,13 +46,13 @@ using MatrixContours = std::array<PlanarContours, kPlaneAxes.size()>;
 /// The least and the greatest number of lattice squares along the side of a panel.
 inline constexpr double kMinContourSquares = 8, kMaxContourSquares = 160;
 
-/// The maximum number of points of the contours in one plane. If there were more, the lattice would be made coarser,
-/// but not coarser than a quarter of kMaxContourSquares.
+/// The maximum number of points of the contours in one plane. If there are more, the lattice is made coarser, as long
+/// as it has more than a quarter of kMaxContourSquares along the side of a panel.
 inline constexpr std::size_t kMaxContourPoints = 20'000;
 
 /// Returns the maximum time to evaluate a field at the lattice points of all six planes together, in nanoseconds, as
-/// ScalarFunction::cost() estimates it: a tenth of the time for surfaces. If the lattices had too many points, they
-/// would be made coarser, but not coarser than kMinContourSquares.
+/// ScalarFunction::cost() estimates it: a tenth of the time for surfaces. If the lattices have too many points for this
+/// time, they are made coarser, down to kMinContourSquares along the side of a panel.
 constexpr double maxContourTime(Quality quality) { return 0.1 * surfaceLimits(quality).time; }
 
 /// Returns the lattice step of the contours of `field`, in the units of the object, for panels whose sides have the
@@ -66,8 +66,9 @@ class PlanarContourTracer {
     /// Finds the contours of `levels` of `field`, rotated by `orientation`, in the six planes through `point`, whose
     /// coordinates are those after the rotation. The function is evaluated only in the domain: at the points of a
     /// square lattice with the step `step`, and where the sides of its squares meet the boundary of the domain. Between
-    /// these points, it is interpolated linearly. No line passes a square at a corner of which the function has no
-    /// value. In drafts, contours may lack details of the function that are smaller than the step. Overwrites `out`.
+    /// these points, it is interpolated linearly. No line passes through a square if the function has no value at one
+    /// of its corners. In drafts, contours may lack details of the function that are smaller than the step. Overwrites
+    /// `out`.
     void trace(const fields::Field& field, const geometry::Rotation& orientation, const glm::dvec4& point,
                std::span<const double> levels, double step, Quality quality, MatrixContours& out);
 

@@ -22,8 +22,8 @@ unsigned bitsOf(const Values& values, Condition condition) {
     return bits;
 }
 
-// Even permutations of the corners of a tetrahedron: kWithFirst[i] begins with corner i, and kWithFirstTwo contains one
-// for each unordered pair of first corners.
+// Even permutations of the corners of a tetrahedron: kWithFirst[i] begins with corner i, and kWithFirstTwo contains,
+// for each unordered pair of corners, one that begins with this pair.
 using CornerPermutation = std::array<std::uint8_t, 4>;
 constexpr std::array<CornerPermutation, 4> kWithFirst{{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
 constexpr std::array<CornerPermutation, 6> kWithFirstTwo{

@@ -122,7 +122,7 @@ class PartMatching {
   private:
     using HasPartner = std::vector<bool>;  // per part: whether it has a partner
 
-    // Counts the components that have no partner, without those that are too small (see SectionCutter::isSmall()).
+    // Returns the number of components that have no partner and are not too small (see SectionCutter::isSmall()).
     std::size_t count(const SurfaceParts& parts, const HasPartner& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {
@@ -290,8 +290,8 @@ class CriticalSearch {
         return result;
     }
 
-    // `surface` is the section at `w`. Searches for critical points near those of its points where it is most nearly
-    // tangent to the hyperplane. Sets `best` to the w of the critical point that is nearest to the middle of the
+    // `surface` is the section at `w`. Searches for critical points near the points of `surface` at which it is most
+    // nearly tangent to the hyperplane. Sets `best` to the w of the critical point that is nearest to the middle of the
     // interval of the change, unless `best` is already nearer.
     void searchNearTangentPoints(const TopologyChange& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {

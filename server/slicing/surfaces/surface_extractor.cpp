@@ -23,7 +23,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Distances in lattice steps. A point within kOnWall of a wall counts as on the wall. Points are moved onto walls by at
 // most kMostMoved along each axis. The layers of points that layOutLattice() adds around the domain must be thicker
-// than this.
+// than kMostMoved.
 constexpr double kOnWall = 1e-6, kMostMoved = 1.5;
 
 /// Returns the least float that is not less than `value`. A float is less than this result if and only if it is less
@@ -94,7 +94,7 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
         out.clear();
 }
 
-// Extracts the surfaces with a lattice step of at least `step`. Returns false if there are too many points, and the
+// Extracts the surfaces with a lattice step of at least `step`. Returns false if there are too many points and the
 // lattice can still become coarser.
 bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                   const Options& options, SliceSurface& out) {
@@ -415,7 +415,7 @@ std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level)
     return static_cast<std::uint8_t>(corners);
 }
 
-// Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points, and the
+// Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points and the
 // lattice can still become coarser.
 bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
     // Describes a row of lattice points along x. Each member has a byte for each of the four cubes along the row, and

@@ -147,7 +147,7 @@ class SurfaceExtractor {
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
     double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
     glm::ivec3 base_{0};                            // the coordinates of lattice point (0, 0, 0), in lattice steps
-    glm::ivec3 blockCount_{0};                      // along each axis, including an inactive one at its upper end
+    glm::ivec3 blockCount_{0};                      // blocks along each axis, with an inactive one at its upper end
     glm::ivec3 points_{0};                          // the numbers of lattice points along each axis
     std::array<std::uint32_t, 8> cornerOffsets_{};  // the indices of a cube's corners, relative to corner 0
     std::size_t capacity_ = 0;                      // the size of each of the next three arrays

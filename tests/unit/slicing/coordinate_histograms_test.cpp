@@ -144,7 +144,7 @@ TEST(CoordinateHistograms, ShowsTheDomainInAFrameOfReference) {
     EXPECT_NEAR(longer.reach()[3], 2, 1e-12);
     EXPECT_NEAR(longer.reach()[0], 1, 1e-12);
     EXPECT_EQ(valuesAlong(longer, 3), valuesAlong(histogramOf(field), 3));
-    // x' = x − w / 2 reaches from −1.5 to 1.5, and is the closer to −w / 2 the nearer it is to its ends.
+    // x' = x − w / 2 reaches from −1.5 to 1.5, and differs from −w / 2 by at most 1.
     const CoordinateHistograms sheared = histogramOf(fields::transformedTo(field, {.follow = {0.5, 0, 0}}, 72));
     EXPECT_NEAR(sheared.reach()[0], 1.5, 1e-12);
     for (int column = 0; column < kPanel; ++column) {

@@ -196,7 +196,8 @@ TEST(ElementsCutBy, LieInTheHyperplaneOrOnBothSides) {
     const auto countAt = [&](double w, ElementKind kind) {
         return std::ranges::count(elementsCutBy(tesseract, kind, {}, {0, 1, 1, w}), true);
     };
-    // All elements of the cell w = 1 are cut; those that only touch it are not.
+    // The hyperplane w = 1 cuts all elements of the cell that it contains. Elements that only touch the hyperplane are
+    // not cut.
     struct {
         ElementKind kind;
         std::ptrdiff_t atOne, atZero;

@@ -170,7 +170,6 @@ TEST(FieldSlicer, TheTigersSlicesHaveTheRightTopology) {
     }
 }
 
-// The same sphere as inside and as outside of a level, and under two levels at the same time.
 // The hyperplane z + s x = 1 meets the wall z = 1 in x = 0, at an angle that may be small. The lattice may have any
 // position.
 TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
@@ -179,7 +178,7 @@ TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
         const auto f = [slope](const glm::dvec4& p) { return p.z + slope * p.x - 1; };
         const fields::Field field = testField(f, 1 + slope, {glm::dvec4(-1), glm::dvec4(1)});
         for (int trial = 0; trial < 4; ++trial) {
-            // Turned within the slices, so that each contains the whole rim.
+            // These rotations do not change w, so the slice w = 0 contains the whole rim.
             const geometry::Rotation orientation =
                 geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.3 + trial, {}}) *
                 geometry::Rotation(geometry::Turn{geometry::Plane::xz, 0.8 * trial, {}}) *
@@ -205,6 +204,7 @@ TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
     }
 }
 
+// The same sphere bounds the body inside a level, the body outside it, and one of two bodies at the same time.
 TEST(FieldSlicer, LevelsAreIndependentOfEachOther) {
     const auto ball = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2", {glm::dvec4(-1), glm::dvec4(1)});
     ASSERT_TRUE(ball);
@@ -297,8 +297,8 @@ TEST(FieldSlicer, HeatIsWarmerThanALevelInABallOfKnownRadius) {
     }
 }
 
-// The second function is that of the field's own point: the point of the slice, rotated back. This also holds in a
-// frame of reference, on caps, and for each level.
+// The second function is evaluated at the field's own points: the points of the slice, rotated back. This also holds in
+// a frame of reference, on caps, and for each level.
 TEST(FieldSlicer, SecondValuesAreThoseOfTheFieldsOwnPoints) {
     std::mt19937 random(21);
     const auto field = fields::fieldFromFormula(

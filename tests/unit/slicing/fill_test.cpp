@@ -141,7 +141,8 @@ TEST(FaceFiller, LeavesAHoleBetweenOppositeLoops) {
     EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 16, 1e-8);
 }
 
-// A comb of which each tooth has another length: most strips contain many pieces, and all but one of them continue.
+// A comb whose teeth all have different lengths: most strips contain many pieces, and all but one piece continue into
+// the next strip.
 TEST(FaceFiller, ContinuesThePiecesOfACombInEachStrip) {
     constexpr int kTeeth = 60;
     std::vector<glm::dvec2> comb{{2.0 * kTeeth - 1, 0.0}};

@@ -44,7 +44,8 @@ void expectSlice(const SliceSet& all, int i, const SliceSet& one) {
 }
 
 void expectListedSlices(const Object& object, const geometry::Rotation& orientation) {
-    // In any order; beyond the object, close together, and through the middle.
+    // The hyperplanes are in no order: one is beyond the object, two are close together, and one goes through the
+    // middle.
     const double r = infoOf(object).circumradius;
     const std::vector<double> listed{0.3 * r, -0.7 * r, 2 * r, 0, 0.3 * r + 1e-4 * r};
     const geometry::Hyperplanes planes{0, 5, 0.2 * r, 0, listed};

@@ -147,8 +147,8 @@ TEST(PlanarContours, OfATigerLieOnItInAllRotations) {
     }
 }
 
-// The contour of a linear function is the chord of the domain in which it has the value. Only values in the domain are
-// used.
+// The contour of a linear function is the chord of the domain on which the function equals the level. The function is
+// evaluated only in the domain.
 TEST(PlanarContours, OfALinearFunctionAreChordsOfTheDomain) {
     std::mt19937 random(43);
     std::uniform_real_distribution<double> part(-0.4, 0.4);

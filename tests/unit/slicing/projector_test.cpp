@@ -105,7 +105,7 @@ TEST(Projector, ProjectsAlongLinesThroughTheEye) {
         ASSERT_EQ(all.parts.vertices.size(), p.vertices.size());
         for (std::size_t v = 0; v < p.vertices.size(); ++v) {
             const glm::dvec4 point = turn(p.vertices[v]), image(all.parts.vertices[v], 0);
-            // From the image to the point one goes parallel to w, or away from the eye.
+            // The line through the image and the point is parallel to w or, in perspective, runs through the eye.
             const glm::dvec4 way = point - image;
             const glm::dvec4 ray = distance > 0 ? image - glm::dvec4(0, 0, 0, 1 / inverse) : glm::dvec4(0, 0, 0, 1);
             EXPECT_NEAR(std::abs(glm::dot(way, ray)), glm::length(way) * glm::length(ray), 1e-9);

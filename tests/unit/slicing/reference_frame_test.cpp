@@ -109,7 +109,7 @@ TEST(ReferenceFrames, VerticesOfSlicesLieOnTheImagesOfTheirEdges) {
     }
 }
 
-// What depends on the vertices and is not computed anew for an image.
+// Compares the properties that depend on the vertices, but that transformedTo() does not compute anew.
 TEST(ReferenceFrames, ImagesHaveThePropertiesOfPolytopesBuiltFromTheirVertices) {
     std::mt19937 random(32);
     for (const char* name : {"8-cell", "24-cell", "rectified 600-cell", "3,5-duoprism", "grand 600-cell"}) {

@@ -56,8 +56,8 @@ ClosedSurface exactSlice(ClosedSurfaceSlicer& slicer, double w, double level, In
 }
 
 // The part of a simplex in which a linear function is below the level. An edge between a corner `below` and one above
-// is cut where the function has the value of the level, which divides the simplex in two; their shares are the parts of
-// the edge.
+// is cut where the function has the value of the level, which divides the simplex in two; the volumes of both parts are
+// proportional to the lengths of the parts of the edge.
 double shareBelow(std::vector<double> below, std::vector<double> above, double level) {
     if (above.empty()) return 1;
     if (below.empty()) return 0;
@@ -73,8 +73,8 @@ struct Cut {
     std::vector<double> values;
 };
 
-// The simplices of the subdivision of an array's lattice, found from the definition: x ↦ the order of its fractional
-// parts. Simplices with a corner without a value are left out.
+// The simplices of the subdivision of an array's lattice, found from the definition: the points of a cell whose
+// fractional coordinates have the same order form a simplex. Simplices with a corner without a value are left out.
 std::vector<Cut> simplicesOf(const fields::Field& field, const geometry::Rotation& orientation) {
     std::vector<Cut> simplices;
     const fields::Shape shape = field.array->shape();
@@ -203,7 +203,7 @@ TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
     EXPECT_GT(triangles, 100'000U);
 }
 
-// What is below a level and what is above it fill the domain together.
+// The body below a level and the body above it together fill the domain.
 TEST(ClosedSurfaceSlicer, BothSidesOfALevelFillTheDomain) {
     std::mt19937 random(32);
     const fields::Field field = randomArray({4, 5, 3, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
