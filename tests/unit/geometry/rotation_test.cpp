@@ -173,7 +173,7 @@ TEST(Rotation, betweenTwoDirectionsIsTheShortestOne) {
         const double angle = std::acos(std::clamp(glm::dot(glm::normalize(from), glm::normalize(to)), -1.0, 1.0));
         EXPECT_NEAR(rotation.largerAngle(), angle, 1e-7);
         if (i % 10 <= 1) continue;  // the plane is not unique, or lost to rounding
-        // What is perpendicular to both directions stays.
+        // A vector that is perpendicular to both directions does not change.
         const glm::dvec4 a = glm::normalize(from);
         const glm::dvec4 b = glm::normalize(glm::normalize(to) - glm::dot(a, glm::normalize(to)) * a);
         const glm::dvec4 v = vector();
