@@ -246,7 +246,7 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene, slicing::Quality::file);
     if (element) scene.look.highlight = element;  // set only now, because compose() would color the element differently
     // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
-    // also shows the focus point, as this view does.
+    // also shows the focus point, as the view `matrix` does.
     if (isSquare && state.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
     auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {

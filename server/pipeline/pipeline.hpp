@@ -77,8 +77,8 @@ class Pipeline {
     /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp()).
     void warmUp() { rasterizer_->warmUp(); }
 
-    /// Frees cached memory, of which the pipeline otherwise keeps as much as the largest picture needed. Call this when
-    /// the pipeline is idle, because allocating the memory again takes a few milliseconds.
+    /// Frees the memory that the pipeline keeps for the next picture, which is as much as the largest picture needed.
+    /// Call this when the pipeline is idle, because allocating the memory again takes a few milliseconds.
     void freeMemory();
 
     /// Returns the times of the last calls. slice() and drawPng() first set all times to 0; writeSlices() replaces
