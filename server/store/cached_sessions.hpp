@@ -40,7 +40,7 @@ struct CachedSession {
     SessionCredentials credentials;
     Fence fence = kFirstFence;
     PendingChanges pending;
-    bool changed = false;        ///< whether the session has changes that are not in `pending` yet, but soon will be
+    bool changed = false;        ///< whether the session has changed since the last WriteBehindStore::save()
     bool everSaved = false;      ///< whether the session has ever been in the store
     bool queued = false;         ///< whether the session is in the queue of CachedSessions
     bool inFlight = false;       ///< whether the session is being written
@@ -54,7 +54,7 @@ class CachedSessions {
   public:
     /// Adds a session that has never been in the store.
     void add(const SessionCredentials& credentials) { sessions_[credentials.id].credentials = credentials; }
-    /// Adds a session that another server, or this one, has stored.
+    /// Adds a session that is in the store, and that this server has claimed with this fence.
     void addStored(const SessionCredentials& credentials, Fence fence);
 
     bool contains(const std::string& id) const { return sessions_.contains(id); }

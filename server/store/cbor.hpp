@@ -28,8 +28,8 @@ std::string encodeCbor(const nlohmann::json& value);
 /// nested too deeply.
 nlohmann::json parseRecord(std::string_view bytes);
 
-/// Throws UnreadableRecord if the array has more than `known` members. Only a later version of this program can have
-/// stored it; if it were read, what this version does not know would be lost when the session is stored again.
+/// Throws UnreadableRecord if the array has more than `known` members. Only a later version of this program stores such
+/// an array. If this version read it, the unknown members would be lost when it stores the session again.
 void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
 /// Calls `read` and returns its result. Converts exceptions of the JSON library to UnreadableRecord.

@@ -29,7 +29,7 @@ namespace {
 using nlohmann::json;
 using polytopes::Polytope;
 
-constexpr double kMaxCoordinate = 1e15;  // the limit for vertices, points and origins
+constexpr double kMaxCoordinate = 1e15;  // of vertices, points and origins, as an absolute value
 
 json rows(const geometry::JaggedArray& array) {
     json list = json::array();
@@ -97,7 +97,7 @@ fields::Quantity quantityIn(const json& value) {
     return {readQuantityText(value.at(0)), readQuantityText(value.at(1))};
 }
 
-// Returns whether the unit of an axis, or what the values of an array measure, is known.
+// Returns whether the unit of at least one axis, or the quantity of at least one array, is known.
 bool hasQuantities(const fields::Field& field) {
     return field.quantity.isKnown() || (field.second && field.second->quantity.isKnown()) ||
            std::ranges::any_of(field.units, [](const std::string& unit) { return !unit.empty(); });
@@ -214,12 +214,12 @@ struct RecordCodec<slicing::FieldPtr> {
     static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7, kLengthWithQuantities = 9;
     static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond, kLengthWithQuantities};
 
-    // [version, name, file in the data folder] or [version, name, formula or samples, box, shape]. The shape of a
-    // formula is an empty array. If there is a second function, two members follow: this function, and the text
-    // "field", without which the record would have the length of a polytope's record. If a unit or a quantity is known,
-    // which only arrays have, these two members are there in any case, the first of them null if there is no second
-    // function. Then follow [units of x, y, z and w], with the quantity of the values as a fifth element, and the
-    // quantity of the second function; see encoded(const fields::Quantity&).
+    // Without optional members: [version, name, file in the data folder] or [version, name, formula or samples, box,
+    // shape]. The shape of a formula is an empty array. If there is a second function, two members are added: this
+    // function, and the text "field", without which the record would have the length of a polytope's record. If a unit
+    // or a quantity is known, which only arrays have, four members are added: the second function or null, the text
+    // "field", [units of x, y, z and w, quantity of the values], and the quantity of the second function; see
+    // encoded(const fields::Quantity&).
     static json encode(const fields::Field& field) {
         if (field.source) return json({kRecordVersion, field.name, encoded(*field.source)});
         const fields::Box& box = field.array ? field.array->box() : field.box;

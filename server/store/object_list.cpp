@@ -62,9 +62,10 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         transformed_, [&](const TransformedObject& image) { return image.source == source && image.frame == frame; });
     if (known != transformed_.end()) return known->image;
-    // A transformed object counts as at least one vertex for each kBytesOfVertex bytes, the memory of a vertex with its
-    // share of the other elements, because a record may list few vertices, but many 2-faces. The samples of an array do
-    // not count, because all transformed objects share them.
+    // Besides its vertices, the memory of a transformed object is limited, because a record may list few vertices, but
+    // many 2-faces: the object counts as at least one vertex for each kBytesOfVertex bytes, the typical memory of a
+    // vertex and its share of the other elements. The samples of an array do not count, because all transformed objects
+    // share them.
     constexpr std::size_t kBytesOfVertex = 100;
     const std::size_t vertices = std::max(slicing::elementCounts(source)[0], memoryOfImage(source) / kBytesOfVertex);
     if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");

@@ -111,8 +111,8 @@ std::string textOf(const redisReply& reply) {
     return reply.str == nullptr ? std::string() : std::string(reply.str, reply.len);
 }
 
-// Returns whether an error says that Redis has no memory for what a script writes, or that a key has a value of another
-// type. Redis answers other requests of the same connection then.
+// Returns whether an error says that Redis has no memory for what a script writes, or that the value of a key has the
+// wrong type. After these errors, Redis still answers other requests on the same connection.
 bool isRefusedWrite(std::string_view error) { return error.starts_with("OOM ") || error.starts_with("WRONGTYPE "); }
 
 template <typename Number>
@@ -179,7 +179,8 @@ void RedisStore::connect() {
 }
 
 // Sets plainUntil_, the time until which tokens are also stored as plain text, for oval4d servers of version 0.1.0 on
-// the same Redis: when such servers were first noticed, plus the expiry period; a time in the past if there are none.
+// the same Redis: the time at which such servers were first noticed, plus the expiry period. If there are no such
+// servers, sets a time in the past.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});

@@ -13,8 +13,8 @@ namespace oval4d::store {
 
 /// Stores each session in one Redis hash and its objects in another; Redis itself expires both. Operations that must be
 /// atomic are Lua scripts, such as a claim, which increments the fence, and a save, which compares the fence. Each
-/// server has a Redis list, to which other servers add the ids of the sessions that they claim from this server. An id
-/// in the list is out of date if this server has claimed the session back in the meantime; the fence in the record
+/// server has a Redis list, to which other servers add the ids of the sessions that they claim from this server. If
+/// this server has claimed a session back in the meantime, the id in its list is out of date; the fence in the record
 /// shows that. Requires Redis 7 or later.
 class RedisStore final : public Store {
   public:

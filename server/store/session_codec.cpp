@@ -30,7 +30,7 @@ std::uint64_t revisionIn(const json& value) {
     return revision;
 }
 
-/// Returns the encoding of the last states, at most `maxCount`.
+/// Returns the encoding of the last `maxCount` states, or of all states if there are fewer.
 template <typename States>
 json history(const States& states, std::size_t maxCount, ObjectListEncoder& objects) {
     json list = json::array();

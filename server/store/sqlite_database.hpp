@@ -36,8 +36,8 @@ class Database {
     void run(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
     std::int64_t queryNumber(const char* sql);
-    /// Keeps the write-ahead log file when the connection closes. Must be called before a damaged file and its log are
-    /// renamed.
+    /// Makes the destructor keep the write-ahead log file; without this call, it writes the log to the database file
+    /// and deletes the log. Must be called before a damaged file and its log are renamed.
     void keepWriteAheadLog();
 
   private:

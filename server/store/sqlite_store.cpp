@@ -20,7 +20,7 @@ constexpr std::int64_t kMaxReleasedPages = 1024;  // maximum number of pages tha
 constexpr std::size_t kMaxListedIds = 20;         // maximum number of ids in a line of the log
 
 // Returns the maximum number of pages of the database file: three quarters of the quota. The rest is for the
-// write-ahead log, which may contain the pages that trigger a checkpoint and, in addition, those of one transaction.
+// write-ahead log, which may grow to the size that triggers a checkpoint, plus the pages of one transaction.
 std::int64_t maxPagesFor(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
 /// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
@@ -75,7 +75,7 @@ SqliteStore::SqliteStore(std::string path, std::size_t quota, ClockFunction<Cloc
     spdlog::info("store opened store={} sessions={}", name(), size_);
 }
 
-/// Returns the current time, as records contain it: in milliseconds since 1970.
+/// Returns the current time in milliseconds since 1970, like the times in records.
 std::int64_t SqliteStore::nowMilliseconds() const {
     return std::chrono::duration_cast<Milliseconds>(now_().time_since_epoch()).count();
 }
@@ -176,8 +176,8 @@ void SqliteStore::migrate() {
         database_->run("PRAGMA foreign_keys = ON");
         spdlog::info("store migrated to version {} store={}", kSchemaVersion, name());
     }
-    // Erase the plain-text tokens from free pages and from the write-ahead log. VACUUM also makes auto_vacuum
-    // incremental, which shows later that VACUUM has succeeded.
+    // Erase the plain-text tokens from free pages and from the write-ahead log. A new value of auto_vacuum takes effect
+    // only with VACUUM, so later the value `incremental` shows that VACUUM has succeeded.
     constexpr std::int64_t kIncremental = 2;
     if (database_->queryNumber("PRAGMA auto_vacuum") != kIncremental) {
         database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
@@ -222,8 +222,8 @@ void SqliteStore::replaceDamagedFile(const std::string& why) {
     }
 }
 
-/// Logs the sessions whose records do not match their digests. check() does not detect these, because the integrity
-/// check of the pages does not detect bit errors within a record. The damaged records are kept for inspection.
+/// Logs the sessions whose records do not match their digests. check() does not detect them, because SQLite's integrity
+/// check does not notice bit errors within a record. The damaged records are kept for inspection.
 void SqliteStore::logDamagedRecords() {
     std::set<std::string> damaged;
     Statement statement(

@@ -15,8 +15,9 @@ namespace oval4d::store {
 /// the latest commits, but does not damage the file.
 ///
 /// Records contain digests, and the whole file is checked when it is opened. If damaged pages are found at that time or
-/// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. A
-/// damaged record on intact pages is left unchanged. Damage of either kind is logged.
+/// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. If a
+/// record does not match its digest, but its page is intact, the record is left unchanged. Both damaged pages and
+/// damaged records are logged.
 class SqliteStore final : public Store {
   public:
     using Clock = std::chrono::system_clock;  ///< the wall clock, because records outlive the process

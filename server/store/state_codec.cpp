@@ -247,8 +247,8 @@ class StateReader : public MemberReader {
 // as those that the server enforces for clients. Without them, a damaged record could produce, for example, a state
 // with a million slices instead of an error.
 
-// Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, they may
-// exceed these limits by this fraction.
+// Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, each may
+// exceed its limit by this fraction.
 constexpr double kSlack = 1e-9;
 
 void check(const session::HyperplaneSettings& slices, double circumradius) {

@@ -49,8 +49,8 @@ struct Record {
 struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
-    std::string head;   ///< as in Record; not empty if `whole` is empty
-    std::string whole;  ///< empty if unchanged; otherwise, even an empty `head` is saved
+    std::string head;   ///< replaces Record::head, even if it is empty; must not be empty if `whole` is
+    std::string whole;  ///< replaces Record::whole, unless it is empty
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
     bool closed = false;                                       ///< whether no client has the session open anymore
@@ -123,12 +123,13 @@ class Store {
     /// the quota.
     virtual std::vector<SaveResult> save(std::span<const RecordUpdate> updates) = 0;
 
-    /// Returns whether the session with this id must not be evicted.
+    /// A function that returns whether the session with this id must not be evicted.
     using IsPinned = std::function<bool(const std::string& id)>;
     /// Called after save() has thrown NotWritable. Evicts sessions that are not pinned until `updates` fit within the
     /// quota, and returns the number of evicted sessions. Evicts first the sessions that were never changed, then those
-    /// whose expiry period began first. Evicts none if that would not help: if the updates already fit, because the
-    /// save then failed for another reason, such as a full disk; or if they do not fit beside the pinned sessions.
+    /// whose expiry period began first. Evicts none if the updates already fit, because save() then failed for another
+    /// reason, such as a full disk. Evicts none, either, if the updates would not fit even if only the pinned sessions
+    /// were left.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
     /// Removes sessions, except those that another server has claimed.

@@ -196,8 +196,8 @@ WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
 }
 
 void WriteBehindStore::runThread() {
-    // Whether the last thing done was a request. If a write or a poll is due, it then comes before the next request, so
-    // that clients that request many sessions, or sessions that do not exist, do not keep changes from being written.
+    // Whether a request was executed since the last write or poll. If so, a write or a poll that is due comes before
+    // the next request. Without this rule, clients that request many sessions could keep changes from being written.
     bool isOthersTurn = false;
     std::unique_lock lock(mutex_);
     for (;;) {

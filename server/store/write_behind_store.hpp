@@ -26,10 +26,10 @@ namespace oval4d::store {
 /// cache's own thread uses the store. If several changes to a session are pending, the cache writes only the newest
 /// state.
 ///
-/// The store counts as unavailable after a failed operation, such as a write for which it has no room, until its
-/// operations succeed again. While the store is unavailable, changes wait in memory, and no caller waits for the store;
-/// the cache retries with growing pauses (exponential backoff). If the store is full, sessions that no client has open
-/// are evicted from it. If the store is unavailable and the closed sessions in memory take more than
+/// The store counts as unavailable after a failed operation, such as a write to a full store, until its operations
+/// succeed again. While the store is unavailable, changes wait in memory, and no caller waits for the store; the cache
+/// retries with growing pauses (exponential backoff). If the store is full, sessions that no client has open are
+/// evicted from it. If the store is unavailable and the closed sessions in memory take more than
 /// `WriteBehindSettings::quota`, some of them are evicted from memory. An open session is never evicted.
 ///
 /// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or on the thread that calls a function
@@ -86,8 +86,9 @@ class WriteBehindStore {
     /// caller must decode it, and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
     void claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
-    /// Returns whether this server still owns the session that it has created or fetched with this fence, as far as it
-    /// knows. If another server claims it later, Listener::claimed is called after this function has returned.
+    /// Returns whether, as far as the cache knows, this server still owns the session that it has created or fetched
+    /// with this fence. If the cache learns later that another server has claimed the session, it calls
+    /// Listener::claimed, and not before this function has returned.
     bool owns(const std::string& id, Fence fence) const;
 
     /// Records which objects of a fetched session the store already has, so that they are not written again.
@@ -100,8 +101,8 @@ class WriteBehindStore {
     /// Queues the whole session for writing, or only its current state (SaveScope::head). `fence`: the fence with which
     /// the caller has created or fetched the session. Calls `written(true)` when the session is stored, or at once if
     /// the store is unavailable, so that clients need not wait. Calls `written(false)` if the session will never be
-    /// stored: because it was removed or evicted, or because another server has taken it over, even if this server has
-    /// fetched it again since.
+    /// stored, because it was removed or evicted, or because another server has taken it over. In the last case,
+    /// `fence` is out of date, even if this server has fetched the session again.
     void save(const std::string& id, Fence fence, session::Session value, SaveScope scope, SaveCallback written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
