@@ -1,6 +1,6 @@
 #pragma once
-// The interface of the writers of binary encodings. The interface chooses the type of each array of numbers; a writer
-// only writes the array.
+// The base class of the writers of binary encodings. It chooses the type of each array of numbers; a derived writer
+// only encodes the array.
 
 #include <cstddef>
 #include <cstdint>

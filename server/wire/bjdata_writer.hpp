@@ -26,7 +26,7 @@ class BjdataWriter final : public BinaryWriter {
     void beginArray() override { buffer_.put('['); }
     void endArray() override { buffer_.put(']'); }
     void key(std::string_view name) override {
-        value(std::uint64_t{name.size()});  // with the marker U if this fits into a byte
+        value(std::uint64_t{name.size()});  // begins with the marker U if the size is at most 255
         buffer_.put(name);
     }
 

@@ -29,7 +29,7 @@ class FogWriter {
     void addWalls(const slicing::SliceFog& fog);
 
     std::vector<glm::dvec4> walls_;
-    std::vector<std::uint32_t> wallCounts_, sizes_;  // of each slice: the number of walls; x, y, z of SliceFog::size
+    std::vector<std::uint32_t> wallCounts_, sizes_;  // of each slice: the number of walls; x, y and z of SliceFog::size
     std::vector<glm::dvec3> mins_;
     std::vector<double> steps_;
     std::vector<std::uint8_t> values_;

@@ -144,8 +144,8 @@ std::size_t lengthOfWord(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::find_if_not(text, inWord) - text.begin());
 }
 
-// Returns the text with null in place of each number that is NaN, ±Infinity or too large, outside of strings. Takes
-// time linear in the length of the text, which may come from an attacker.
+// Returns the text with null in place of each word outside of strings that is NaN, ±Infinity or a number too large for
+// a double. Takes time linear in the length of the text, which may come from an attacker.
 std::string withNulls(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {

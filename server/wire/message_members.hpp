@@ -44,7 +44,7 @@ inline void writeCountMembers(JsonWriter& w, const ElementCounts& counts) {
     w.member("cells", counts[3]);
 }
 
-/// Writes one value as JSON: of a setting, or of a member that occurs in messages of several types.
+/// Writes as JSON the value of a setting, or of a member that occurs in messages of several types.
 template <typename Number>
 void writeValue(JsonWriter& w, const Number& number) {
     w.value(number);

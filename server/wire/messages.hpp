@@ -1,6 +1,6 @@
 #pragma once
 // Writes the messages from the server to clients, except `slices` and `state`, as JSON text. `id` is the id of the
-// request that the message answers; it is absent if the message answers no request, or one without an id.
+// request that the message answers; it is absent if the message answers no request, or a request without an id.
 
 #include <cstdint>
 #include <optional>
@@ -16,19 +16,19 @@
 
 namespace oval4d::wire {
 
-/// Returns the message with the members of `answer` in the order in which they are described, without those that are an
+/// Returns the message with the members of `answer`, in the order of BOOST_DESCRIBE_STRUCT. Omits members that are an
 /// empty optional or an empty list.
 std::string answerMessage(const Answer& answer, std::optional<double> id);
 
-/// Returns the `at` message, which describes what the picture `scene` of `object` shows at a point. `picked` is the
-/// element there, if there is one. `point` is the 4-D point that a panel of the matrix shows there, in the coordinates
-/// of the rotated object, if there is a panel.
+/// Returns the `at` message, which describes what the picture `scene` of `object` shows at a pixel. `picked`: the
+/// element at this pixel, if there is one. `point`: if a panel of the matrix is at this pixel, the 4-D point that the
+/// panel shows there, in the coordinates of the rotated object.
 std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
                       const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
                       std::optional<double> id);
 
-/// Returns the `critical` message: the critical values of w of the object, in the coordinates of its file. `originW` is
-/// the w of the object's geometry::ObjectInfo::originInFile.
+/// Returns the `critical` message: the critical values of w of the object, in the coordinates of the object's file.
+/// `originW`: the w of the object's geometry::ObjectInfo::originInFile.
 std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id);
 
@@ -41,8 +41,8 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
 /// Returns the `keymap` message, the key table of protocol/keymap.json.
 std::string keymapMessage(std::optional<double> id);
 
-/// Returns the `welcome` message. `session` is the id of the session, and `token` its secret token. `limits` is the
-/// text of a JSON object.
+/// Returns the `welcome` message. `session` is the id of the session, and `token` its secret token. `limits`: the
+/// limits of the server, as the text of a JSON object.
 std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
                            std::optional<double> id);
 

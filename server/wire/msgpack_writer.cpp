@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kContainerHead = 5;  // a byte for the format, and four for the size
 
-// Returns the least k for which an integer of 2^k bytes can be `number`.
+// Returns the least k for which an unsigned integer of 2^k bytes can represent `number`.
 unsigned widthOf(std::uint64_t number) {
     return number <= 0xFF ? 0 : number <= 0xFFFF ? 1 : number <= 0xFFFFFFFF ? 2 : 3;
 }

@@ -54,7 +54,7 @@ class MsgpackWriter final : public BinaryWriter {
 
     std::string& out_;
     Buffer buffer_;
-    std::vector<OpenContainer> open_;  // the first element only counts the message itself, the last is the innermost
+    std::vector<OpenContainer> open_;  // the first only counts the message itself; the last is the innermost container
 };
 
 }  // namespace oval4d::wire

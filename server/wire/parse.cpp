@@ -398,7 +398,7 @@ RequestPeek peekRequest(std::string_view beginning) {
 Result<session::Set> setCommandFromState(std::string_view text) {
     constexpr int kDepth = 8;
     ParsedJson read = parseJson(text, kDepth);
-    // The value of a text that is not JSON is what precedes the fault; it may lack the type.
+    // If the text is not JSON, the value contains only what precedes the fault, and may lack the type.
     if (read.value.is_object() && (read.fault.empty() || read.repaired)) {
         const auto type = read.value.find("type");
         if (type == read.value.end() || *type != "state") {

@@ -187,7 +187,8 @@ std::string numberText(const json& schema, const json& value) {
     return rounded;
 }
 
-// Returns ", not …" with the value. Returns an empty string for an array or object, because these may be long.
+// Returns the end of an error message: ", not " and the value. Returns an empty string for an array or object, because
+// its text may be long.
 std::string notThis(const json& schema, const json& value) {
     if (value.is_structured()) return {};
     if (value.is_number()) return ", not " + numberText(schema, value);

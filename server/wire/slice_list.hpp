@@ -50,7 +50,8 @@ class SliceListWriter {
     // Writes the elements of all slices, or of all parts of a projection.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
                        const slicing::Visibilities& visibilities);
-    // Writes the lengths of consecutive ranges. `begin` has the beginning of each range and the end of the last one.
+    // Writes the lengths of consecutive ranges as an array with this name. `begin`: the start of each range, and then
+    // the end of the last range.
     void writeRangeLengths(BinaryWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
 
     std::vector<std::uint32_t> sizes_;

@@ -18,7 +18,7 @@ namespace {
 
 using scene::Scene;
 
-// Writes an array of pairs of numbers, in all encodings as nested ordinary arrays.
+// Writes an array of pairs of numbers. In all encodings, each pair is an ordinary array in an ordinary array.
 template <typename W, typename Pairs>
 void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.key(name);
@@ -120,7 +120,7 @@ void writeHistogram(W& w, const scene::HistogramAxes& histogram) {
     w.endObject();
 }
 
-// Writes the units of the axes that are known; nothing if none is.
+// Writes the member `units` with the known units of the axes. Writes nothing if all units are unknown.
 template <typename W>
 void writePictureUnits(W& w, const fields::PictureUnits& units) {
     if (std::ranges::all_of(units, &std::string::empty, &fields::PictureAxisUnit::text)) return;

@@ -24,8 +24,8 @@ class SlicesMessageWriter {
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                std::string& out, slicing::Quality quality = slicing::Quality::full);
 
-    /// The values of a scene that stay the same while the object turns. Does not include the placements, which stay the
-    /// same, too, because SliceListWriter caches their texts.
+    /// The values of a scene that stay the same while the object turns. The placements of slices also stay the same,
+    /// but are not included, because SliceListWriter caches their texts.
     struct StaticScene {
         scene::View view{};
         scene::Parts shown;

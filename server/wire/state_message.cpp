@@ -64,7 +64,7 @@ void writeLastTurn(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.endObject();
 }
 
-// Writes the members `name` and `unit` of a quantity as far as they are known; nothing if none is.
+// Writes the member `quantity` with the known ones of `name` and `unit`. Writes nothing if both are unknown.
 void writeQuantity(JsonWriter& w, const fields::Quantity& quantity) {
     if (!quantity.isKnown()) return;
     w.key("quantity");
@@ -74,7 +74,7 @@ void writeQuantity(JsonWriter& w, const fields::Quantity& quantity) {
     w.endObject();
 }
 
-// Writes the member `units` with the units that are known; nothing if none is.
+// Writes the member `units` with the known units. Writes nothing if all units are unknown.
 void writeUnits(JsonWriter& w, const fields::AxisUnits& units) {
     if (std::ranges::all_of(units, &std::string::empty)) return;
     w.key("units");

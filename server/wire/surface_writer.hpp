@@ -51,7 +51,7 @@ class SurfaceWriter {
     std::vector<Triple> triangles_;
     // level_, cap_: one number for each triangle. colors_, capColors_: one number for each point.
     std::vector<std::uint32_t> level_, cap_, colors_, capColors_;
-    std::vector<std::uint32_t> pointCounts_, triangleCounts_;  // of each slice
+    std::vector<std::uint32_t> pointCounts_, triangleCounts_;  // one number for each slice
 };
 
 }  // namespace oval4d::wire
