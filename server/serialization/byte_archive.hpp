@@ -15,8 +15,8 @@
 
 namespace oval4d::serialization {
 
-/// Types whose values are copied byte by byte. Classes among these types must not contain pointers or references, which
-/// the concept cannot check.
+/// Types whose values are copied byte by byte. Classes among these types must not contain pointers or references; the
+/// concept cannot check this.
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
@@ -90,7 +90,8 @@ class ByteReader {
     }
 
   private:
-    // Reads the number of elements of a string or vector. `each` is the size of an element in bytes.
+    // Reads the number of elements of a string or vector. Throws if fewer bytes are left than these elements take.
+    // `each`: the size of an element in bytes.
     std::size_t count(std::size_t each) {
         std::size_t number = 0;
         (*this)(number);

@@ -1,8 +1,8 @@
 #pragma once
 // Which members of a struct are stored, and under which numbers.
 //
-// Each struct of a stored session has a function beside it, which names all members by a structured binding, so that it
-// does not compile without a new member, and visits those that are stored:
+// Beside each struct of a stored session is a function that visits the stored members. It names all members in a
+// structured binding, so it no longer compiles when the struct gets another member:
 //
 //     void visitStoredMembers(serialization::ReadOrWritten<CameraOrbit> auto& orbit, auto& visit) {
 //         auto& [azimuth, elevation, zoom] = orbit;
@@ -12,12 +12,13 @@
 //
 // `visit` reads or writes one record (see store/state_codec.cpp). A struct is stored as an array, and the number of a
 // member is its index in this array. Servers of other versions read and write the same records, hence these rules: a
-// member keeps its number forever; no number is used again; a new member gets the next number and is visited with
-// addedMember(), because records of earlier versions lack it. The same rules hold for the numbers of enumerators. A
-// record with members that this version does not know is refused, because they would be lost when it is written again.
+// member keeps its number forever; the number of a removed member is not used again; a new member gets the next number
+// and is visited with addedMember(), because records of earlier versions lack it. The same rules hold for the numbers
+// of enumerators. A record with members that this version does not know is refused, because they would be lost when it
+// is written again.
 //
 // - member(number, value) or member(number, value, range): a member, and the range of a floating-point number or of all
-//   such numbers in a vector or list; a record with another number is refused
+//   such numbers in a vector or list; a record with a number outside its range is refused
 // - addedMember(…): like member(…), for a member that records of earlier versions lack; such records leave its value
 //   unchanged
 // - rotation(number, value): a rotation, as two quaternions with the numbers `number` and `number` + 1
