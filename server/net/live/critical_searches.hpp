@@ -14,7 +14,7 @@ namespace oval4d::net {
 /// A queued or running search for critical values of w.
 class CriticalSearchHandle {
   public:
-    /// `by`: the connection that requested the search; null if no connection did (LiveSession::apply()). `workersStop`:
+    /// `by`: the connection that requested the search; null if the search is for LiveSession::apply(). `workersStop`:
     /// the stop token of the workers; when the workers are stopped, the search stops, too.
     CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
@@ -44,7 +44,7 @@ class CriticalSearches {
                                               std::stop_token workersStop);
     /// Requests a stop of the searches that this connection has requested.
     void stop(const std::shared_ptr<Peer>& by);
-    /// Requests a stop of the searches whose results this state does not need.
+    /// Requests a stop of the searches whose results this state does not need: those with other arguments().
     void stopUnneeded(const session::State& state);
 
   private:

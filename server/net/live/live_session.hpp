@@ -66,14 +66,14 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
     /// the session's strand. `left` must return whether the session has no clients left. If `left` returns true, this
     /// object never writes the session to the store again. Must be called after the requests of the client have been
-    /// executed, so that `left` receives their results.
+    /// executed, so that the value for `left` contains their results.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
     /// Ends the searches for critical values of w that `peer` has requested. These requests fail with `canceled`.
     void stopSearches(std::shared_ptr<Peer> peer);
 
-    /// Writes the whole session to the store. Keeps a reference to `completion` until the session is written or the
-    /// store is found to be unavailable, so that the caller can wait for this.
+    /// Writes the whole session to the store. Holds `completion` until the session is written or the store is found to
+    /// be unavailable. The caller can wait until a std::weak_ptr to `completion` expires.
     void save(std::shared_ptr<void> completion = {});
 
     /// Closes all connections, and never writes the session to the store again. Must be called when another server has

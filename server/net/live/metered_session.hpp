@@ -18,8 +18,9 @@ class MeteredSession {
     const AddressAccountPtr& client() const { return client_; }
 
     /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit of the
-    /// account, forgets the older half of the undo steps, and reserves the memory that is left, even if it exceeds the
-    /// limit. `objectsChanged`: whether the command may have added, removed or replaced objects of the session.
+    /// account, forgets the older half of the undo steps, and reserves the memory of the remaining session, even if it
+    /// exceeds the limit. `objectsChanged`: whether the command may have added, removed or replaced objects of the
+    /// session.
     void adjustReservationOrTrimUndo(bool objectsChanged);
 
     session::Session value;

@@ -8,7 +8,7 @@
 namespace oval4d::net {
 
 /// Times the steps of an object that turns continuously or turns toward an element. Each step covers the time since the
-/// last step: it turns the object as far as the object turns in this time.
+/// previous step: it turns the object by the angle for this time.
 class MotionTiming {
   public:
     using Clock = std::chrono::steady_clock;

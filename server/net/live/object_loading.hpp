@@ -25,14 +25,15 @@ class ObjectLoading {
         : services_(services), metered_(std::move(metered)), streams_(std::move(streams)) {}
 
     /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred). Allocates no memory, because most
-    /// commands need nothing.
+    /// commands load nothing.
     session::ObjectLoader makeLoader() const;
 
     /// Builds or reads the loader's pending object on a worker. If a search for critical values of w is pending instead
     /// (see slicing/critical/), an export worker runs it, and searches() can stop it. `by`: the client whose job queue
     /// is charged. `peer`: the connection that needs the result; may be null. The caller must keep `loader` until the
     /// result is there. Returns an error if there is no room for the result, else an empty optional. Throws
-    /// parallel::QueueFull if too many jobs are waiting, and what the job throws; the loader must not be used then.
+    /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws. After an exception, the
+    /// caller must not use the loader anymore.
     boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                                  session::ObjectLoader& loader);
 

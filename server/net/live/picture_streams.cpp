@@ -239,8 +239,8 @@ void PictureStreams::onLastPictureDrawn(const PictureJob& job, const StreamKey& 
 }
 
 /// Sends the pictures that a worker has made. Sends them even if the session has changed in the meantime, because they
-/// are newer than the pictures that the clients have. So if changes are very frequent, clients see all pictures that
-/// the workers have time to make.
+/// are newer than the pictures that the clients have. So when changes are very frequent, clients still see every
+/// picture that the workers have time to make.
 void PictureStreams::onJobDone(JobResult result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
@@ -313,8 +313,8 @@ bool PictureStreams::keepIfCurrent(const SnapshotPtr& state) {
     return true;
 }
 
-/// Lets a worker make the current state for clients without a stream, unless it makes one already. `subscriber`: the
-/// client that is charged.
+/// Lets a worker make the current state for clients without a stream, unless a worker is already making a state.
+/// `subscriber`: the client that is charged.
 void PictureStreams::requestState(const Subscriber& subscriber) {
     assertOnStrand();
     if (stateRequested_) return;
@@ -332,8 +332,8 @@ void PictureStreams::requestState(const Subscriber& subscriber) {
     if (!stateRequested_) scheduleRetry();
 }
 
-/// Sends the state that a worker has made. As a picture, it is sent even if the session has changed in the meantime,
-/// because it is newer than the state that the clients have. `made`: null if it could not be made.
+/// Sends the state that a worker has made. Like a picture, it is sent even if the session has changed in the meantime,
+/// because it is newer than the state that the clients have. `made`: the state; null if the worker failed to make it.
 void PictureStreams::onStateMade(const SnapshotPtr& made) {
     assertOnStrand();
     stateRequested_ = false;

@@ -77,13 +77,13 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     /// Returns the time at which the session reached its current revision.
     Clock::time_point lastChangeTime() const { return draftTiming_.lastChangeTime(); }
-    /// Returns the current state with the names of its section, without slices; null if a worker must name the section,
-    /// because that may take long, and none has yet.
+    /// Returns the current state with the names of its section, without slices; null if naming the section may take
+    /// long, and no worker has named it yet.
     SnapshotPtr currentState();
-    /// Returns a job that names the section of the current state, and returns the state.
+    /// Returns a job for a worker. The job names the section of what is now the current state, and returns this state.
     std::function<SnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
-    /// Lets currentState() return this result of a currentStateJob(), unless the session has changed in the meantime.
-    /// Returns whether it has not.
+    /// Makes currentState() return `state`, the result of a currentStateJob(). If the session has changed since the job
+    /// was created, does nothing and returns false.
     bool keepIfCurrent(const SnapshotPtr& state);
 
     /// Returns the snapshot of the current revision, of full quality; null if there is none.
@@ -161,7 +161,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
     SnapshotPtr state_;              // what currentState() has returned for the current revision, else null
     bool stateRequested_ = false;    // whether a worker has been asked for a state
-    // The newest names that were made for pictures, and the revision of their section.
+    // The revision of the snapshot that was made last for pictures, and the names of the section in it.
     std::optional<std::pair<std::uint64_t, slicing::SectionNamePair>> section_;
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;
 

@@ -26,8 +26,8 @@
 
 namespace oval4d::net {
 
-/// Answers the requests for what a session shows, and for the load of the server. What takes long is made by a worker.
-/// Every function runs on the session's strand.
+/// Answers the requests for what a session shows, and for the load of the server. Answers that take long are made by a
+/// worker. Every function runs on the session's strand.
 class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
   public:
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none

@@ -83,7 +83,7 @@ WriteBehindStore::Listener SessionManager::listener() {
 std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& client) {
     const auto now = services_.clock.now();
     const Options& options = services_.options;
-    // Sessions are evicted only once no limit can refuse the new one anymore.
+    // The session to evict is determined here, but evicted only when no limit can refuse the new session anymore.
     std::optional<std::string> evicted;
     if (byClient_.countSessionsOf(client.name(), now) >= options.client.sessions) {
         evicted = byClient_.firstClosedUnmodified(now, &client.name());
@@ -187,7 +187,7 @@ void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const st
     bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be read later
     try {
         RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
-            isUnread = mustWait = true;  // both stay true if the reader throws, as it does when the server stops
+            isUnread = mustWait = true;  // both stay true if the reader throws, as when the server stops
             const auto loaded = fileReader(services_)(load, services_.options.session);
             isUnread = !loaded;
             if (loaded) return loaded->object;

@@ -29,14 +29,14 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or
     /// `internal` if the store does not answer or another server takes over the session.
     void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
-    /// Removes the client `peer` from a session, and closes the session if that was its last client. `peer`: null if
-    /// the client was never welcomed, as for an upload. Must be called exactly once for each successful call of
-    /// create() or join().
+    /// Removes the client `peer` from a session, and closes the session if it has no other client. `peer`: null if the
+    /// client was never welcomed, as for an upload. Must be called exactly once for each successful call of create() or
+    /// join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WritePolicy::at_close). Keeps references to `completion` until the sessions are written or the store is found
-    /// to be unavailable, so that the caller can wait for this.
+    /// (WritePolicy::at_close). Holds `completion` until all sessions are written or the store is found to be
+    /// unavailable. The caller can wait until a std::weak_ptr to `completion` expires.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
     /// Writes pending changes to the store, and gives up after about the time `limit`. The caller must not call any

@@ -1,5 +1,5 @@
 #pragma once
-// Decides when a session is saved, and until when.
+// Saves a session in use to the store at the right times.
 
 #include <boost/asio/any_io_executor.hpp>
 #include <chrono>
@@ -40,12 +40,13 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     /// detached, saves nothing and destroys `written` without calling it.
     void saveNow(store::SaveCallback written = {});
 
-    /// Returns a function that writes the session as it is now, if a change must be written before it is acknowledged;
-    /// else an empty optional. `hasNewObject`: whether the change has added or replaced an object of the session. If
-    /// the session is detached when the function is called, it writes nothing, and calls its argument with `false`.
+    /// If a change must be written before it is acknowledged, returns a function that writes the session as it is now;
+    /// else returns an empty optional. `hasNewObject`: whether the change has added or replaced an object of the
+    /// session. If the session is detached when the function is called, it writes nothing, and calls its argument with
+    /// `false`.
     std::optional<Write> writeBeforeAcknowledgment(bool hasNewObject);
 
-    /// Never writes the session to the store again.
+    /// Makes this object never write the session to the store again.
     void detach() { detached_ = true; }
     bool isDetached() const { return detached_; }
 

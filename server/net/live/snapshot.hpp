@@ -31,8 +31,8 @@ struct StreamKey {
     bool operator==(const StreamKey&) const = default;
 };
 
-/// The state of one revision of a session, with its slices if a client needs them. Its public members are immutable
-/// once it is made.
+/// The state of one revision of a session, with its slices if a client needs them. Its public members do not change
+/// after it is made.
 struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;
@@ -45,7 +45,8 @@ struct Snapshot {
     /// Returns the `state` message of this revision for viewers who prefer pictures of this scheme. Makes the text of
     /// each scheme only once. Thread-safe.
     SharedBytes stateTextFor(scene::Scheme scheme) const;
-    /// Returns the same message, or, with an id, the message that answers the request with this id.
+    /// Returns the `state` message that answers the request with this id; without an id, the result of the function
+    /// above.
     SharedBytes stateTextFor(scene::Scheme scheme, std::optional<double> id) const;
 
   private:
