@@ -11,8 +11,8 @@
 
 namespace oval4d::net {
 
-/// A timer that calls a function. Not thread-safe: use the timer only on the executor for which it was made. It calls
-/// the function there, too.
+/// A timer that calls a function. Not thread-safe: use the timer only on the executor for which it was made. The timer
+/// calls the function on this executor.
 class Timer {
   public:
     using Clock = std::chrono::steady_clock;
@@ -20,11 +20,11 @@ class Timer {
     Timer() = default;
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;
-    /// Does what cancel() does.
+    /// Cancels the scheduled call, like cancel().
     virtual ~Timer() = default;
 
-    /// Schedules one call of `expired`: at the time `when`, or soon if this time has passed. First does what cancel()
-    /// does.
+    /// Schedules one call of `expired`: at the time `when`, or soon if this time has passed. First cancels an earlier
+    /// scheduled call, like cancel().
     virtual void start(Clock::time_point when, std::function<void()> expired) = 0;
     /// Cancels the scheduled call, if there is one. A call that is already due may still come.
     virtual void cancel() = 0;

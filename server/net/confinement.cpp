@@ -15,8 +15,8 @@ constexpr std::size_t kOwnFiles = 16;
 std::size_t drawMemory(const Options& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // In bytes. kOwn: for llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
-    // for sixteen buffers of four bytes per pixel. kEachSliceEdge: for each edge of the slices, including the shapes
-    // that are drawn for this edge; measurements gave at most 260 bytes.
+    // for each pixel, sixteen buffers of four bytes. kEachSliceEdge: for each edge of the slices and the shapes that
+    // are drawn for it; measurements gave at most 260 bytes.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachSliceEdge = 512;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
     return kOwn + kEachPixel * pixels + kEachSliceEdge * options.picture.sliceEdges + options.polytopeCache;

@@ -51,16 +51,17 @@ class ConnectionRegistry {
     /// The decision on a new connection: admitted, or the limit that is reached.
     enum class AdmissionDecision { admitted, server_full, client_full };
     /// Decides whether to admit one more connection of this client. At a limit, evicts idle connections, the oldest
-    /// first, until there is room for the new one: those of this client if the client is at its limit, else those of
-    /// the client with the most connections. If that client has no idle connection left, returns the limit that is
-    /// reached. `registered`: the number of registrations that the new connection itself already has (0 or 1); they are
-    /// not counted. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not apply.
+    /// first, until there is room for the new one: connections of this client if the client is at its limit, else
+    /// connections of the client with the most connections. If there is no such idle connection left, returns the limit
+    /// that is reached. `registered`: the number of registrations that the new connection itself already has (0 or 1);
+    /// they are not counted. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not
+    /// apply.
     AdmissionDecision makeRoomFor(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of registered connections.
     std::size_t size() const;
-    /// Calls the handlers of all connections with EndReason::stopping. Handlers that are set later are called as soon
-    /// as they are set.
+    /// Calls the end handlers of all connections with EndReason::stopping. A handler that is set later is called at
+    /// once.
     void stopAll();
 
   private:

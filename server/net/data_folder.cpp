@@ -61,9 +61,8 @@ std::string versionOfZarr(int folder) {
     return version;
 }
 
-/// Returns a string that changes when a file in the folder, or in a folder within it, changes, such as a chunk of a
-/// Zarr array. Does not follow symbolic links. Considers at most kMaxFiles files, because reading the status of each
-/// file takes time.
+/// Returns a string that changes when a file at any depth in the folder changes, such as a chunk of a Zarr array. Does
+/// not follow symbolic links. Considers at most kMaxFiles files, because reading the status of each file takes time.
 std::string versionOfFilesIn(const fs::path& folder) {
     constexpr std::size_t kMaxFiles = 10'000;
     std::size_t count = 0, sum = 0;  // a sum does not depend on the order in which the files are found

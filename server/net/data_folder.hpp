@@ -42,8 +42,8 @@ class DataFolder {
     /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Unless
     /// knownNames() has the names, reads the folder, which blocks the calling thread.
     std::vector<std::string> names() const;
-    /// Returns the names that names() last read from the folder; an empty optional if it began to read them kListedFor
-    /// ago or earlier, or has not read them yet. Returns an empty list if there is no data folder.
+    /// Returns the names that names() last read from the folder, if it began to read them less than kListedFor ago;
+    /// else an empty optional. Returns an empty list if there is no data folder.
     std::optional<std::vector<std::string>> knownNames() const;
 
     /// Returns the field that `load.dataName` names. If it is not in memory, calls `reader` with a copy of `load` that
@@ -60,6 +60,7 @@ class DataFolder {
 
     /// The maximum number of names that names() returns, and of files in a series.
     static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
+    /// The time for which knownNames() returns names that were read from the folder.
     static constexpr std::chrono::seconds kListedFor{2};
 
   private:

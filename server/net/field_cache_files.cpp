@@ -19,8 +19,8 @@ int allocate(int file, std::size_t bytes) {
     const auto size = static_cast<off_t>(bytes);
     if (fallocate(file, 0, 0, size) == 0) return 0;
     if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
-    // This file system cannot reserve blocks, so only check that there is room now. If the disk is full later, while
-    // the file is written, the reader reports a fault.
+    // This file system cannot reserve blocks, so only check that there is room now. If the disk becomes full while the
+    // file is written, the process that writes it reports an error.
     struct statvfs status{};
     if (fstatvfs(file, &status) != 0) return errno;
     if (status.f_bavail * status.f_frsize < bytes) return ENOSPC;

@@ -49,7 +49,7 @@ struct Services {
     DataFolder& data;                        ///< the arrays that the server offers
     const FieldCacheFiles& fieldCacheFiles;  ///< files with the converted samples of large arrays in `data`
     slicing::CriticalCache& critical;        ///< cached results of searches for critical values of w
-    const TimerClock& clock;                 ///< decides when pictures, saves and deadlines are due
+    const TimerClock& clock;                 ///< the clock for the times of pictures, saves and deadlines
 };
 
 }  // namespace oval4d::net

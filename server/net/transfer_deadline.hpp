@@ -12,9 +12,9 @@ namespace oval4d::net {
 
 /// Computes the timeouts that enforce a minimum rate while one message or reply is written, or one body is read.
 /// Without a minimum rate, a very slow client could make the server hold the data for hours. Each fragment must be
-/// transferred within Options::writeTimeout. In addition, once n bytes have been transferred, the next fragment must be
-/// transferred before the time n / Options::minReadRate + 2 · Options::writeTimeout has passed since the start. A rate
-/// of 0 turns this second limit off.
+/// transferred within Options::writeTimeout. In addition, when n bytes have been transferred, the next fragment must be
+/// transferred within n / Options::minReadRate + 2 · Options::writeTimeout after the start. If Options::minReadRate is
+/// 0, only the first limit applies.
 class TransferDeadline {
   public:
     using Clock = TimerClock::Clock;

@@ -25,8 +25,8 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request);
 bool isCrossSiteRestricted(const RequestTarget& target);
 
 /// Checks a request by the rules of `access`, and counts a wrong token against the client's rate limit. If the request
-/// is refused, returns the reply. Otherwise, returns an empty optional, and sets `cookie` to the value of Set-Cookie
-/// for the reply, or to an empty string if the reply needs no cookie.
+/// is refused, returns the reply. If it is allowed, returns an empty optional, and sets `cookie` to the value of
+/// Set-Cookie for the reply, or to an empty string if the reply needs no cookie.
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
                                  AddressAccount& client, std::string& cookie);
 

@@ -36,8 +36,8 @@ namespace {
 constexpr std::uint32_t kMaxHeaderBytes = 16U << 10U;
 constexpr std::size_t kReadBufferBytes = 64U << 10U;
 
-// After a refusal, the server continues to read up to these limits of bytes and of time: if it closed the socket while
-// bytes are unread, the connection would be reset, and the client might not receive the reply.
+// After a refusal, the server continues to read for at most this many bytes and this long. If it closed the socket
+// while bytes are unread, the connection would be reset, and the client might not receive the reply.
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
@@ -320,9 +320,8 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
                const SessionManager::JoinHandler& done) { sessions->join(credentials, client, done); };
 }
 
-/// Reads the body of a request whose header is valid. Returns the reply if the body is refused. Otherwise, returns an
-/// empty optional; the stream is then closed if the client has disconnected or sends too slowly, else the body is
-/// complete.
+/// Reads the body of a request whose header is valid. Returns the reply if the body is refused. Else returns an empty
+/// optional: the body is complete, or the stream is closed because the client has disconnected or sends too slowly.
 asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
     TransferDeadline deadline(options(), context_.services.clock);

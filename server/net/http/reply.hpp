@@ -22,7 +22,7 @@ struct Reply {
 /// Returns a reply that caches must not use again without asking the server (Cache-Control: no-cache).
 Reply noCacheReply(std::string type, SharedBytes body, unsigned status = 200);
 
-/// Like noCacheReply(), with a text as the body. `type`: its media type.
+/// Like noCacheReply(), with a text as the body. `type`: the media type of the text.
 Reply textReply(std::string type, std::string body, unsigned status = 200);
 
 /// Like textReply(), with a JSON message of the oval4d protocol as the body.

@@ -31,7 +31,7 @@ class Routes {
         std::string ifNoneMatch, acceptEncoding, range, ifRange;
         AddressAccountPtr client;
     };
-    /// Returns the reply to a request. Its status is 405 for methods other than GET and HEAD, and 404 for unknown
+    /// Returns the reply to a request. The status is 405 for methods other than GET and HEAD, and 404 for unknown
     /// paths.
     boost::asio::awaitable<Reply> answer(ParsedRequest request);
 

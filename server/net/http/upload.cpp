@@ -23,8 +23,8 @@ namespace {
 constexpr std::string_view kSessions = "/api/v1/sessions/", kFields = "/fields/", kMoments = "/moments",
                            kState = "/state";
 
-// The number of bytes to reserve beyond those received, so that the byte account is not locked for each small part of a
-// body.
+// The number of bytes to reserve in addition to the received bytes, so that the byte account is not locked for each
+// small part of a body.
 constexpr std::size_t kReserved = 1U << 20U;
 
 const Error kNoUpload{ErrorCode::not_found,

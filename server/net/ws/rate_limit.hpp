@@ -6,7 +6,7 @@
 namespace oval4d::net {
 
 /// Limits the rate of requests. A burst may have as many requests as the rate allows in two seconds; further requests
-/// are refused, but still count. A client that exceeds the limit by the size of another burst is abusive and should be
+/// are refused, but still count. A client whose refused requests make up another such burst is abusive and should be
 /// disconnected. Not thread-safe.
 class RateLimit {
   public:

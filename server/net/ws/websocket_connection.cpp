@@ -79,8 +79,8 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
 }
 
 void WebSocketConnection::configureStream(bool offersSubprotocol) {
-    // The WebSocket stream has its own timeouts, so Beast requires that those of the TCP stream are off. Beast measures
-    // these timeouts, such as that of pings, with the system's clock, and not with Services::clock.
+    // The WebSocket stream has its own timeouts, so Beast requires that the timeouts of the TCP stream are off. Beast
+    // measures the timeouts of the WebSocket stream with the system's clock, not with Services::clock.
     beast::get_lowest_layer(stream_).expires_never();
     const auto ping = toSteadyDuration(services_.options.pingInterval);
     stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), 2 * ping, true});
@@ -92,8 +92,8 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
     stream_.auto_fragment(false);
 }
 
-/// Closes the connection if no hello arrives in time. Does nothing if the time ends while a hello is being handled,
-/// which may take long because the session is read from the store; if this hello fails, handleHello() closes the
+/// Closes the connection if no hello arrives in time. Does nothing if a hello is being handled at the deadline, which
+/// may take long because the session is read from the store. If this hello then fails, handleHello() closes the
 /// connection.
 void WebSocketConnection::startHelloTimer() {
     helloDue_ = services_.clock.now() + toSteadyDuration(services_.options.helloTimeout);
@@ -195,8 +195,8 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
     co_return incoming;
 }
 
-/// Decides from the beginning of a long message whether to keep the message. It is kept if its type is `load` or is not
-/// yet known, and if its memory fits in the client's byte account. Otherwise sets `incoming.refusal`.
+/// Decides from the beginning of a long message whether to keep it. Keeps it if its type is `load` or is not known yet,
+/// and if the client's byte account has room for it. Else sets `incoming.refusal`.
 void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
     constexpr std::size_t kCopies = 3;  // the message, its parsed members, and a member while it is reallocated
     const auto seen =
@@ -218,7 +218,8 @@ asio::awaitable<void> WebSocketConnection::pause(std::chrono::duration<double> w
     co_await awaitCallback<std::monostate>(std::move(start));
 }
 
-/// Waits until `isTrue` returns true or the connection has ended. Tests again whenever `changed` is canceled.
+/// Waits until `isTrue` returns true or the connection has ended. Calls `isTrue` again whenever the timer `changed` is
+/// canceled.
 asio::awaitable<void> WebSocketConnection::waitUntil(asio::steady_timer& changed, std::function<bool()> isTrue) {
     while (!isTrue() && !ended_) {
         changed.expires_at(asio::steady_timer::time_point::max());
