@@ -58,7 +58,7 @@ class Channel {
     static constexpr int kNoFile = -1;
     static constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
 
-    /// Sends a message. Unless `file` is kNoFile, the receiver gets a duplicate of that file descriptor.
+    /// Sends a message. Unless `file` is kNoFile, the receiver gets a duplicate of the file descriptor `file`.
     TransferResult send(MessageType type, std::string_view body = {}, int file = kNoFile,
                         const WaitLimit& limit = {}) const;
     /// Receives a message. If `file` is not null, sets `*file` to the file descriptor that was sent with the message,

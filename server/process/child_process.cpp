@@ -147,7 +147,8 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
         auto transfer = TransferResult::complete;
         bool talked = false;
         try {
-            // `talked` stays false if the process hangs while it starts, because this conversation is not the cause.
+            // `talked` stays false if the process hangs while it starts, because the conversation is then not the
+            // cause.
             if (!ready_) awaitReady(transfer, waitLimit(stop));
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
