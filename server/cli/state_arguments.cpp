@@ -63,8 +63,8 @@ bool isZarr(const std::filesystem::path& folder) {
 }
 
 /// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps the files of an array, which may
-/// be larger than the main memory. Removes from the query the options that say how to read an object of the kind found,
-/// such as "axes" for an array or "center" for a polytope.
+/// be larger than the main memory. Removes from the query the options that say how to read an object of this kind, such
+/// as "axes" for an array or "center" for a polytope.
 Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});

@@ -19,12 +19,12 @@ session::QueryParameters queryOf(const std::vector<std::string>& words);
 
 /// Returns the state that the query describes. The query parameter "load" is the path of what to show: a file with an
 /// object, a Zarr folder, a folder with a series of files (see fields::readSeries()), a file with a `state` message, or
-/// a picture made by oval4d. The other parameters change the state in the message or picture. If "load" is the path of
-/// an object, they change the initial state with this object; without "load", they change the initial state. If the
-/// path is that of an array, "axes", "box", "variable", "values" and "values_variable" say how to read the array; if it
-/// is that of a polytope, a surface or a list of points, "center" is the point about which the object turns. Prints
-/// warnings about the file to standard error. `others` are the names of further options that the subcommand allows; the
-/// error message about an unknown option lists them, too. Throws std::runtime_error with a message for the user.
+/// a picture made by oval4d. The other parameters change a state: the one in the message or picture, else the initial
+/// state, with the object in the file if "load" is the path of an object. For an array, "axes", "box", "variable",
+/// "values" and "values_variable" say how to read it; for a polytope, a surface or a list of points, "center" is the
+/// point about which the object turns. Prints warnings about the file to standard error. `others` are the names of
+/// further options that the subcommand allows; the error message about an unknown option lists them, too. Throws
+/// std::runtime_error with a message for the user.
 session::State loadState(session::QueryParameters query, std::span<const std::string_view> others);
 
 /// Returns the value, or throws the error's message as a std::runtime_error.
