@@ -12,7 +12,7 @@ namespace oval4d::fields {
 /// Makes a field from an array. The initial level is the mean of the least and the greatest sample (see
 /// ArrayFunction::statistics()); values above the level are inside. As an object, the field is as long along w as along
 /// the longest of the axes x, y and z, because a unit of time and a unit of length cannot be compared. Along an axis
-/// with one sample, the field is half as long. The texts of the units and of the quantity are shortened by
+/// with one sample, the field has half of this length. The texts of the units and of the quantity are shortened by
 /// quantityText(). Error: `bad_field` if the box is not valid, or if no sample has a value.
 Result<Field> fieldFromArray(std::string name, const FieldArray& array);
 

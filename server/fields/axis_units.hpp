@@ -17,14 +17,14 @@ struct PictureAxisUnit {
 };
 using PictureUnits = std::array<PictureAxisUnit, 4>;
 
-/// Returns the units of the axes x, y, z and w after the field has been rotated by `orientation`. After the rotation
-/// and in the frame of reference of the field, each coordinate is a sum of multiples of those coordinates of the box
-/// along which its axis runs. It has a unit if all of these have the same unit. An axis of an array is not to scale,
-/// for example, if fieldFromArray() or ReferenceFrame::pace has scaled w.
+/// Returns the units of the axes x, y, z and w after the field has been rotated by `orientation`. Each coordinate in
+/// the picture is a linear combination of the coordinates in the box. It has a unit if all coordinates with a nonzero
+/// factor have the same unit. The axis w of an array, for example, is not to scale if fieldFromArray() or
+/// ReferenceFrame::pace has scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
-/// Returns the unit of lengths in a hyperplane w = const of the picture: that of the axes x, y and z if they have the
-/// same one and are to scale; otherwise an empty string.
+/// Returns the unit of lengths in a hyperplane w = const of the picture: the unit of the axes x, y and z if all three
+/// have the same unit and are to scale, else an empty string.
 std::string lengthUnit(const PictureUnits& units);
 
 /// Returns "x, m" for the axis 0 with the unit m, and "x" if its unit is unknown.

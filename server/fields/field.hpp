@@ -34,8 +34,7 @@ struct SecondFunction {
 };
 
 /// Where the samples of a field come from if they are too large for memory: a file in the server's data folder, and the
-/// options with which it is read. The members have the meaning of the members of session::LoadObject with the same
-/// names.
+/// options with which it is read. The members are explained at the members of session::LoadObject with the same names.
 struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box;

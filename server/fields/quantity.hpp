@@ -22,9 +22,9 @@ using AxisUnits = std::array<std::string, 4>;
 /// The maximum length in bytes of the names of quantities and of units.
 inline constexpr std::size_t kMaxQuantityText = 64;
 
-/// Returns `text` as the name of a quantity or as a unit: valid UTF-8 of at most kMaxQuantityText bytes. "?" replaces
-/// what text::printable() replaces; if the text is too long, "…" replaces its end. Returns an empty string for a text
-/// of blanks only.
+/// Returns `text` as the name of a quantity or as a unit: valid UTF-8 of at most kMaxQuantityText bytes. Replaces by
+/// "?" what text::printable() replaces, and by "…" the end of a text that is too long. Returns an empty string for a
+/// text of blanks only.
 std::string quantityText(std::string_view text);
 
 /// Returns whether quantityText() leaves `text` as it is.
@@ -35,7 +35,7 @@ bool isQuantityText(std::string_view text);
 std::string unitOfProduct(std::span<const std::string> units);
 
 /// Returns "temperature, K" for {"temperature", "K"}, the only known text if one of them is unknown, and an empty
-/// string if both are.
+/// string if both are unknown.
 std::string labelOf(const Quantity& quantity);
 
 }  // namespace oval4d::fields

@@ -175,9 +175,9 @@ void BrickBounds::readAll() {
 
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
-    // A run is a sequence of samples in memory. The runs begin at multiples of this number modulo 1, as fractions of
-    // the array, because these are spread evenly, but not at equal distances. At equal distances, all runs might begin
-    // at the same phase of a periodic array.
+    // A run is a sequence of samples in memory. As a fraction of the array, the position of run i is i times this
+    // number modulo 1. These positions are spread evenly, but not at equal distances. At equal distances, all runs
+    // might begin at the same phase of a periodic array.
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {

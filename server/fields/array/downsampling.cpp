@@ -59,8 +59,8 @@ AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
     return weights;
 }
 
-// For each sample in a row of the downsampled array: the weighted sum of samples of the array, and the sum of their
-// weights.
+// For each sample in a row of the downsampled array: the weighted sum of samples of the original array, and the sum of
+// their weights.
 struct RowSums {
     std::vector<float> values, weights;
 

@@ -9,8 +9,8 @@
 
 namespace oval4d::fields {
 
-/// Memory that several results of SampleStorage::followedBy() share: a result and what has been appended to it. Each
-/// result reads only its own samples, so another thread may append further samples at the same time.
+/// Memory that results of SampleStorage::followedBy() share: each result begins with the samples of the result that it
+/// extends. A result reads only its own samples, so another thread may append further samples at the same time.
 struct SampleStorage::SharedGrowthBuffer {
     std::mutex mutex;
     std::vector<float> values;  // guarded by mutex; never reallocated, because results refer to it

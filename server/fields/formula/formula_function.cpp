@@ -100,7 +100,7 @@ void FormulaFunction::evaluateWithGradient(const PointBatch& points, std::span<f
 
 namespace {
 
-// Returns the estimated time of an operation for one point.
+// Returns the estimated time of an operation for one point, in nanoseconds.
 double nanosecondsOf(Operation operation) {
     switch (operation) {
         case Operation::power:

@@ -18,7 +18,7 @@ Ref unary(Graph& graph, Arguments a) {
     return graph.unary(operation, a[0]);
 }
 
-// Combines any number of arguments from left to right.
+// Applies the binary operation to any number of arguments, from left to right.
 template <Operation operation>
 Ref combined(Graph& graph, Arguments a) {
     Ref result = a[0];

@@ -66,8 +66,9 @@ class GradientLoops : private ValueLoops<Math> {
         return index == Tape::kResult ? block.gradients[axis]
                                       : outputRegister(block, index) + (1 + axis) * kGradientBlockPoints;
     }
-    // Returns the derivatives of the register `index` along `axis`, which must not be 0 everywhere. For a coordinate,
-    // `axis` is its own axis, and the derivatives are 1: the array `ones`.
+    // Returns the derivatives of the register `index` along `axis`, which must not be 0 everywhere. For the register of
+    // a coordinate, `axis` must be the axis of this coordinate; the derivatives are then 1, and the result is `ones`,
+    // an array of ones.
     static const float* inputDerivative(const GradientBlock& block, const float* ones, unsigned index, unsigned axis) {
         return index < Tape::kResult ? ones : outputDerivative(block, index, axis);
     }

@@ -8,7 +8,8 @@ namespace oval4d::fields {
 
 namespace {
 
-// Powers with greater integer exponents are computed by pow, which is more accurate than many multiplications.
+// The greatest absolute value of an exponent of integer_power. Beyond it, pow computes the power, which is more
+// accurate than many multiplications.
 constexpr double kMaxIntegerExponent = 64;
 
 bool isPowerOfTwo(double value) {

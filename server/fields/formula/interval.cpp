@@ -188,7 +188,7 @@ ValueBounds arctangent2(const ValueBounds& y, const ValueBounds& x) {
 }
 
 // Returns the interval of a − b⌊q⌋, where q is the computed quotient: a/b times a factor from 1 − 2⁻²⁴ to 1 + 2⁻²⁴. The
-// computed value is between 0 and b, or beyond by a few rounding errors of numbers that are at most |a| + |b|.
+// computed value is between 0 and b, or outside by at most a few rounding errors of numbers up to |a| + |b|.
 ValueBounds modulo(const ValueBounds& a, const ValueBounds& b) {
     const ValueBounds quotient = divide(a, b);
     if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};

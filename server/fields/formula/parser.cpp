@@ -226,8 +226,8 @@ class Parser {
         fail("an operator or ')' is expected" + hint());
     }
 
-    // A name in the formula. The formula is parsed before the definitions. Until resolveNames() is called after the
-    // last definition, the SyntaxNode::index of each node of this name is the index of the NameUse in uses_.
+    // A name in the formula. The formula is parsed before the definitions. The SyntaxNode::index of the name's node is
+    // the index of this NameUse in uses_, until resolveNames() is called after the last definition.
     struct NameUse {
         std::string_view name;
         std::size_t byte;
@@ -239,7 +239,8 @@ class Parser {
         if (found == uses_.end()) uses_.push_back({name, byte});
         return add(Kind::constant, {}, index);
     }
-    // Adds a node for a name in the definition of another name. Fails unless the name is defined earlier.
+    // Adds a node for a name that occurs in the definition of another name. Fails unless it is defined before that
+    // name.
     Index earlierName(std::string_view name, std::size_t byte) {
         isConstantDefinition_ = false;
         if (const auto found = resolve(name)) return add(found->kind, {}, found->index);
@@ -341,7 +342,7 @@ class Parser {
         return true;
     }
     bool takeMinus() { return take("-") || take(kMinusSign); }
-    // Like take(), but does nothing if the text continues with another character of a name.
+    // Like take(), but takes nothing if the word is followed by another character of a name, as "deg" in "degree".
     bool takeWord(std::string_view word) {
         skipBlanks();
         const std::string_view rest = text_.substr(at_);

@@ -29,7 +29,7 @@ struct SyntaxNode {
         pi,
         phi,
         variable,    ///< `index`: 0 … 3 for x … w; 4 for r
-        constant,    ///< `index`: in the list of constants
+        constant,    ///< `index`: in ParsedFormula::constants
         expression,  ///< `index`: in SyntaxTree::expressions
         negate,
         add,

@@ -11,8 +11,8 @@ namespace oval4d::fields {
 
 /// One operation of a tape. Its result may be written to the register of an operand.
 struct Instruction {
-    /// Which operands of a binary operation are registers and which are numbers. Other operations have the form
-    /// two_registers.
+    /// Which operands of a binary operation are registers and which are numbers. Operations with fewer operands have
+    /// the form two_registers.
     enum class OperandForm : std::uint8_t { two_registers, register_and_number, number_and_register };
     /// A set of axes, as bits: the axis i is 1 << i.
     using AxisSet = std::uint8_t;

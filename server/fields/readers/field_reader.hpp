@@ -35,12 +35,12 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start);
 Result<FieldArray> readField(const FileContents& file, const ReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. If the files do not state their boxes, the box is
-/// defaultBox(). If they state their boxes, these give x, y and z. If the values of w in these boxes increase from file
-/// to file, w extends from the first to the last of these values, evenly spaced; otherwise, w is the number of the
-/// file, from 0 on, and a warning says so if the values differ. All files must have the same shape, with one sample
-/// along w, and the same box in x, y and z. `options.axes` names the axes of each file; `options.box` is the box of the
-/// whole field. Errors: those of readField(), with the number of the file; `bad_field` if there are no files or if they
-/// differ; `too_large` if there are more than `options.maxSamples` samples in all.
+/// defaultBox(). If they state their boxes, the boxes give x, y and z. If the values of w in the boxes increase from
+/// file to file, w extends from the first to the last of these values, evenly spaced. If they do not increase, w is the
+/// number of the file, from 0 on, with a warning if the values differ. All files must have the same shape, with one
+/// sample along w, and the same box in x, y and z. `options.axes` names the axes of each file; `options.box` is the box
+/// of the whole field. Errors: those of readField(), with the number of the file; `bad_field` if there are no files or
+/// if they differ; `too_large` if there are more than `options.maxSamples` samples in all.
 Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOptions& options);
 
 /// Returns the files in a folder that have one of the formats, sorted by name. Numbers in names are compared by value:

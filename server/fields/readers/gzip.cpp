@@ -27,8 +27,8 @@ struct GzipReader::State {
         rest = rest.subspan(count);
     }
 
-    // Prepares the library for its next call: after the end of a member of a gzip file (RFC 1952, section 2.2), begins
-    // the next member; then calls refill(). Returns false if the data have ended and no member follows.
+    // Prepares the library for its next call: if a member of a gzip file (RFC 1952, section 2.2) has ended, begins the
+    // next member; then calls refill(). Returns false if the member or zlib stream has ended and no member follows.
     bool proceed() {
         if (inflate.block_state == ISAL_BLOCK_FINISH) {
             // The bytes of `rest` directly follow the bytes that the library has received but not used.

@@ -43,8 +43,8 @@ class Handle {
 };
 
 // The HDF5 library calls these functions to get memory for a copy of the file, and to fill this memory. To avoid the
-// copy, they return the bytes of the file themselves. The library does not write to these bytes, because it opens the
-// file only for reading.
+// copy, the functions return the file's own bytes. The library does not write to these bytes, because it opens the file
+// only for reading.
 void* giveBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
 void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
     return to == from ? to : nullptr;

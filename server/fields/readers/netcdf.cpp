@@ -166,9 +166,9 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
 }
 
 // Returns the coordinate variable of a dimension of `variable`: a variable that has the name of the dimension, and no
-// dimension but this one. It may be in the group of `variable` or in an outer group. The name alone does not suffice: a
-// variable may be named like a dimension that it does not have, and a dimension of a group may be named like a
-// dimension of an outer group.
+// dimension but this one. The coordinate variable may be in the group of `variable` or in an outer group. Its name
+// alone does not suffice: a variable may be named like a dimension that it does not have, and a dimension of a group
+// may be named like a dimension of an outer group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;
@@ -180,7 +180,7 @@ std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
 }
 
 // Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
-// bounds of a coordinate variable.
+// bounds of a coordinate variable. Such a variable is read only if the options name it.
 bool isAuxiliary(const Variable& variable) {
     if (variable.dimensions.empty()) return true;
     const int dimension = variable.dimensions.front();

@@ -15,8 +15,9 @@ namespace oval4d::fields {
 bool isNetcdfStart(std::span<const std::byte> start);
 
 /// Reads a variable of integers or real numbers with 1 to 4 dimensions. `options.variable` is its path, such as
-/// "pressure" or "group/pressure". If this option is empty, the variable with the most dimensions in the root group is
-/// read; of several such variables, the first. Coordinate variables and their bounds are not considered.
+/// "pressure" or "group/pressure". If this option is empty, the variable with the most dimensions is read; of several
+/// such variables, the first, where the variables of outer groups come before those of inner groups. Coordinate
+/// variables and their bounds are not considered.
 ///
 /// Follows the CF conventions 1.10. The axis of a dimension is given by the attributes `axis`, `standard_name`, `units`
 /// and `positive` of its coordinate variable, or else by the dimension's name. The first and the last coordinate give

@@ -170,8 +170,8 @@ double spacingAlong(const NiftiHeader& header, std::size_t dimension) {
 
 using IndexToSpaceMatrix = std::array<std::array<double, 4>, 3>;  // maps the indices of a voxel to coordinates in space
 
-// Returns the orientation of the image: by method 3 of nifti1.h if the file states it so, else by method 2; an empty
-// optional if the file states neither.
+// Returns the orientation of the image by method 3 of nifti1.h (sform) if the file uses this method, else by method 2
+// (qform); an empty optional if it uses neither.
 std::optional<IndexToSpaceMatrix> orientation(const NiftiHeader& header) {
     if (header.sform > 0) return header.rows;
     if (header.qform <= 0) return {};
@@ -284,8 +284,8 @@ Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vect
     return FileContents::of(MappedFilePtr(std::move(*to)));
 }
 
-// Returns the stored numbers: `size` bytes of the file, or of the decompressed file if `gzip` is not null, from the
-// byte `begin` on. `unzipped`: see unzip().
+// Returns the stored numbers: the `size` bytes from the byte `begin` on, of the file or, if `gzip` is not null, of the
+// decompressed file. `unzipped`: see unzip().
 Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
                             std::size_t begin, std::size_t size, const ReadOptions& options) {
     if (gzip != nullptr) {

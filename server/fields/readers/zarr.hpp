@@ -27,10 +27,10 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill
 /// value.
 ///
-/// The axes are those of `options`, or those that the names of the dimensions state (xarray, OME-Zarr). The box is
-/// given by the arrays of coordinates beside the array, or by the scales of a multiscale image. CF attributes apply:
-/// units, scale_factor and so on. From an array with more than 4 dimensions, dimensions of size 1 are left out until 4
-/// remain.
+/// The axes are those in `options.axes` or, if it is empty, those that the names of the dimensions state (xarray,
+/// OME-Zarr). The box is given by the arrays of coordinates beside the array, or by the scales of a multiscale image.
+/// CF attributes apply: units, scale_factor and so on. From an array with more than 4 dimensions, dimensions of size 1
+/// are left out until 4 remain.
 ///
 /// Errors: `bad_field` if the metadata are not valid, or if a chunk is damaged or does not have the stated size;
 /// `not_found` if there is no array at `options.variable`; `out_of_range` if a group does not list its arrays, or if
