@@ -73,7 +73,7 @@ class VirtualServer {
         }
     }
 
-    /// Lets time pass: moves the time to that of each timer that expires, in order, and settles before the next one.
+    /// Lets time pass: advances the clock to the expiry of one timer after another, and settles after each.
     void advance(TimerClock::Clock::duration by) {
         const auto end = clock.now() + by;
         settle();
@@ -85,7 +85,8 @@ class VirtualServer {
         settle();
     }
 
-    /// Settles until `happened` returns true; returns false if it does not within the limit for tests.
+    /// Settles again and again until `happened` returns true. Returns false if this takes longer than the limit for
+    /// tests.
     [[nodiscard]] bool eventually(const std::function<bool()>& happened) {
         return support::eventually(happened, [this] { settle(); });
     }

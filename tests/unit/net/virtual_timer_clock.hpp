@@ -18,8 +18,8 @@
 
 namespace oval4d::net {
 
-/// A clock whose time changes only when a test advances it. Its timers then post their functions to their executors.
-/// Thread-safe, but only one thread at a time may advance the time.
+/// A clock whose time changes only when a test advances it. When a timer of this clock expires, its function is posted
+/// to its executor. Thread-safe, but only one thread at a time may advance the time.
 class VirtualTimerClock final : public TimerClock {
   public:
     Clock::time_point now() const override { return time_.now<Clock>()(); }

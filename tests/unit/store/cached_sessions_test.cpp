@@ -10,7 +10,7 @@
 namespace oval4d::store {
 namespace {
 
-/// An update without changes would overwrite the newest state in the store with nothing.
+/// If the session were queued, an update without changes would overwrite its newest state in the store with nothing.
 TEST(CachedSessions, AnIdLeftInTheQueueDoesNotQueueTheSessionWhenItIsAddedAgain) {
     CachedSessions sessions;
     sessions.add({"id", "secret"});
@@ -49,7 +49,7 @@ TEST(CachedSessions, EvictedSessionsLeaveTheQueue) {
     EXPECT_EQ(sessions.queueLength(), 1U);
 }
 
-/// A session that cannot stay in any case costs no other session its place.
+/// A session that alone exceeds the quota must be evicted in any case. If it is evicted first, the others can stay.
 TEST(CachedSessions, EvictsSessionsBeyondTheWholeQuotaFirst) {
     CachedSessions sessions;
     CachedSession::Clock::time_point time;

@@ -122,9 +122,9 @@ TEST(Codec, RefusesMembersOfLaterVersions) {
         return "";
     };
     ASSERT_EQ(refusalOf(whole), "");
-    // The record; its state; the angles, the slices, the look, the turn toward an element and the frame of reference;
-    // the parts, the camera's orbit, the highlight, the settings of the field and a control point of its fog; and a
-    // state of the history.
+    // All arrays that a later version may extend: the record; its state; the angles, the slices, the look, the turn
+    // toward an element and the frame of reference; the parts, the camera's orbit, the highlight, the settings of the
+    // field and a control point of its fog; and a state of the history.
     for (const char* place : {"", "/3", "/3/3", "/3/4", "/3/5", "/3/8", "/3/9", "/3/5/1", "/3/5/2", "/3/5/8", "/3/5/10",
                               "/3/5/10/2/0", "/4/0"}) {
         json later = whole;
@@ -164,7 +164,7 @@ TEST(Codec, BuildsComposedPolytopesFromTheirNames) {
           "polytope dual of bipyramid of 7-gonal antiprism"})
         session::line(session, text);
     ObjectTable table;
-    polytopes::PolytopeCache cache;  // which has none of them
+    polytopes::PolytopeCache cache;  // which has none of the session's polytopes
     const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, cache);
     EXPECT_EQ(table.size(), 0U) << "their names suffice";
     ASSERT_EQ(back.undoSteps.size(), session.undoSteps.size());
@@ -310,8 +310,8 @@ TEST(Codec, RefusesExcessiveSizesAndNesting) {
     }
 }
 
-/// An image in a frame of reference is not made before its size is checked. Each object that is made gets a serial
-/// number, so no number is missing.
+/// An image in a frame of reference is not made before its size is checked. Each object that is made takes the next
+/// serial number, so the test checks that none was taken.
 TEST(Codec, MakesNoImageBeyondTheLimitOfVertices) {
     const geometry::ReferenceFrame frame{.pace = 2}, other{.pace = 3};
     const auto list = nlohmann::json::array({nlohmann::json::array({"mesh", "key"})});

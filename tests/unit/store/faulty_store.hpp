@@ -19,7 +19,7 @@
 
 namespace oval4d::store {
 
-/// Shared by a test and its FaultyStore.
+/// What a test sets and observes in a FaultyStore.
 struct StoreControl {
     explicit StoreControl(std::size_t quota = kDefaultQuota,
                           Store::WritePolicy writePolicy = Store::WritePolicy::at_once)
@@ -28,14 +28,14 @@ struct StoreControl {
     const Store::WritePolicy policy;
     support::VirtualClock clock;
     std::atomic<bool> fails = false;
-    std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved sessions, expire()
+    std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved updates, expire()
     std::mutex mutex;
     MemoryStore kept;                    // guarded by mutex
-    std::vector<RecordUpdate> updates;   // those that did not fail, in their order; guarded by mutex
-    std::vector<TakenOverSession> lost;  // for the next poll; guarded by mutex
+    std::vector<RecordUpdate> updates;   // of all calls of save() that did not fail, in order; guarded by mutex
+    std::vector<TakenOverSession> lost;  // the result of the next poll; guarded by mutex
 };
 
-/// A store in memory with the write policy of the test, which can make it fail.
+/// A store in memory that a test controls: its write policy, and whether its operations fail.
 class FaultyStore final : public Store {
   public:
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}

@@ -83,7 +83,7 @@ TEST(ObjectCodec, FieldsKeepTheirSecondFunction) {
         std::runtime_error);
 }
 
-// A field of an array with units, and with a second array if it `hasSecond`.
+// A field of an array with units, and with a second array if `hasSecond` is true.
 fields::Field fieldWithUnits(bool hasSecond) {
     fields::FieldArray array;
     array.shape = {2, 1, 1, 1};

@@ -162,7 +162,7 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};
     EXPECT_EQ(one->save({&head, 1}).at(0), SaveResult::missing);
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
-    // Another server with the same fence, from before the loss.
+    // Another server may have the same fence, from a claim before the loss.
     EXPECT_EQ(two->save({&first, 1}).at(0), SaveResult::claimed);
 }
 

@@ -89,7 +89,7 @@ TEST(SqliteStore, FilesArePrivate) {
     }
 }
 
-/// Claims a session, twice if the first attempt finds damage: the second one repairs it first.
+/// Claims a session. If the first attempt finds damage, makes a second one, which first repairs the file.
 std::optional<Record> claimed(SqliteStore& store, const std::string& id) {
     try {
         return store.claim(id);

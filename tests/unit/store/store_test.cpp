@@ -175,7 +175,8 @@ void expectEvictionOrder(Store& store, support::VirtualClock& clock, std::size_t
     EXPECT_TRUE(store.tokenHash("changed, new"));
     EXPECT_TRUE(store.tokenHash("filler 9"));
     EXPECT_EQ(store.save({&large, 1}).at(0), SaveResult::saved);
-    // The first of these does not fit beside the pinned sessions, and the second not even alone.
+    // An update of the first size does not fit beside the pinned sessions; one of the second size does not fit even
+    // alone.
     for (const std::size_t size : {2 * bytes, std::size_t{2'000'000}}) {
         const RecordUpdate largest{{"largest", "secret"}, 1, "", std::string(size, 'x'), {}, {}, false, true};
         EXPECT_THROW(store.save({&largest, 1}), NotWritable);

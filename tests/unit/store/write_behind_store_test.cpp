@@ -16,7 +16,7 @@ using session::Session;
 /// Tests in virtual time: the cache's thread regards only the time of the test's clock.
 class WriteBehindStoreTest : public testing::Test {
   protected:
-    /// `quota`: that of the cache. `storeQuota`: that of the store.
+    /// `quota`: the quota of the cache. `storeQuota`: the quota of the store.
     explicit WriteBehindStoreTest(std::size_t quota = kDefaultQuota, std::size_t storeQuota = kDefaultQuota)
         : control(std::make_shared<StoreControl>(storeQuota)), settings{1h, 100, quota} {}
 
@@ -32,18 +32,18 @@ class WriteBehindStoreTest : public testing::Test {
         writeBehind.save(id, fence, session, scope, [&](bool ours) { promise.set_value(ours); });
         return promise.get_future().get();
     }
-    /// Waits while the time stands still.
+    /// Waits until `happened` returns true, while the clock stands still.
     void atOnce(const std::function<bool()>& happened) {
         EXPECT_TRUE(support::eventually(happened, [&] { wake(); }));
     }
-    /// Waits while the time passes.
+    /// Waits until `happened` returns true, while the clock advances.
     void eventually(const std::function<bool()>& happened) {
         EXPECT_TRUE(support::eventually(happened, [&] {
             control->clock.advance(10ms);
             wake();
         }));
     }
-    /// Makes the cache's thread look at the clock: to save an unknown session does nothing else.
+    /// Makes the cache's thread look at the clock. Saving an unknown session has no other effect.
     void wake() { writeBehind.save("nobody", kFirstFence, {}, WriteBehindStore::SaveScope::head); }
     Session at(std::uint64_t revision) const {
         Session session;
@@ -168,7 +168,7 @@ TEST_F(WriteBehindStoreTest, CountsChangesThatWillSoonBeSaved) {
     eventually([&] { return writeBehind.unsaved() == 0; });
 }
 
-/// So a session that another server claims while its record is decoded is not served.
+/// The server needs this so that it does not serve a session that another server claims while its record is decoded.
 TEST_F(WriteBehindStoreTest, KnowsWhetherItStillOwnsAFetchedSession) {
     const SessionCredentials credentials = writeBehind.create();
     EXPECT_TRUE(writeBehind.owns(credentials.id, kFirstFence));
@@ -226,7 +226,7 @@ TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
     EXPECT_LT(control->saves, 5000);
 }
 
-/// Here, each fetch is followed by another one at once.
+/// Each fetch requests the next one at once, so that a request always waits. The change must be written nevertheless.
 TEST_F(WriteBehindStoreTest, WritesBetweenFetches) {
     constexpr int kMost = 1000;
     const SessionCredentials credentials = writeBehind.create();
@@ -325,7 +325,7 @@ class FullStoreTest : public WriteBehindStoreTest {
     FullStoreTest() : WriteBehindStoreTest(kDefaultQuota, 15'000) {}
 };
 
-/// A session that does not fit into the store, whatever is evicted from it, costs no other session its place.
+/// If a session would not fit into the store even after all evictions, no other session is evicted for it.
 TEST_F(FullStoreTest, EvictsNoSessionsInVain) {
     const auto stored = [&] {
         const std::lock_guard lock(control->mutex);

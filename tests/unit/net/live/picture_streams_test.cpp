@@ -55,7 +55,7 @@ class PictureStreamsTest : public testing::Test {
         });
         return peer;
     }
-    /// Adds such a client, and settles.
+    /// Adds a client as add() does, and settles (see VirtualServer::settle()).
     std::shared_ptr<RecordingPeer> connect(bool acknowledges) {
         auto peer = add(acknowledges);
         server.settle();
@@ -70,7 +70,7 @@ class PictureStreamsTest : public testing::Test {
         });
         server.settle();
     }
-    /// Shows a field in one slice, before clients are added.
+    /// Shows a field in one slice. Must be called before clients are added.
     void showField() {
         session::must(value, session::LoadObject{"ball", "formula", "x^2 + y^2 + z^2 + 0.5*w^2 < 1"});
         session::Set set;

@@ -51,7 +51,7 @@ class RecordingPeer final : public Peer {
         return found;
     }
 
-    std::function<void(std::uint64_t revision)> whenPictureArrives;  ///< may be empty
+    std::function<void(std::uint64_t revision)> whenPictureArrives;  ///< called for each picture; may be empty
     std::uint16_t closeCode = 0;                                     ///< 0 until the session closes the connection
 
   private:

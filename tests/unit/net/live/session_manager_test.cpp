@@ -45,7 +45,7 @@ class SessionManagerTest : public testing::Test {
                       [&joined](JoinResult result) { joined.set_value(std::move(result)); });
         return joined.get_future().get();
     }
-    /// Changes a session, so that no other one may replace it.
+    /// Changes a session, so that it may not be evicted for a new one.
     void change(const std::shared_ptr<LiveSession>& session) {
         asio::co_spawn(server.io, session->apply(server.account, session::Key{"y", false, false}), asio::detached);
         server.settle();

@@ -69,7 +69,7 @@ struct SavedSession {
                          [&](bool written) { done.set_value(written); });
         EXPECT_TRUE(done.get_future().get());
     }
-    /// Calls `write`, and returns what the store answers.
+    /// Calls `write`, and returns the argument of its callback: whether the session is or will be written.
     static bool resultOf(const SessionSaver::Write& write) {
         std::promise<bool> done;
         write([&](bool written) { done.set_value(written); });

@@ -150,7 +150,7 @@ TEST_F(WebSocketConnectionTest, MessagesAboveTheRateAreDelayed) {
     open(true);
     send(clientFrame(kText, R"({"type":"hello"})"));
     waitFor("\"welcome\"");
-    // Takes all that the client's address may send in an hour.
+    // Uses up what the client's address may send in the next hour, so the next message is delayed by an hour.
     const std::size_t most = server.options.client.messageBytesPerSecond;
     static_cast<void>(server.account->countMessage(3601 * most, server.clock.now()));
     const double before = server.metrics.messagesReceived.Value();
