@@ -98,8 +98,8 @@ class Drawer {
     std::vector<std::uint8_t> png_;
 };
 
-/// Warms up, and decrements `cold`. Waits until `begun` is set, then draws pictures for this many seconds, and appends
-/// their latencies in seconds.
+/// Warms up, and decrements `cold`, the number of threads that have not warmed up yet. Waits until `begun` is set, then
+/// draws pictures for this many seconds, and appends their latencies in seconds.
 void draw(const session::State& state, parallel::ForkJoin& forkJoin, bool pipelined, std::atomic<int>& cold,
           const std::atomic<bool>& begun, double seconds, std::vector<double>& latencies) {
     Drawer drawer(state, forkJoin);

@@ -227,7 +227,7 @@ int main(int argc, char** argv) {
     const Endpoint server(asio::ip::make_address("127.0.0.1"), port);
     const std::string cbor = R"({"type":"hello","stream":"geometry","encoding":"cbor"})";
     try {
-        // Comes first, while the server has only its initial memory.
+        // Comes first, because it measures the memory of a server that has just started.
         idle(server, 1000);
         for (const char* polytope : {"5-cell", "600-cell"}) {
             const std::string name = polytope;

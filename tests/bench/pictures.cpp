@@ -1,7 +1,8 @@
 // Measures every step from a state to its picture, as in the server; prints the medians as one line of JSON.
 //   bench_pictures POLYTOPE|FILE.npy|formula [SLICES] [WIDTH] [HEIGHT] [FRAMES] [SETTING=VALUE …]
-// The scene is the same as in the programs of comparison: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and
-// double rotations. If FRAMES is 0, nothing is drawn. "formula" needs the setting of this name.
+// The scene is the same as in the programs that oval4d is compared with: hyperplanes from w = −1 to 1 for a
+// circumradius of 4/√10, and double rotations. If FRAMES is 0, nothing is drawn. For "formula", the setting formula=…
+// must be given.
 
 #include <sys/resource.h>
 

@@ -34,7 +34,7 @@ constexpr Subject kSubjects[] = {
     {"omnitruncated 120-cell", 5, 3, 3, {true, true, true, true}},
 };
 
-/// Returns a polytope, which is built at the first call.
+/// Returns the polytope of kSubjects[number], which is built at the first call with this number.
 std::shared_ptr<const polytopes::Polytope> subject(std::size_t number) {
     static std::array<std::shared_ptr<const polytopes::Polytope>, std::size(kSubjects)> built;
     auto& slot = built.at(number);
