@@ -62,8 +62,8 @@ def build(parts):
 
 
 def with_build_failures(part, failed):
-    """Returns the part. If a build that it needs has failed, its only check fails, and shows the end of the build's
-    log."""
+    """Returns the part. If a build that it needs has failed, replaces its checks by one that fails and shows the end of
+    the build's log."""
     logs = [log for name, log in failed.items() if name == "npm" or name in part.presets]
     if logs:
         script = 'tail -n 15 "$@"; echo "$0 cannot run, because the build has failed: see $*"; exit 1'

@@ -45,7 +45,7 @@ class Failure:
 
 @dataclass
 class PartResults:
-    """What became of the tests of a part."""
+    """The results of the tests of a part."""
 
     part: Part
     seconds: float = 0
@@ -89,7 +89,7 @@ def run_again(check, failed, folder, say):
 
 
 def side_by_side(parts):
-    """Returns the parts as lists of those that run at the same time."""
+    """Returns lists of parts: the parts of each list run at the same time."""
     groups = []
     for part in parts:
         if part.beside_previous and groups:
@@ -100,8 +100,8 @@ def side_by_side(parts):
 
 
 def judge(parts, results_folder, say):
-    """Runs the parts, and what failed once more at the end. Returns the results of each part, and the seconds that the
-    second runs took."""
+    """Runs the parts, and at the end once more the tests that failed. Returns the results of each part, and the seconds
+    that the second runs took."""
     all_results, again = [], []
     for group in side_by_side(parts):
         with concurrent.futures.ThreadPoolExecutor(len(group)) as pool:

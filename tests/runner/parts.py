@@ -12,8 +12,8 @@ ROOT = Path(__file__).resolve().parents[2]
 TESTS = ROOT / "tests"
 
 # The folders whose unit tests run with sanitizers; the service tests run the code of the other folders. With
-# ThreadSanitizer, only code that uses threads is run. The service tests that it leaves out use the same threads in the
-# same way.
+# ThreadSanitizer, only code that uses threads is run, and of the service tests only some; the others use the same
+# threads in the same way.
 SANITIZED_UNITS = {
     "asan-ubsan": ("fields", "file_reading", "geometry", "image", "parallel", "polytopes", "process", "raster", "render", "slicing"),
     "tsan": ("parallel", "polytopes", "raster", "store"),
@@ -110,7 +110,7 @@ def without_address_randomization():
     return wrapper if subprocess.run([*wrapper, "true"], check=False, stderr=subprocess.DEVNULL).returncode == 0 else ()
 
 
-# What LeakSanitizer reports if a thread ends while it searches.
+# Parts of LeakSanitizer's messages if a thread ends while LeakSanitizer searches for leaks.
 OF_LEAK_SEARCH = ("Unable to get registers from thread", "Tracer caught signal 11",
                   "LeakSanitizer has encountered a fatal error", "HINT: For debugging, try setting environment variable LSAN",
                   "HINT: LeakSanitizer does not work under ptrace")
@@ -145,7 +145,7 @@ def sanitizers(folder):
     return [check for preset in SANITIZED_UNITS for check in sanitized(preset, folder)]
 
 
-# What is deterministic, and needs one build. Budgets are in seconds: see Part.
+# The parts that are deterministic and need one build. Budgets are in seconds: see Part.
 GATE = [
     Part("runner", 15, runner),
     Part("lint", 60, lint, ("release",)),
@@ -156,7 +156,7 @@ GATE = [
     Part("failover", 60, failover, ("release",), beside_previous=True),
     Part("browser", 220, browser, ("release",)),
 ]
-# What measures, searches, or needs other builds.
+# The parts that measure, search, or need other builds.
 DEEP = [
     Part("latencies", 300, latencies, ("release",)),
     Part("container", 400, container, ("release",)),
