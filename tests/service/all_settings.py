@@ -33,9 +33,9 @@ def setting_names():
 
 
 def examples(of_fields):
-    """Returns a value for each setting, by its name: if `of_fields` is true, for the settings that only fields have,
-    else for all others but the polytope and the orientation. The value is the first example in the schema or, for what
-    is shown or hidden, the opposite of the default."""
+    """Returns an example value for each of these settings, by name: if `of_fields` is true, the settings that only
+    fields have; if it is false, all other settings except the polytope and the orientation. The value is the first
+    example in the schema or, for what is shown or hidden, the opposite of the default."""
     return {name: schema["examples"][0] if "examples" in schema else not schema["default"]
             for name, schema in descriptions().items()
             if schema.get("x-fields-only", False) == of_fields and name not in (("polytope",), ("orientation",))}

@@ -39,9 +39,9 @@ def netcdf(values, name="v"):
 
 
 def netcdf_with_units(values, quantity, unit, units):
-    """Returns a classic NetCDF file with a variable v of 32-bit floats, whose indices are t, z, y and x, and coordinates
-    from 0 to 1 along each. `quantity` and `unit` are the attributes long_name and units of v, as texts or bytes, and
-    `units` those of the coordinates: a dict by axis."""
+    """Returns a classic NetCDF file with a variable v of 32-bit floats, whose indices are t, z, y and x, and
+    coordinates from 0 to 1 along each. `quantity` and `unit` are the attributes long_name and units of v, as texts or
+    bytes, and `units` maps the name of each axis to the unit of its coordinates."""
     def text(word):
         raw = word if isinstance(word, bytes) else word.encode()
         return struct.pack(">i", len(raw)) + raw + b"\0" * (-len(raw) % 4)

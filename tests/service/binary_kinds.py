@@ -16,7 +16,8 @@ def listed_beginnings(text):
 
 
 def beginnings():
-    """Returns the beginnings of each kind, by the name of the kind, and of "free" those that no kind has."""
+    """Returns the beginnings of the messages of each kind, by the name of the kind; under "free", those that no kind
+    has."""
     section = README.read_text(encoding="utf-8").split("### Binary messages\n")[1].split("\n### ")[0]
     kinds = {}
     for listed, meaning in re.findall(r"^\| (0x.*?) \| (.*?) \|$", section, re.MULTILINE):

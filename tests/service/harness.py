@@ -82,7 +82,7 @@ def wait_for_processes_to_end(pids):
 
 def process_state(pid):
     """Returns the state of the process in /proc: "T" if it is suspended, "t" if it has stopped for its tracer, "Z" if
-    only its parent has to take notice of its end, and "X" if it does not exist."""
+    it has ended but its parent has not waited for it yet, and "X" if it does not exist."""
     try:
         return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rsplit(") ", 1)[1][0]
     except (FileNotFoundError, ProcessLookupError):

@@ -131,7 +131,8 @@ def vtk_array(node):
 
 
 def read_vtk(data, type_):
-    """Returns the arrays of a VTK XML file with one piece: by section, then by name; of an image also its lattice."""
+    """Returns the arrays of a VTK XML file with one piece: by section, then by name. For an image, also returns its
+    lattice."""
     root = ElementTree.fromstring(data)
     assert root.tag == "VTKFile" and root.get("type") == type_
     assert root.get("byte_order") == "LittleEndian" and root.get("header_type") == "UInt64"

@@ -8,8 +8,8 @@ from jsonschema import Draft202012Validator
 
 SCHEMAS = {path.name: json.loads(path.read_text(encoding="utf-8"))
            for path in Path(__file__).parents[2].joinpath("protocol/schema").glob("*.schema.json")}
-# Of longer lists of numbers, or of other items, only the beginnings are compared, because each item takes microseconds.
-# No schema states a longer length. Unit tests compare whole messages.
+# Of each list, only this many numbers or other items at its beginning are compared, because each takes microseconds. No
+# schema states a longer length. Unit tests compare whole messages.
 MOST_NUMBERS, MOST_ITEMS = 256, 20
 
 _compared = set()

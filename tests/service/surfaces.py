@@ -79,7 +79,7 @@ def components_and_euler(surface):
 
 
 def lattice_step(message):
-    """Returns the side of a lattice cube: messages have 48 across the diameter of the field's domain."""
+    """Returns the side of a lattice cube: 48 cubes span the diameter of the field's domain."""
     return 2 * message["scene"]["circumradius"] / 48
 
 

@@ -45,9 +45,9 @@ class Client:
     """A session's client: `async with Client(server, stream="geometry") as client:` sends hello and awaits welcome.
 
     `messages` holds everything received: dictionaries, and bytes for frames and files. `address` is the local address.
-    If `acknowledges`, the client sends `shown` for each picture. If `compares`, it compares at the end what it has
-    received as JSON with the schemas: of messages of one type with the same members, the first. A client that measures
-    latencies must not compare, because finding the members of a message takes milliseconds.
+    If `acknowledges`, the client sends `shown` for each picture. If `compares`, it compares at the end the JSON
+    messages that it has received with the schemas; of messages of one type with the same members, only the first. A
+    client that measures latencies must not compare, because finding the members of a message takes milliseconds.
     """
 
     def __init__(self, server, session="", acknowledges=True, address=None, compares=True, **hello):
