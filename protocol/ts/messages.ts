@@ -18,6 +18,10 @@ export type Request =
     | TowardRequest
     | UndoRequest;
 /**
+ * The kind of element. The points of a point cloud are vertices.
+ */
+export type ElementKind = "vertex" | "edge" | "face" | "cell";
+/**
  * What follows each change: `slices` messages, frames, or nothing. `"none"` if absent.
  */
 export type Stream = "geometry" | "frames" | "none";
@@ -58,10 +62,6 @@ export type Box = [Interval, Interval, Interval, Interval];
  * The projection of the whole polytope in the middle of the oval: none, from an eye on the positive w axis, or parallel to the w axis.
  */
 export type Projection = "off" | "perspective" | "orthogonal";
-/**
- * The kind of element. The points of a point cloud are vertices.
- */
-export type ElementKind = "vertex" | "edge" | "face" | "cell";
 /**
  * The last rotation, for `.` and the space bar; null changes nothing.
  */
@@ -147,6 +147,16 @@ export interface GetRequest {
      * The background of `slices` or a `frame`; by default that of the session.
      */
     background?: Background;
+    /**
+     * The element that is highlighted in `slices` or a `frame`; by default that of the session.
+     */
+    highlight?: {
+        element: ElementKind;
+        /**
+         * The element, counted from 0 among those of its kind.
+         */
+        number: number;
+    } | null;
     /**
      * A coordinate of the point, for `at`.
      */

@@ -257,6 +257,8 @@ Get bodyOf(const json& message) {
     choose(message, "what", kGetTargets, get.what);
     get.viewport = viewportOf(message);
     choose(message, "background", scene::kBackgrounds, get.background);
+    if (const auto highlight = message.find("highlight"); highlight != message.end())
+        readValue(*highlight, get.highlight);
     if (get.what == GetTarget::at) {
         if (!message.contains("x") || !message.contains("y"))
             throw InvalidRequest{"get: the element at a point needs /x and /y, in pixels from the upper left corner"};

@@ -64,8 +64,11 @@ struct Get {
     std::optional<scene::Viewport>
         viewport;  ///< for GetTarget::slices, frame and at; if absent, the connection's viewport is used
     std::optional<scene::Background> background;  ///< for GetTarget::slices and frame; if absent, that of the session
-    glm::dvec2 point{0};                          ///< for GetTarget::at: pixels from the upper left corner
-    exports::ExportRequest file;                  ///< the options of the export, for GetTarget::file
+    /// For GetTarget::slices and frame: the highlighted element, or an inner optional that is empty for none. If the
+    /// outer optional is empty, the element that the session highlights.
+    std::optional<std::optional<slicing::Element>> highlight;
+    glm::dvec2 point{0};          ///< for GetTarget::at: pixels from the upper left corner
+    exports::ExportRequest file;  ///< the options of the export, for GetTarget::file
     bool operator==(const Get&) const = default;
 };
 /// Asks for the center and the size of an element.

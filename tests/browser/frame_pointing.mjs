@@ -1,7 +1,7 @@
 // The element under the pointer in the server's pictures: when the page asks for its name, and when it shows it.
 import assert from "node:assert/strict";
 
-import { columnsOf, faceIn, frames, label, labeled, openTurned, rounded } from "./support/pointing.mjs";
+import { assertSame, columnsOf, faceIn, frames, label, labeled, openTurned, rounded, shot } from "./support/pointing.mjs";
 import { idle, presented } from "./support/browser.mjs";
 import { passTime } from "./support/page_time.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
@@ -123,6 +123,29 @@ test("frame pointing: the server names what is under the mouse, with the words o
     await page.waitForSelector("#drawing[data-drawn-by=geometry]");
     await hoverAt(...at);
     assert.equal(await labeled(page, /volume/), text);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("frame pointing: the element under the mouse is highlighted as by the setting, until the mouse leaves", async () => {
+    const { page, script, errors, size, picture, hoverAt, close } = await openServed();
+    const { at, source } = faceIn(await picture(), size, 1);
+    await hoverAt(...kBackground);
+    const before = await shot(page);
+    const { revision } = await script.state();
+    const noLabel = [-1000, 0];
+    await hoverAt(...at);
+    await page.waitForSelector("#drawing[data-pointed-frame]");
+    const lit = await shot(page);
+    assert.throws(() => assertSame(before, lit, noLabel));
+    await page.hover("#help-button");
+    await page.waitForSelector("#drawing:not([data-pointed-frame])");
+    assertSame(before, await shot(page), noLabel);
+    assert.equal((await script.state()).revision, revision, "pointing changes nothing");
+
+    const kept = await script.request({ type: "set", highlight: { element: "cell", number: source } });
+    await presented(page, kept.revision);
+    assertSame(lit, await shot(page), noLabel);
     assert.deepEqual(errors, []);
     await close();
 });

@@ -63,6 +63,33 @@ async def test_wrong_lines_say_what_is_allowed(server, line, says):
             await client.request("command", line=line)
 
 
+async def test_a_picture_can_highlight_another_element_than_the_session(server):
+    """As a client does that shows what is under the pointer."""
+    cell, edge = {"element": "cell", "number": 17}, {"element": "edge", "number": 3}
+    async with Client(server, stream="none") as client:
+        async def pixels(**members):
+            return png.pixels(await client.request_frame(**SIZE, **members))[1]
+
+        async def highlighted_edges(**members):
+            return list((await client.request("get", what="slices", **members)).get("highlight", {}).get("edges", []))
+
+        await client.request("set", polytope="24-cell", projection="perspective")
+        plain, with_cell = await pixels(), await pixels(highlight=cell)
+        edges_of_cell = await highlighted_edges(highlight=cell)
+        assert with_cell != plain and len(edges_of_cell) > 0
+        revision = (await client.request("set", highlight=cell))["revision"]
+        assert await pixels() == with_cell
+        assert await highlighted_edges() == edges_of_cell
+        assert await pixels(highlight=None) == plain
+        assert await highlighted_edges(highlight=None) == []
+        assert await pixels(highlight=edge) not in (plain, with_cell)
+        state = await client.request("get", what="state")
+        assert (state["highlight"], state["revision"]) == (cell, revision)
+        for what in ["frame", "slices"]:
+            with pytest.raises(Refused, match="the number of the cell must be from 0 to 23"):
+                await client.request("get", what=what, highlight={"element": "cell", "number": 24})
+
+
 @pytest.mark.parametrize("encoding", ENCODINGS)
 async def test_the_geometry_tells_what_to_highlight(server, encoding):
     """Cell 5 of a tesseract: its 6 faces are cut to bars, its 12 edges are in the projection."""

@@ -1,10 +1,11 @@
-// The element under the pointer in the pictures that the server draws. The page asks the server which element it is.
+// The element under the pointer in the pictures that the server draws. The page asks the server which element it is, and
+// for a picture in which this element is highlighted, which it shows while the pointer is there.
 //
 // The server handles the messages of a page one after the other, so a key that is pressed meanwhile waits until the
 // answer is complete. The page therefore asks about one point at a time, and only while the picture rests and no
 // command is unanswered.
 
-import type { At, Client } from "@oval4d/protocol";
+import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
 import { followHover, type Point } from "./hover";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
@@ -23,6 +24,7 @@ export class FramePointing {
     private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
     private asked = ""; // the pixel of the last request about the present picture, as "x y"; "" if there was none
     private isAsking = false;
+    private lit = ""; // the element that the requested or shown picture highlights, as JSON; "" if there is none
     private resting: ReturnType<typeof setTimeout> | undefined;
 
     /** `isIdle` returns whether a revision is the newest one, and no command is unanswered. */
@@ -82,7 +84,7 @@ export class FramePointing {
             const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
             const interval = new Promise((resolve) => setTimeout(resolve, kInterval));
             const answer = await request.catch(() => undefined); // after an error, no name is shown
-            if (answer) this.answered(answer, pointer);
+            if (answer) await this.answered(answer, pointer);
             await interval;
         }
         this.isAsking = false;
@@ -104,7 +106,7 @@ export class FramePointing {
     }
 
     /** Shows what is at a point, unless the picture has changed or the pointer has moved on. */
-    private answered(answer: At, at: Point): void {
+    private async answered(answer: At, at: Point): Promise<void> {
         const { pointer } = this;
         if (answer.revision !== this.revision || !pointer) return;
         const element = descriptionOf(answer);
@@ -113,12 +115,31 @@ export class FramePointing {
         } else if (element) {
             this.named = at;
             this.label.show(element, pointer);
+            await this.light(element);
         } else {
             this.hide();
         }
     }
 
+    /**
+     * Requests a picture in which the element is highlighted, and shows it when it is decoded, unless the pointer has
+     * left the element by then. Resolves when the picture has arrived.
+     */
+    private async light({ element, number }: PolytopeElement): Promise<void> {
+        const lit = JSON.stringify([element, number]);
+        if (lit === this.lit) return;
+        this.lit = lit;
+        const highlight = { element, number };
+        // After an error, no element is highlighted.
+        const frame = await this.client
+            .request({ type: "get", what: "frame", highlight, ...this.stage.size })
+            .catch(() => undefined);
+        if (frame) this.stage.showPointedFrame(frame, () => lit === this.lit).catch(() => undefined);
+    }
+
     private hide(): void {
+        this.lit = "";
+        this.stage.hidePointedFrame();
         if (!this.named) return; // a label that is visible now belongs to pointing.ts, in a picture that the page draws
         this.named = undefined;
         this.label.hide();

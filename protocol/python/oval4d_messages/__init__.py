@@ -624,6 +624,14 @@ class CommandRequest(_CommandRequest, total=False):
     id: float
 
 
+class GetRequestHighlight(TypedDict):
+    """The element that is highlighted in `slices` or a `frame`; by default that of the session."""
+    # The kind of element. The points of a point cloud are vertices.
+    element: ElementKind
+    # The element, counted from 0 among those of its kind.
+    number: int
+
+
 class _GetRequest(TypedDict):
     type: Literal["get"]
     # What to get.
@@ -642,6 +650,8 @@ class GetRequest(_GetRequest, total=False):
     height: int
     # The background of `slices` or a `frame`; by default that of the session.
     background: Background
+    # The element that is highlighted in `slices` or a `frame`; by default that of the session.
+    highlight: Optional[GetRequestHighlight]
     # A coordinate of the point, for `at`.
     x: float
     # A coordinate of the point, for `at`.

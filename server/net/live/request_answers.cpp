@@ -50,6 +50,13 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
     StreamKey key = *stream;
     if (get.viewport) key.viewport = *get.viewport;
     key.background = get.background;
+    key.highlight = get.highlight;
+    if (const auto element = get.highlight.value_or(std::nullopt)) {
+        if (const auto exists = session::checkElement(session_.current.object, *element); !exists) {
+            sendError(*peer, services_.metrics, exists.error(), id);
+            co_return;
+        }
+    }
     switch (get.what) {
         case wire::GetTarget::state:
             co_await answerWithState(peer, key.scheme, id);

@@ -58,11 +58,13 @@ OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapsh
     using scene::Background;
     session::State state = snapshot.state;
     if (key.background) state.look.background = *key.background;
+    if (key.highlight) state.look.highlight = *key.highlight;
     SharedBytes stateText;  // to store in the PNG file; unlike `state` below, keeps the background `automatic`
     if (key.stream == Stream::frames) {
-        stateText = key.background ? SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {},
-                                                                    snapshot.quality, key.scheme))
-                                   : snapshot.stateTextFor(key.scheme);
+        stateText = key.background || key.highlight
+                        ? SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {},
+                                                         snapshot.quality, key.scheme))
+                        : snapshot.stateTextFor(key.scheme);
     }
     const bool isLight = key.scheme == scene::Scheme::light;
     if (isLight && state.look.background == Background::automatic) state.look.background = Background::light;

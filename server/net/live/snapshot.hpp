@@ -28,6 +28,8 @@ struct StreamKey {
     scene::Viewport viewport;
     scene::Scheme scheme = scene::Scheme::dark;        ///< colors of pictures whose background is `automatic`
     std::optional<scene::Background> background = {};  ///< if not empty, replaces the session's background
+    /// If the outer optional is not empty, the inner one replaces the element that the session highlights.
+    std::optional<std::optional<slicing::Element>> highlight = {};
     bool operator==(const StreamKey&) const = default;
 };
 

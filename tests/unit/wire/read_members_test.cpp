@@ -56,7 +56,8 @@ Variations variationsOf(std::type_identity<session::LoadObject> /*type*/) {
 }
 Variations variationsOf(std::type_identity<Get> /*type*/) {
     return {{R"({"type": "get", "what": "slices", "width": 100, "height": 100})",
-             R"({"what": "frame", "width": 200, "height": 200, "background": "white"})"},
+             R"({"what": "frame", "width": 200, "height": 200, "background": "white",
+                 "highlight": {"element": "cell", "number": 1}})"},
             {R"({"type": "get", "what": "at", "x": 1, "y": 1})", R"({"x": 2, "y": 2})"},
             {R"({"type": "get", "what": "file", "format": "stl"})",
              R"({"format": "3mf", "of": "oval", "body": "skeleton", "size": 10, "label": "engraved", "at": [1],

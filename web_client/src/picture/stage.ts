@@ -50,6 +50,7 @@ export class Stage {
     private readonly geometry: GeometryView | undefined;
     private isContextLost = false;
     private readonly frames: FrameView;
+    private readonly pointedFrame: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
     private isDraft = false; // whether a finer picture will follow the newest one
     private unpresentedRevision: number | undefined; // the revision of the new picture that the next drawing presents
@@ -66,6 +67,7 @@ export class Stage {
         const canvas = (name: string): HTMLCanvasElement => root.querySelector<HTMLCanvasElement>(`canvas.${name}`)!;
         this.canvases = { solids: canvas("solids"), overlay: canvas("overlay"), frame: canvas("frame") };
         this.frames = new FrameView(this.canvases.frame);
+        this.pointedFrame = new FrameView(canvas("pointed-frame"));
         if (document.createElement("canvas").getContext("webgl2")) {
             this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
         }
@@ -124,6 +126,22 @@ export class Stage {
         this.unpresentedRevision = state.revision;
         this.isDraft = state.draft ?? false;
         this.scheduleRedraw();
+    }
+
+    /**
+     * Shows a frame in which the element under the pointer is highlighted in place of the newest frame of the stream,
+     * until hidePointedFrame() is called. `isWanted` is called when the frame has been decoded; if it returns false, the
+     * frame is not shown.
+     */
+    async showPointedFrame(png: Uint8Array, isWanted: () => boolean): Promise<void> {
+        await this.pointedFrame.decode(png);
+        if (!isWanted()) return;
+        this.pointedFrame.draw();
+        this.root.toggleAttribute("data-pointed-frame", true);
+    }
+
+    hidePointedFrame(): void {
+        this.root.toggleAttribute("data-pointed-frame", false);
     }
 
     /** Sets the server's limits on the size of pictures. */
