@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 namespace oval4d::slicing {
 
@@ -18,8 +19,16 @@ struct ClosedSurface {
     /// The index of the first triangle of the caps; the triangles before it form the level set. Caps close the surface
     /// where the body ends at the boundary of the domain, or of a hole in which the function has no value.
     std::size_t firstCap = 0;
+    /// Per point, the value of the interpolated function. Empty unless ClosedSurfaceSlicer::Options::pointData is true.
+    std::vector<float> values;
+    /// Per point of the level set, a vector in the direction of the mean gradient of the interpolated function in the
+    /// simplices around the point, weighted by the areas of their triangles: its components along x, y, z and w of the
+    /// rotated object. Its length has no meaning. (0, 0, 0, 0) for other points. Empty if `values` is.
+    std::vector<glm::dvec4> gradients;
 
     void clear() {
+        values.clear();
+        gradients.clear();
         points.clear();
         triangles.clear();
         firstCap = 0;

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 namespace oval4d::slicing {
@@ -54,6 +55,7 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& optio
     }
     out.firstCap = out.triangles.size();
     out.triangles.insert(out.triangles.end(), caps_.begin(), caps_.end());
+    if (options.pointData) out.gradients.resize(out.points.size(), glm::dvec4(0));
     return std::monostate{};
 }
 
@@ -215,6 +217,7 @@ void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const
 // Adds the surface and its caps in a pentatope. `above`: as for sectionOf(). `boundaryFacets` has bit i set if the
 // facet opposite to corner i is on the boundary of the domain.
 void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets) {
+    const std::size_t first = out_->triangles.size();
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
         const unsigned inside = bitsOf(
             tetrahedron.edges, [&](const PentatopeEdge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
@@ -226,6 +229,7 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
                 addCap(cut, tetrahedron, face, false);
         }
     }
+    if (options_.pointData && first < out_->triangles.size()) addGradients(cut, first);
 }
 
 // Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to this corner if the pentatope
@@ -264,6 +268,26 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
     }
 }
 
+// Adds the gradient of the function in the pentatope to those of the points of its triangles, which are the triangles
+// from the index `first` on. Triangles without area have a tiny weight, so that points without other triangles have a
+// gradient, too.
+void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t first) {
+    constexpr double kLeastWeight = 1e-100;
+    std::array<double, 4> rises{};  // along each axis of the lattice, per cell
+    for (std::size_t i = 0; i < 4; ++i) {
+        rises[static_cast<std::size_t>(cut.shape->axisToNextCorner(i))] = sign_ * (cut.values[i + 1] - cut.values[i]);
+    }
+    const glm::dvec4 gradient = lattice_.gradientOf(rises);
+    out_->gradients.resize(out_->points.size(), glm::dvec4(0));
+    for (std::size_t t = first; t < out_->triangles.size(); ++t) {
+        const auto& [a, b, c] = out_->triangles[t];
+        const glm::dvec3& from = out_->points[a];
+        const double area = glm::length(glm::cross(out_->points[b] - from, out_->points[c] - from)) / 2;
+        for (const std::uint32_t corner : out_->triangles[t])
+            out_->gradients[corner] += std::max(area, kLeastWeight) * gradient;
+    }
+}
+
 // Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed` is true, the orientation of the
 // cap is opposite to that of the face.
 void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
@@ -286,7 +310,11 @@ void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedr
 // Returns the index of the point where the hyperplane crosses an edge. Adds the point if it is new.
 std::uint32_t ClosedSurfaceSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
     const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
-    if (isNew) out_->points.push_back(position(cut, edge));
+    if (isNew) {
+        out_->points.push_back(position(cut, edge));
+        if (options_.pointData)
+            out_->values.push_back(static_cast<float>(sign_ * cut.crossings[edge[0]][edge[1]].value));
+    }
     return number;
 }
 
@@ -300,6 +328,7 @@ std::uint32_t ClosedSurfaceSlicer::pointBetween(const CutPentatope& cut, const P
         const double from = cut.crossings[inner[0]][inner[1]].value, to = cut.crossings[outer[0]][outer[1]].value;
         out_->points.push_back(
             glm::mix(position(cut, inner), position(cut, outer), std::clamp((level_ - from) / (to - from), 0.0, 1.0)));
+        if (options_.pointData) out_->values.push_back(static_cast<float>(options_.level));
     }
     return number;
 }

@@ -51,6 +51,7 @@ class ClosedSurfaceSlicer {
         double level = 0;
         fields::Inside inside = fields::Inside::below;
         std::size_t maxTriangles = 5'000'000;
+        bool pointData = false;  ///< whether ClosedSurface::values and ClosedSurface::gradients are needed
         /// Called often, on the thread that called slice(). May read the triangles found so far in `out`. If it returns
         /// true or throws, the slicer stops early. May be null.
         std::function<bool()> mustStop = nullptr;
@@ -107,6 +108,7 @@ class ClosedSurfaceSlicer {
     void addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole);
     void findCrossings(CutPentatope& cut, unsigned above) const;
     void addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside);
+    void addGradients(const CutPentatope& cut, std::size_t first);
     void addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face, bool reversed);
     std::uint32_t pointOn(const CutPentatope& cut, const PentatopeEdge& edge);
     std::uint32_t pointBetween(const CutPentatope& cut, const PentatopeEdge& inner, const PentatopeEdge& outer);

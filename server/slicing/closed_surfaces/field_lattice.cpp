@@ -57,6 +57,13 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
         }
         sides_[axis] = size[a] * toSlice[a];
     }
+    // The gradient g satisfies dot(g, s) = rise for each step s from a point to the next along an axis.
+    glm::dmat4 steps(1);
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+        const auto a = static_cast<int>(axis);
+        steps[a] = sides_[axis] / static_cast<double>(pointCounts_[a] - 1);
+    }
+    fromRises_ = glm::inverse(glm::transpose(steps));
     positive_ = glm::determinant(toSlice) > 0;
     // Positions are relative to field.center, the origin of the object.
     shift_ = toSlice * (field.box.center() - field.center);

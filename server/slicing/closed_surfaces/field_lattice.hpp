@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <glm/gtc/type_precision.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
 #include "fields/field.hpp"
@@ -44,6 +45,11 @@ class FieldLattice {
         const glm::dvec4 term = (fraction - 0.5) * sides_[axis];
         return axis == 0 ? term + shift_ : term;
     }
+    /// Returns the gradient of a linear function, in the coordinates of the rotated object. `rises` are the differences
+    /// of its values between neighboring points of the lattice along each axis.
+    glm::dvec4 gradientOf(const std::array<double, 4>& rises) const {
+        return fromRises_ * glm::dvec4(rises[0], rises[1], rises[2], rises[3]);
+    }
     /// Returns whether the axes of the lattice are a positively oriented basis in the coordinates of the rotated
     /// object.
     bool isPositivelyOriented() const { return positive_; }
@@ -64,6 +70,7 @@ class FieldLattice {
     std::array<glm::dvec4, 4> sides_{};  // the sides of the domain, in the coordinates of the rotated object
     glm::dvec4 shift_{0};                // the center of the domain, in the same coordinates as sides_
     std::array<std::vector<double>, 4> coordinates_;  // per axis and index along it: the function's coordinate
+    glm::dmat4 fromRises_{1};                         // see gradientOf()
     bool positive_ = true;
 };
 

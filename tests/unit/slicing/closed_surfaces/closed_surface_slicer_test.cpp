@@ -203,6 +203,42 @@ TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
     EXPECT_GT(triangles, 100'000U);
 }
 
+// The interpolation of a linear function is the function itself, which has one gradient.
+TEST(ClosedSurfaceSlicer, PointsHaveValuesAndGradients) {
+    std::mt19937 random(38);
+    const glm::dvec4 slope(0.7, -1.1, 0.4, 0.9);
+    fields::Field field = sampledField(testField([&](const glm::dvec4& p) { return glm::dot(slope, p) + 0.1; }, 2,
+                                                 {glm::dvec4(-1, -1, -1, -2), glm::dvec4(1, 1.5, 1, 1)}),
+                                       5);
+    glm::dmat4 sheared(1);
+    sheared[3][0] = 0.5;
+    field.toFunction = glm::inverse(sheared);
+    for (const Inside inside : {Inside::below, Inside::above}) {
+        const geometry::Rotation orientation = support::randomRotation(random);
+        const glm::dmat4 toFunction = field.toFunction * orientation.inverse().matrix();
+        const glm::dvec4 expected = glm::normalize(glm::transpose(toFunction) * slope);
+        const double level = glm::dot(slope, field.center + toFunction * glm::dvec4(0, 0, 0, 0.1)) + 0.15;
+        ClosedSurfaceSlicer slicer(field, orientation);
+        ClosedSurface surface;
+        ASSERT_TRUE(slicer.slice(0.1, {.level = level, .inside = inside, .pointData = true}, surface));
+        ASSERT_GT(surface.firstCap, 0U);
+        ASSERT_LT(surface.firstCap, surface.triangles.size());
+        ASSERT_EQ(surface.values.size(), surface.points.size());
+        ASSERT_EQ(surface.gradients.size(), surface.points.size());
+        for (std::size_t i = 0; i < surface.points.size(); ++i) {
+            const glm::dvec4 at = field.center + toFunction * glm::dvec4(surface.points[i], 0.1);
+            EXPECT_NEAR(surface.values[i], glm::dot(slope, at) + 0.1, 1e-5);
+        }
+        for (std::size_t t = 0; t < surface.firstCap; ++t) {
+            for (const std::uint32_t corner : surface.triangles[t]) {
+                EXPECT_EQ(surface.values[corner], static_cast<float>(level));
+                EXPECT_LT(glm::distance(glm::normalize(surface.gradients[corner]), expected), 1e-4);
+            }
+        }
+        EXPECT_TRUE(exactSlice(slicer, 0.1, level, inside).values.empty());
+    }
+}
+
 // The body below a level and the body above it together fill the domain.
 TEST(ClosedSurfaceSlicer, BothSidesOfALevelFillTheDomain) {
     std::mt19937 random(32);
