@@ -1,6 +1,8 @@
 #include "export/mesh/grid_snapping.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <stdexcept>
 #include <tuple>
@@ -23,6 +25,24 @@ std::uint32_t triangleOf(std::uint32_t edge) { return edge / 3; }
 std::uint32_t nextOf(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
 std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 
+/// A hash of the position of a point, in grid steps.
+struct PositionHash {
+    std::size_t operator()(const glm::i64vec3& at) const {
+        std::uint64_t hash = 0;
+        for (int i = 0; i < 3; ++i) hash = (hash ^ hash >> 29U ^ static_cast<std::uint64_t>(at[i])) * kOddMultiplier;
+        return static_cast<std::size_t>(hash ^ hash >> 32U);
+    }
+    static constexpr std::uint64_t kOddMultiplier = 0x9e3779b97f4a7c15ULL;
+};
+using Positions = std::unordered_set<glm::i64vec3, PositionHash>;
+
+/// Returns whether a · b = c · d, for whole numbers of less than 2⁵³. A product is the sum of its rounded value and the
+/// rounding error, which fma() returns exactly.
+bool productsAreEqual(double a, double b, double c, double d) {
+    const double first = a * b, second = c * d;
+    return first == second && std::fma(a, b, -first) == std::fma(c, d, -second);
+}
+
 /// A closed surface as half-edges. Each half-edge has a twin: the half-edge of the neighboring triangle that joins the
 /// same points in the opposite direction.
 class HalfEdgeMesh {
@@ -38,14 +58,14 @@ class HalfEdgeMesh {
     }
 
     /// Removes connected parts that are smaller than `least` grid steps along all axes.
-    void removeSmallParts(int least) {
+    void removeSmallParts(std::int64_t least) {
         std::vector<bool> seen(removed_.size());
         std::vector<std::uint32_t> part;
         for (std::uint32_t start = 0; start < removed_.size(); ++start) {
             if (seen[start]) continue;
             part.assign(1, start);
             seen[start] = true;
-            glm::ivec3 low = at_[origins_[3 * start]], high = low;
+            glm::i64vec3 low = at_[origins_[3 * start]], high = low;
             for (std::size_t i = 0; i < part.size(); ++i) {
                 for (std::uint32_t edge = 3 * part[i]; edge < 3 * part[i] + 3; ++edge) {
                     low = glm::min(low, at_[origins_[edge]]);
@@ -55,7 +75,7 @@ class HalfEdgeMesh {
                     seen[next] = true;
                 }
             }
-            const glm::ivec3 size = high - low;
+            const glm::i64vec3 size = high - low;
             if (std::max({size.x, size.y, size.z}) >= least) continue;
             for (const std::uint32_t triangle : part) removed_[triangle] = true;
         }
@@ -89,12 +109,12 @@ class HalfEdgeMesh {
 
     /// Moves each point that coincides with an earlier point to a free grid point nearby.
     void separatePoints() {
-        std::unordered_set<std::uint64_t> taken;
+        Positions taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
             if (outgoing_[point] == kNone || removed_[triangleOf(outgoing_[point])]) continue;
-            if (taken.insert(keyOf(at_[point])).second) continue;
+            if (taken.insert(at_[point]).second) continue;
             at_[point] = nearestFree(at_[point], taken);
-            taken.insert(keyOf(at_[point]));
+            taken.insert(at_[point]);
         }
     }
 
@@ -208,15 +228,16 @@ class HalfEdgeMesh {
         return true;
     }
 
-    glm::i64vec3 vectorOf(std::uint32_t edge) const {
-        return glm::i64vec3(at_[endOf(edge)]) - glm::i64vec3(at_[origins_[edge]]);
-    }
-    std::int64_t lengthOf(std::uint32_t edge) const {
-        const glm::i64vec3 v = vectorOf(edge);
+    // The components of these vectors are whole numbers.
+    glm::dvec3 vectorBetween(std::uint32_t from, std::uint32_t to) const { return glm::dvec3(at_[to] - at_[from]); }
+    glm::dvec3 vectorOf(std::uint32_t edge) const { return vectorBetween(origins_[edge], endOf(edge)); }
+    double lengthOf(std::uint32_t edge) const {
+        const glm::dvec3 v = vectorOf(edge);
         return v.x * v.x + v.y * v.y + v.z * v.z;
     }
-    static bool areParallel(const glm::i64vec3& a, const glm::i64vec3& b) {
-        return a.y * b.z == a.z * b.y && a.z * b.x == a.x * b.z && a.x * b.y == a.y * b.x;
+    static bool areParallel(const glm::dvec3& a, const glm::dvec3& b) {
+        return productsAreEqual(a.y, b.z, a.z, b.y) && productsAreEqual(a.z, b.x, a.x, b.z) &&
+               productsAreEqual(a.x, b.y, a.y, b.x);
     }
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
@@ -228,8 +249,7 @@ class HalfEdgeMesh {
         findNeighbors(h2, neighbors_);
         if (q == s || std::ranges::binary_search(neighbors_, s)) return;
         const auto isLine = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            return areParallel(glm::i64vec3(at_[b]) - glm::i64vec3(at_[a]),
-                               glm::i64vec3(at_[c]) - glm::i64vec3(at_[a]));
+            return areParallel(vectorBetween(a, b), vectorBetween(a, c));
         };
         if (isLine(q, p, s) || isLine(q, s, r)) return;
         const std::array<std::uint32_t, 4> outer{twins_[h1], twins_[h2], twins_[g1], twins_[g2]};
@@ -247,18 +267,13 @@ class HalfEdgeMesh {
         set(g2, r, outer[0]);
     }
 
-    static std::uint64_t keyOf(const glm::ivec3& at) {
-        constexpr std::int64_t kMiddle = 1 << 20;
-        const glm::u64vec3 shifted(glm::i64vec3(at) + kMiddle);
-        return shifted.x << 42U | shifted.y << 21U | shifted.z;
-    }
-    static glm::ivec3 nearestFree(const glm::ivec3& at, const std::unordered_set<std::uint64_t>& taken) {
+    static glm::i64vec3 nearestFree(const glm::i64vec3& at, const Positions& taken) {
         for (int reach = 1;; ++reach) {
             for (int z = -reach; z <= reach; ++z) {
                 for (int y = -reach; y <= reach; ++y) {
                     for (int x = -reach; x <= reach; ++x) {
-                        const glm::ivec3 other = at + glm::ivec3(x, y, z);
-                        if (!taken.contains(keyOf(other))) return other;
+                        const glm::i64vec3 other = at + glm::i64vec3(x, y, z);
+                        if (!taken.contains(other)) return other;
                     }
                 }
             }
@@ -269,7 +284,7 @@ class HalfEdgeMesh {
     const Budget& budget_;
     std::vector<std::uint32_t> origins_, twins_;  // per half-edge: its first point, its twin
     std::vector<bool> removed_;                   // per triangle
-    std::vector<glm::ivec3> at_;                  // per point: its position in grid steps
+    std::vector<glm::i64vec3> at_;                // per point: its position in grid steps
     std::vector<std::uint32_t> sources_;          // per point: the input point from which it was made
     std::vector<std::uint32_t> outgoing_;         // per point: a half-edge from it; kNone if merged into another point
     std::vector<std::uint32_t> neighbors_, otherNeighbors_, common_;
@@ -279,7 +294,7 @@ class HalfEdgeMesh {
 
 SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
                            const RoundingGrid& grid, const Budget& budget) {
-    constexpr int kLeastSteps = 4;
+    constexpr std::int64_t kLeastSteps = 4;
     HalfEdgeMesh surface(points, triangles, grid, budget);
     surface.removeSmallParts(kLeastSteps);
     surface.collapseEdges();

@@ -16,6 +16,13 @@ RoundingGrid::RoundingGrid(double size, double extent) {
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }
 
+RoundingGrid RoundingGrid::forDoubles(double size, double extent) {
+    // A double has 53 significant bits, so the sum of a point and a position, both on the grid, is exact.
+    RoundingGrid grid(size, extent);
+    grid.step_ = std::exp2(std::ceil(std::log2(std::max(size * 0x1p-40, extent * 0x1p-50))));
+    return grid;
+}
+
 glm::dvec3 RoundingGrid::snap(const glm::dvec3& point) const {
     // Adding 0 turns −0 into 0, so that equal coordinates are also written as equal text and bytes.
     return glm::round(point / step_) * step_ + 0.0;

@@ -42,14 +42,18 @@ struct PlacedMesh {
 };
 
 /// Rounds coordinates to multiples of a power of two, so that file formats in millimeters represent them exactly, as
-/// decimals or as 32-bit floats. Therefore two points are equal in a file if and only if their rounded coordinates are
-/// equal, and a mesh remains closed for a program that identifies points by their coordinates.
+/// decimals, as 32-bit floats or, with a grid for doubles, as 64-bit floats. Therefore two points are equal in a file
+/// if and only if their rounded coordinates are equal, and a mesh remains closed for a program that identifies points
+/// by their coordinates.
 class RoundingGrid {
   public:
     /// Chooses the step: the smallest power of two that is at least size / 2^17 and extent / 2^23. `size` is the
     /// diameter of the object's circumscribed sphere and `extent` the largest absolute coordinate in the file, both in
     /// millimeters.
     RoundingGrid(double size, double extent);
+    /// Returns a grid for formats with 64-bit floats, which is much finer: its step is the smallest power of two that
+    /// is at least size / 2^40 and extent / 2^50.
+    static RoundingGrid forDoubles(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.
     double step() const { return step_; }

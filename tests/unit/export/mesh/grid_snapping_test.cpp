@@ -1,6 +1,7 @@
 #include "export/mesh/grid_snapping.hpp"
 
 #include <array>
+#include <cmath>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -67,6 +68,31 @@ TEST(GridSnapping, keepsSurfacesClosedManifolds) {
     }
 }
 
+// A grid for doubles is so fine that rounding hardly changes the volume.
+TEST(GridSnapping, keepsTheVolumeOnAGridForDoubles) {
+    std::mt19937 random(51);
+    const double size = 60, extent = 1500;
+    const RoundingGrid grid = RoundingGrid::forDoubles(size, extent);
+    EXPECT_LE(grid.step(), size * 0x1p-39);
+    EXPECT_EQ(std::log2(grid.step()), std::round(std::log2(grid.step())));
+    for (int trial = 0; trial < 6; ++trial) {
+        const slicing::ClosedSurface surface = waves(random, 12);
+        std::vector<glm::dvec3> points;
+        for (const glm::dvec3& point : surface.points) points.push_back(10.0 * point);
+        const SnappedSurface snapped = snapSurface(points, surface.triangles, grid, unhurried());
+        EXPECT_TRUE(isClosedManifold(snapped.mesh));
+        std::set<std::array<double, 3>> places;
+        for (const glm::dvec3& p : snapped.mesh.points) places.insert({p.x, p.y, p.z});
+        EXPECT_EQ(places.size(), snapped.mesh.points.size());
+        double volume = 0;
+        for (const auto& [a, b, c] : surface.triangles)
+            volume += glm::dot(points[a], glm::cross(points[b], points[c])) / 6;
+        EXPECT_NEAR(volumeOf(snapped.mesh) / volume, 1, 1e-10);
+        const glm::dvec3 shift = grid.snap(glm::dvec3(extent / 3, 0, 0));
+        for (const glm::dvec3& p : snapped.mesh.points) EXPECT_EQ(p + shift - shift, p) << "sums are exact";
+    }
+}
+
 // Two tetrahedra with a common corner, and with a common edge: each gets its own.
 TEST(GridSnapping, separatesWhatTouches) {
     const std::vector<glm::dvec3> points{{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1},
@@ -104,12 +130,14 @@ TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
 TEST(GridSnapping, flipsTrianglesWithoutArea) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
     const Triangles triangles{{0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 1, 4}};
-    const SnappedSurface snapped = snapSurface(points, triangles, RoundingGrid(60, 60), unhurried());
-    EXPECT_TRUE(isClosedManifold(snapped.mesh));
-    EXPECT_EQ(snapped.mesh.triangles.size(), 6U);
-    for (const auto& triangle : snapped.mesh.triangles)
-        EXPECT_GT(glm::length(doubleAreaNormalOf(snapped.mesh, triangle)), 0);
-    EXPECT_NEAR(volumeOf(snapped.mesh), 8.0 / 6, 1e-9);
+    for (const RoundingGrid& grid : {RoundingGrid(60, 60), RoundingGrid::forDoubles(60, 60)}) {
+        const SnappedSurface snapped = snapSurface(points, triangles, grid, unhurried());
+        EXPECT_TRUE(isClosedManifold(snapped.mesh));
+        EXPECT_EQ(snapped.mesh.triangles.size(), 6U);
+        for (const auto& triangle : snapped.mesh.triangles)
+            EXPECT_GT(glm::length(doubleAreaNormalOf(snapped.mesh, triangle)), 0);
+        EXPECT_NEAR(volumeOf(snapped.mesh), 8.0 / 6, 1e-9);
+    }
 }
 
 }  // namespace
