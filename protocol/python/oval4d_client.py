@@ -404,7 +404,8 @@ class Client:
 
     def file(self, format: str, **members: Any) -> bytes:
         """Returns the bytes of an exported file. `format` is "stl", "3mf", …; `members` may be of, body, size, label,
-        at and fit, as in the message `get`. Issues a UserWarning for what the file lacks, such as empty slices."""
+        at, fit and exact, as in the message `get`. Issues a UserWarning for what the file lacks, such as empty
+        slices."""
         return self.request("get", what="file", format=format, **members)
 
     def critical(self) -> Critical:

@@ -193,6 +193,10 @@ export interface GetRequest {
      * For a `file` with bodies: whether the polytope's name and w are absent (default), engraved into a face, or on a separate plate.
      */
     label?: "none" | "engraved" | "separate";
+    /**
+     * For a `file` with the surfaces of a field: whether they are cut exactly, as measured in CSV files. Other files ignore it.
+     */
+    exact?: boolean;
 }
 /**
  * The first message of a connection. Sent again, it changes the stream, the encoding, the scheme and the size. Answered by welcome, then by state and a picture.

@@ -26,7 +26,9 @@ export type HyperplaneSettings = State["slices"];
 export type PolytopeElement = NonNullable<State["highlight"]>;
 
 /** The options of an exported file, as in the message `get`. */
-export type FileOptions = Pick<GetRequest, "of" | "body" | "size" | "label" | "at" | "fit"> & { format: string };
+export type FileOptions = Pick<GetRequest, "of" | "body" | "size" | "label" | "at" | "fit" | "exact"> & {
+    format: string;
+};
 /** An exported file. */
 export interface ExportedFile {
     bytes: Uint8Array;

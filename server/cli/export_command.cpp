@@ -58,7 +58,9 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
     app.footer("The contents of the file, as far as its format can contain them:\n  --of " +
                alternativesOf(exports::kExportContents) + "\n  --body " + alternativesOf(exports::kBodies) +
                "  --size MILLIMETERS  --label " + alternativesOf(exports::kLabels) +
-               "\n  --at W,W,… (slices at these w)  --fit N (N slices that all meet the object)\n" + kStateHelp);
+               "\n  --at W,W,… (slices at these w)  --fit N (N slices that all meet the object)"
+               "\n  --exact on|off (on: the surfaces of a field are cut from its samples exactly)\n" +
+               kStateHelp);
 }
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {

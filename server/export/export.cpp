@@ -17,6 +17,7 @@
 #include "export/formats/text.hpp"
 #include "export/label/label.hpp"
 #include "export/mesh/field_body.hpp"
+#include "export/mesh/field_surfaces.hpp"
 #include "export/mesh/marching.hpp"
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
@@ -35,6 +36,11 @@ constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;
 
+// Returns an upper bound of the coordinates in the file.
+double extentOf(const ExportRequest& request, int slices) {
+    return request.contents == ExportContentsKind::oval ? coordinateBound(slices, request.size) : 2 * request.size;
+}
+
 class Exporter {
   public:
     Exporter(const scene::Scene& scene, const slicing::Object& object, const geometry::Rotation& orientation,
@@ -46,9 +52,10 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, request.contents == ExportContentsKind::oval
-                                  ? coordinateBound(slices_.planes.count, request.size)
-                                  : 2 * request.size) {
+          grid_(request.size, extentOf(request, slices_.planes.count)),
+          surfaceGrid_(request.exact && request.format->keepsDoubles
+                           ? RoundingGrid::forDoubles(request.size, extentOf(request, slices_.planes.count))
+                           : grid_) {
         if (request.contents == ExportContentsKind::projection) request_.body = BodyKind::skeleton;
         if (request.contents == ExportContentsKind::highlight) element_ = scene.look.highlight;
         hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == BodyKind::solid && !element_;
@@ -67,9 +74,11 @@ class Exporter {
         if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
         refuseOtherObjects();
         if (format.writeScene != nullptr)
-            return format.writeScene({scene_, object_, orientation_, request_.contents, budget_, warnings_});
+            return format.writeScene(
+                {scene_, object_, orientation_, request_.contents, budget_, warnings_, request_.exact});
         const std::vector<PlacedMesh> solids = bodies();
-        return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_});
+        const bool hasDoubles = hasSurfaces_ && request_.exact && format.keepsDoubles;
+        return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_, hasDoubles});
     }
 
     Drawing draw() const {
@@ -98,6 +107,7 @@ class Exporter {
         const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
         if (request_.body == BodyKind::skeleton) prepareSkeleton();
+        if (hasSurfaces_) prepareSurfaces();
         for (int i = 0; i < slices_.planes.count; ++i) {
             budget_.checkTimeAndStop();
             std::vector<PlacedMesh> solids;
@@ -139,25 +149,39 @@ class Exporter {
     }
 
     /// Returns whether the hyperplane of slice i contains no point of the object or, for the bodies of a field, no
-    /// surface.
+    /// surface. The bodies of slice i must be the last ones that were made.
     bool isEmpty(int i) const {
-        if (hasSurfaces_) return slices_.surfaces[static_cast<std::size_t>(i)].triangles.empty();
+        if (hasSurfaces_) return lastSurfaceIsEmpty_;
         return slices_.vertexCount(i) == 0;
+    }
+
+    /// Returns whether the file contains only the body of the outermost level of a field, as files for printers do.
+    bool hasOneLevel() const { return request_.format->arrangement == Format::Arrangement::plate; }
+
+    void prepareSurfaces() {
+        const fields::Field& field = *slicing::fieldIn(object_);
+        if (hasOneLevel() && !scene_.surfaces.levels.empty()) {
+            surfaces_.emplace(scene_, field, orientation_, request_.exact,
+                              std::vector{scene_.surfaces.levels.back().index}, budget_);
+        } else {
+            surfaces_.emplace(scene_, field, orientation_, request_.exact, budget_);
+        }
     }
 
     /// Returns the bodies of one slice of a field, from the outermost level to the innermost. For a 3-D printer,
     /// returns only the body of the outermost level, which contains the others. Omits levels without a body.
-    std::vector<PlacedMesh> surfaceBodies(int i) const {
+    std::vector<PlacedMesh> surfaceBodies(int i) {
         const auto& levels = scene_.surfaces.levels;
-        const bool single = request_.format->arrangement == Format::Arrangement::plate;
+        const FieldSliceSurface slice = surfaces_->ofSlice(i);
+        lastSurfaceIsEmpty_ = slice.surface.triangles.empty();
         std::vector<PlacedMesh> solids;
         for (std::size_t level = levels.size(); level-- > 0;) {
             std::string name = nameOf(i);
             if (levels.size() > 1) appendDecimal(name += ", level ", scene_.look.field.levels[levels[level].index]);
-            Mesh mesh = fieldBodyOf(scene_, i, level, scale_, grid_, budget_);
+            Mesh mesh = fieldBodyOf(scene_, slice, i, level, scale_, surfaceGrid_, budget_);
             if (!mesh.triangles.empty())
                 solids.push_back({std::move(name), std::move(mesh), levels[level].color, glm::dvec3(0)});
-            if (single) break;
+            if (hasOneLevel()) break;
         }
         return solids;
     }
@@ -314,11 +338,14 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const RoundingGrid grid_;
+    const RoundingGrid surfaceGrid_;  // the grid of the surfaces of a field: grid_ or a finer one
     std::optional<slicing::Element>
         element_;  // the element for ExportContentsKind::highlight; empty for other contents
     SkeletonRadii radii_;
     double cube_ = 0;
     bool hasSurfaces_ = false;  // whether the bodies are enclosed by the surfaces of a field
+    std::optional<FieldSurfaces> surfaces_;
+    bool lastSurfaceIsEmpty_ = false;  // whether the slice whose bodies were made last has no surface
     std::vector<std::string> warnings_;
 };
 

@@ -33,7 +33,8 @@ struct ExportedFile {
 /// - matrix: it shows the matrix.
 ///
 /// The slice set must contain the surfaces (SliceSet::surfaces) for formats with Format::readsSurfaces, and for the
-/// solid bodies of a field, unless the contents are ExportContentsKind::highlight, an element of the field's box.
+/// solid bodies of a field, unless ExportRequest::exact is true or the contents are ExportContentsKind::highlight, an
+/// element of the field's box.
 ///
 /// Bodies are closed and 2-manifold: every edge belongs to exactly two triangles, which traverse it in opposite
 /// directions. Their normals point outward. They are in millimeters, unless the format requires meters.

@@ -48,6 +48,9 @@ struct ExportRequest {
     ///   in the middle of each part. No slice is empty if the object is a convex polytope.
     std::vector<double> chosenW = {};
     std::optional<int> fittedSlices = {};
+    /// Whether the surfaces of a field are exact: those of its piecewise linear interpolation (see
+    /// slicing::ClosedSurfaceSlicer). Ignored for other objects, and for files without surfaces.
+    bool exact = false;
 
     /// Returns whether `chosenW` or `fittedSlices` is given.
     bool choosesSlices() const { return !chosenW.empty() || fittedSlices.has_value(); }

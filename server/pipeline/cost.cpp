@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "scene/surface_look.hpp"
+#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
 
 namespace oval4d::pipeline {
 
@@ -36,6 +38,19 @@ double surfaceSeconds(const session::State& state, double slices, double cubes, 
     const double coloring = isColored ? field->second->function->cost().value : 0;
     const double extraction = points * (3 * cost.value + 2 * cost.gradient + 60 + cost.bounds / 16 + coloring);
     return 1e-9 * std::min(limits.time, extraction) + 1.5e-7 * std::min(points, static_cast<double>(limits.points));
+}
+
+/// Returns the estimated time, in seconds, to make exact surfaces of a field and to write them; 0 for other objects.
+double exactSurfaceSeconds(const session::State& state, double slices) {
+    const fields::Field* field = slicing::fieldIn(state.object);
+    if (field == nullptr) return 0;
+    double cells = slicing::ClosedSurfaceSlicer::kFormulaCells;  // along an axis
+    if (field->array != nullptr) {
+        const double samples = static_cast<double>(fields::sampleCount(field->array->shape()));
+        cells = std::pow(samples, 0.25);
+    }
+    constexpr double kSecondsPerCell = 5e-5;  // of a lattice cell that the surface crosses
+    return kSecondsPerCell * cells * cells * slices * static_cast<double>(state.look.field.levels.size());
 }
 
 /// Returns the estimated time, in seconds, to sample the fog of a field, and to draw it in this many pixels or to write
@@ -87,7 +102,8 @@ EstimatedSeconds exportCost(const session::State& state, const exports::ExportRe
     constexpr slicing::Quality kQuality = slicing::Quality::file;
     const int chosen = request.fittedSlices.value_or(static_cast<int>(request.chosenW.size()));
     const int slices = request.choosesSlices() ? chosen : state.slices.count;
-    const double field = surfaceSeconds(state, slices, slicing::cubesAcross(kQuality), kQuality);
+    const double field = request.exact ? exactSurfaceSeconds(state, slices)
+                                       : surfaceSeconds(state, slices, slicing::cubesAcross(kQuality), kQuality);
     return EstimatedSeconds(0.02 + 5e-6 * slices * elementsCut(elementTotal(state.object)) + field);
 }
 

@@ -59,6 +59,14 @@ Result<std::monostate> parseSize(const std::string& text, const MillimeterRange&
     return std::monostate{};
 }
 
+Result<std::monostate> parseSwitch(const std::string& name, const std::string& value, bool& into) {
+    const bool yes = value == "on" || value == "true" || value == "yes" || value == "1";
+    const bool no = value == "off" || value == "false" || value == "no" || value == "0";
+    if (!yes && !no) return Error{ErrorCode::bad_message, name + " must be on or off, not " + text::inQuotes(value)};
+    into = yes;
+    return std::monostate{};
+}
+
 Result<std::monostate> parseChosenW(const std::string& text, std::vector<double>& at) {
     auto list = session::evaluateList(text);
     if (!list) return Error{list.error().code, "at: " + list.error().message};
@@ -160,8 +168,10 @@ slicing::SliceSet projectionOf(const session::State& state, const slicing::Slice
     return projected;
 }
 
-// Returns whether an export of a field with this request needs the surfaces of its slices.
+// Returns whether an export of a field with this request needs surfaces in its slices. Exact surfaces are made by
+// exportScene().
 bool readsFieldSurfaces(const exports::ExportRequest& request) {
+    if (request.exact) return false;
     using enum exports::ExportContentsKind;
     if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;
     return request.format->writeBodies != nullptr ? request.body == exports::BodyKind::solid
@@ -278,6 +288,8 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
             done = parseChoice(name, value, exports::kBodies, request.body);
         } else if (name == "label") {
             done = parseChoice(name, value, exports::kLabels, request.label);
+        } else if (name == "exact") {
+            done = parseSwitch(name, value, request.exact);
         } else if (name == "size") {
             done = parseSize(value, sizeRangeOf(format), request.size);
         } else {

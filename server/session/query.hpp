@@ -18,7 +18,8 @@ namespace oval4d::session {
 /// The names of parameters that do not describe the state: in the query of a picture, and in the query of an exported
 /// file. The callers of stateFromQuery() read and remove these parameters before the call.
 inline constexpr auto kPictureParameters = std::to_array<std::string_view>({"width", "height"});
-inline constexpr auto kFileParameters = std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit"});
+inline constexpr auto kFileParameters =
+    std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit", "exact"});
 
 /// Parses the ranges of x, y, z and w: eight numbers or expressions, separated by commas. Errors: `bad_expression` and
 /// those of evaluate().

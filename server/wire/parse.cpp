@@ -245,6 +245,7 @@ exports::ExportRequest exportRequestOf(const json& message) {
     request.size = message.value("size", request.size);
     if (const auto at = message.find("at"); at != message.end()) request.chosenW = numbersOf(*at, "get: /at");
     take(message, "fit", request.fittedSlices);
+    request.exact = message.value("exact", request.exact);
     if (!message.contains("of") && request.choosesSlices()) request.contents = exports::ExportContentsKind::oval;
     return request;
 }

@@ -210,7 +210,8 @@ test("command line: :export explains what it cannot save, and without a format o
     await page.waitForFunction(() => /1 of 3 slices is empty/.test(document.getElementById("notice").textContent));
     assert.equal((await save(page, "export stl body=skeleton")).suggestedFilename(), "8-cell-w-0-skeleton.stl");
     for (const [line, says] of [
-        ["export stl fit", "“fit” is not an option, such as fit=5; the options are of, body, size, label, at, fit"],
+        ["export stl fit", "“fit” is not an option, such as fit=5; the options are of, body, size, label, at, fit, exact"],
+        ["export stl exact=maybe", "exact must be on or off, not “maybe”"],
         ["export stl size=big", "size must be a number, not “big”"],
         ["export stl at=0 fit=2", "give either at or fit"],
         ["export png size=3", "the size of a PNG is chosen in the export dialog"],

@@ -251,6 +251,25 @@ test("export: a field and a polytope have different formats", async () => {
         assert.match(name, new RegExp(`^ball.*\\.${format}$`));
         assert.match(text(bytes, 400), expected, format);
     }
+    const isExactOffered = () => page.locator("#export [data-choice=exact]").isVisible();
+    await openExport(page);
+    for (const [format, offers] of Object.entries({ csv: false, vtp: true, svg: false, obj: true })) {
+        await choose(page, "format", format);
+        assert.equal(await isExactOffered(), offers, format);
+    }
+    await choose(page, "body", "skeleton");
+    assert.equal(await isExactOffered(), false, "the box has no surfaces");
+    await choose(page, "body", "solid");
+    await page.keyboard.press("Escape");
+    const smooth = await exported(page, { format: "obj" });
+    const exact = await exported(page, { exact: "on" });
+    assert.equal(exact.name, "ball-w-0-exact.obj");
+    assert.ok(exact.bytes.length > 0 && !exact.bytes.equals(smooth.bytes));
+    await script.request({ type: "set", polytope: "8-cell" });
+    await named(page, "8-cell");
+    await openExport(page);
+    assert.equal(await isExactOffered(), false);
+    await page.keyboard.press("Escape");
     assert.deepEqual(errors, []);
     await close();
 });

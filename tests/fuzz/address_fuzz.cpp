@@ -81,7 +81,7 @@ void describe(session::QueryParameters query) {
         }
         require(request->format == &format && request->size >= exports::kMinSize && request->size <= exports::kMaxSize,
                 "a file is of the size that is allowed");
-        constexpr auto kTaken = std::to_array<std::string_view>({"of", "body", "label", "size", "at", "fit"});
+        constexpr auto kTaken = std::to_array<std::string_view>({"of", "body", "label", "size", "at", "fit", "exact"});
         for (const auto& [name, value] : settings)
             require(std::ranges::find(kTaken, name) == kTaken.end(), "what was taken is gone");
         if (&format != &exports::formats().back()) continue;

@@ -38,7 +38,8 @@ def test_export_command_lists_the_formats(tmp_path):
 async def test_invalid_file_requests_are_refused(server):
     async with Client(server) as client:
         for members in ({}, {"format": "doc"}, {"format": "stl", "size": "large"},
-                        {"format": "stl", "of": "all"}, {"format": "stl", "label": True}):
+                        {"format": "stl", "of": "all"}, {"format": "stl", "label": True},
+                        {"format": "stl", "exact": "on"}):
             with pytest.raises(Refused) as refused:
                 await client.request("get", what="file", **members)
             assert refused.value.code == "bad_message"

@@ -13,14 +13,16 @@ const kChoicesKey = "oval4d.export";
 const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 
 /** The options of a file, without its format; see the message `get`. */
-type Options = Record<string, string | number>;
-const kOptions: Record<string, (value: string) => string | number> = {
+type OptionValue = string | number | boolean;
+type Options = Record<string, OptionValue>;
+const kOptions: Record<string, (value: string) => OptionValue> = {
     of: String,
     body: String,
     size: Number,
     label: String,
     at: String,
     fit: Number,
+    exact: switchOf,
 };
 
 type RequestedFile = [file: ExportedFile, state: State];
@@ -232,6 +234,7 @@ export class ExportDialog {
         this.offerContents(format);
         this.offerSliceChoices(format);
         this.offerBodies();
+        this.offerExact(format);
         this.submit.textContent = `Download ${format.label}`;
     }
 
@@ -274,6 +277,17 @@ export class ExportDialog {
         }
         const solid = this.form.querySelector<HTMLInputElement>('[name=body][value="solid"]')!;
         solid.disabled = solid.parentElement!.hidden = isFlat;
+    }
+
+    /** Offers exact surfaces only for files with surfaces of a field. */
+    private offerExact({ choices }: Format): void {
+        const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=exact]")!;
+        const hasSurfaces =
+            choices.includes("exact") &&
+            this.state?.field !== undefined &&
+            ["focus", "oval"].includes(this.chosenValue("of")) &&
+            !(choices.includes("body") && this.chosenValue("body") === "skeleton");
+        set.hidden = set.disabled = !hasSurfaces;
     }
 
     private async downloadFile(): Promise<void> {
@@ -341,7 +355,7 @@ export class ExportDialog {
     }
 }
 
-function fileNameFor(state: State, { name, choices }: Format, { of, fit, at, body }: Options): string {
+function fileNameFor(state: State, { name, choices }: Format, { of, fit, at, body, exact }: Options): string {
     const parts = [state.polytope.name];
     if (fit !== undefined) parts.push(`${fit} slices`);
     else if (at !== undefined) parts.push("slices");
@@ -350,12 +364,20 @@ function fileNameFor(state: State, { name, choices }: Format, { of, fit, at, bod
     else if (of === "coordinates" && state.field) parts.push("histogram");
     else if (of !== undefined && choices.includes("of")) parts.push(String(of));
     if (body === "skeleton") parts.push("skeleton");
+    if (exact === true) parts.push("exact");
     return fileName(parts, name);
 }
 
 /** The name of an element, such as "cell 17". */
 function nameOf(element: State["highlight"]): string {
     return element ? `${element.element} ${element.number}` : "";
+}
+
+/** Parses the value of an option that is on or off; throws an Error for another value. */
+function switchOf(text: string): boolean {
+    if (["on", "true", "yes", "1"].includes(text)) return true;
+    if (["off", "false", "no", "0"].includes(text)) return false;
+    throw new Error(`exact must be on or off, not “${text}”`);
 }
 
 /** Parses options from words such as "fit=5"; throws an Error if a word is not an option. */

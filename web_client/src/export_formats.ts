@@ -2,7 +2,7 @@
 
 import table from "../../protocol/export_formats.json";
 
-export type ExportOption = "of" | "body" | "size" | "label" | "side" | "pixels" | "background";
+export type ExportOption = "of" | "body" | "size" | "label" | "exact" | "side" | "pixels" | "background";
 
 export interface Format {
     /** The name in the protocol, and the file name extension. */
@@ -12,7 +12,7 @@ export interface Format {
     about: string;
     /** The media type. */
     type: string;
-    /** The options that the dialog offers for this format. */
+    /** The options that the dialog offers for this format; "exact" is offered only for fields. */
     choices: ExportOption[];
     /** What the file can contain; the first is the default. */
     of: string[];
@@ -48,6 +48,7 @@ interface Row {
     media_type: string;
     group: string;
     bodies?: string;
+    surfaces?: boolean;
     of: string[];
     of_fields?: string[];
     about_fields?: string;
@@ -69,6 +70,8 @@ function format(row: Row): Format {
 }
 
 function choicesOf(row: Row): ExportOption[] {
-    if (row.bodies) return ["of", "body", "size", "label"];
-    return [...(row.of.length > 1 ? ["of" as const] : []), ...(row.group === "figure" ? ["side" as const] : [])];
+    const exact = row.surfaces ? ["exact" as const] : [];
+    if (row.bodies) return ["of", "body", ...exact, "size", "label"];
+    const side = row.group === "figure" ? ["side" as const] : [];
+    return [...(row.of.length > 1 ? ["of" as const] : []), ...exact, ...side];
 }

@@ -677,6 +677,9 @@ class GetRequest(_GetRequest, total=False):
     # For a `file` with bodies: whether the polytope's name and w are absent (default), engraved into a face, or on a
     # separate plate.
     label: Literal["none", "engraved", "separate"]
+    # For a `file` with the surfaces of a field: whether they are cut exactly, as measured in CSV files. Other files
+    # ignore it.
+    exact: bool
 
 
 # What follows each change: `slices` messages, frames, or nothing. `"none"` if absent.

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "export/formats/text.hpp"
+#include "export/mesh/exact_slicer.hpp"
 #include "export/mesh/measure.hpp"
-#include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
-#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
+#include "slicing/closed_surfaces/closed_surface.hpp"
 #include "slicing/critical/critical_sections.hpp"
 #include "slicing/element.hpp"
 #include "slicing/slice_set.hpp"
@@ -47,15 +47,6 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
         if (m.centroid) appendDecimal(out, (*m.centroid)[axis]);
     }
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
-}
-
-// Returns the size in bytes of the tables of a slicing::ClosedSurfaceSlicer for the field. They have two numbers for
-// each index along each axis of an array. For a formula, whose tables are small, returns 0.
-std::size_t tableBytes(const fields::Field& field) {
-    std::size_t indices = 0;
-    if (field.array)
-        for (const std::size_t samples : field.array->shape()) indices += samples;
-    return 2 * sizeof(double) * indices;
 }
 
 // Returns a text as a cell of a table. Spreadsheets take a text that begins with certain signs for a formula, which an
@@ -100,21 +91,11 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     slicing::FieldSection section;
     std::vector<float> values;
-    source.budget.checkFileSize(tableBytes(field));
-    slicing::ClosedSurfaceSlicer slicer(field, source.orientation);
+    ExactSlicer slicer(field, source.orientation, {.inside = settings.inside}, source.budget);
     slicing::ClosedSurface surface;
-    slicing::ClosedSurfaceSlicer::Options options{
-        .inside = settings.inside, .maxTriangles = source.budget.triangleLimit(), .mustStop = [&] {
-            source.budget.checkTrianglesAndMemory(surface.triangles.size());
-            return source.budget.mustStop();
-        }};
     for (int i = 0; i < planes.count; ++i) {
         for (const double level : settings.levels) {
-            options.level = level;
-            const auto done = slicer.slice(planes.w(i), options, surface);
-            source.budget.checkTimeAndStop();
-            if (!done) throw ExportRefused{{ExportRefusal::Cause::too_large, done.error().message}};
-            source.budget.checkTrianglesAndMemory(surface.triangles.size());
+            slicer.slice(planes.w(i), level, 0, surface);
             out += std::to_string(planes.first + i) + ',';
             appendDecimal(out, planes.w(i));
             if (hasLevels) appendDecimal(out += ',', level);

@@ -24,6 +24,9 @@ struct MeshesToWrite {
     std::span<const scene::Color> cellColors;  ///< the color of each cell
     const std::string& title;
     const Budget& budget;
+    /// Whether the coordinates are multiples of a step that only 64-bit floats can represent (see
+    /// RoundingGrid::forDoubles()). Only for formats with Format::keepsDoubles.
+    bool hasDoubles = false;
 
     /// Returns the color of a triangle of `solid`: the color of its cell, or the color of the solid if it has no cell.
     scene::Color colorOf(const PlacedMesh& solid, std::size_t triangle) const {
@@ -44,6 +47,7 @@ struct SceneToWrite {
     ExportContentsKind contents;
     const Budget& budget;
     std::vector<std::string>& warnings;  ///< the writer adds what the file lacks (see ExportedFile::warnings)
+    bool exact = false;                  ///< ExportRequest::exact
 };
 
 /// A file format of protocol/export_formats.json. Exactly one of its three writers is not null: writeBodies for a
@@ -60,7 +64,9 @@ struct Format {
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
     std::vector<ExportContentsKind> contents;  ///< what a file can contain; the first is the default of new requests
-    bool readsSurfaces = false;  ///< whether writeScene reads the surfaces of a field (SliceSet::surfaces)
+    /// Whether writeScene writes the surfaces of a field: those in SliceSet::surfaces, or exact ones.
+    bool readsSurfaces = false;
+    bool keepsDoubles = false;  ///< whether writeBodies keeps coordinates that only 64-bit floats can represent
     /// Whether writeScene gets the scene that the picture shows, with its view, camera, visible parts, highlight and
     /// background. If false, writeScene gets a scene of the default look with the colors, levels and fog of the
     /// picture.

@@ -38,6 +38,7 @@ std::vector<Format> readTable() {
         for (const std::string of : row.at("of"))
             format.contents.push_back(text::valueNamed(kExportContents, of).value());
         format.readsSurfaces = writer->readsSurfaces;
+        format.keepsDoubles = writer->keepsDoubles;
         format.showsPicture = writer->showsPicture;
         format.writeBodies = writer->ofBodies;
         format.writeScene = writer->ofScene;

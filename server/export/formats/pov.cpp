@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -19,6 +20,8 @@
 #include <glm/vec4.hpp>
 
 #include "export/formats/text.hpp"
+#include "export/mesh/field_surfaces.hpp"
+#include "fields/field.hpp"
 
 namespace oval4d::exports {
 
@@ -148,7 +151,10 @@ class PovWriter {
           set_(*scene_.slices),
           style_(scene_.style()),
           toView_(scene_.camera.view()),
-          axes_(glm::transpose(glm::dmat3(toView_))) {}
+          axes_(glm::transpose(glm::dmat3(toView_))) {
+        if (const fields::Field* const field = slicing::fieldIn(source.object))
+            surfaces_.emplace(scene_, *field, source.orientation, source.exact, source.budget);
+    }
 
     std::string write() {
         for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
@@ -285,20 +291,20 @@ class PovWriter {
     }
 
     void addSurfaces(std::size_t slice, const PovPlacement& part) {
-        const slicing::SliceSurface& surface = set_.surfaces[slice];
+        const FieldSliceSurface exported = surfaces_->ofSlice(static_cast<int>(slice));
+        const slicing::SliceSurface& surface = exported.surface;
         triangles_ += surface.triangles.size();
         source_.budget.checkTrianglesAndMemory(triangles_);
         for (const scene::SurfaceLook::LevelLook& level : scene_.surfaces.levels) {
-            addSurface(slice, part, level, false);
-            if (level.caps) addSurface(slice, part, level, true);
+            addSurface(surface, slice, part, level, false);
+            if (level.caps) addSurface(surface, slice, part, level, true);
         }
     }
 
     /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. The level set and the caps are separate
     /// meshes, because the points where they meet have different normals and colors in each.
-    void addSurface(std::size_t slice, const PovPlacement& part, const scene::SurfaceLook::LevelLook& level,
-                    bool ofCaps) {
-        const slicing::SliceSurface& surface = set_.surfaces[slice];
+    void addSurface(const slicing::SliceSurface& surface, std::size_t slice, const PovPlacement& part,
+                    const scene::SurfaceLook::LevelLook& level, bool ofCaps) {
         PovMesh mesh;
         // Per point of the surface: its index in the mesh.
         std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);
@@ -314,7 +320,7 @@ class PovWriter {
                     mesh.points.push_back(part(glm::dvec3(surface.points[point])));
                     if (!ofCaps) mesh.normals.push_back(surface.normals[point]);
                     textureOf.push_back(
-                        textures_.numberOf(colorOf(slice, level, ofCaps, point), level.opacity, kShiny));
+                        textures_.numberOf(colorOf(surface, slice, level, ofCaps, point), level.opacity, kShiny));
                 }
                 corners[i] = numbers[point];
                 textures[i] = textureOf[numbers[point]];
@@ -323,11 +329,11 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    scene::Color colorOf(std::size_t slice, const scene::SurfaceLook::LevelLook& level, bool ofCaps,
-                         std::uint32_t point) const {
+    scene::Color colorOf(const slicing::SliceSurface& surface, std::size_t slice,
+                         const scene::SurfaceLook::LevelLook& level, bool ofCaps, std::uint32_t point) const {
         const scene::SurfaceLook& look = scene_.surfaces;
-        if (ofCaps && look.colorsCapPoints()) return look.capPointColor(set_.surfaces[slice], point);
-        if (!ofCaps && look.colorsPoints()) return look.pointColor(set_.surfaces[slice], point);
+        if (ofCaps && look.colorsCapPoints()) return look.capPointColor(surface, point);
+        if (!ofCaps && look.colorsPoints()) return look.pointColor(surface, point);
         return look.color(level, slice);
     }
 
@@ -406,7 +412,8 @@ class PovWriter {
     const glm::dmat3 axes_;  // the right, up and backward directions of the camera
     PovTextures textures_;
     std::string objects_;
-    std::size_t triangles_ = 0;  // the number of triangles of the surfaces so far
+    std::optional<FieldSurfaces> surfaces_;  // empty unless the object is a field
+    std::size_t triangles_ = 0;              // the number of triangles of the surfaces so far
 };
 
 }  // namespace

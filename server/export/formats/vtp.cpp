@@ -1,14 +1,17 @@
 #include "export/formats/writers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "export/formats/vtk_xml.hpp"
+#include "export/mesh/field_surfaces.hpp"
 #include "export/omissions.hpp"
 #include "fields/field.hpp"
 
@@ -30,7 +33,8 @@ ListedElementKind elementsOf(const slicing::Object& object) {
 /// The arrays of the file.
 struct PolyData {
     ListedElementKind elements = ListedElementKind::faces;
-    std::vector<float> points, normals;               // x, y, z of each point; x, y, z of its normal
+    std::vector<double> points;                       // x, y, z of each point
+    std::vector<float> normals;                       // x, y, z of the normal at each point
     std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
     std::vector<std::int64_t> corners, ends;          // per corner: its point; per element: its end in `corners`
     std::vector<std::int32_t> n, cell;                // `cell` is empty unless the elements are faces
@@ -38,8 +42,9 @@ struct PolyData {
     std::vector<std::uint8_t> cap;
 };
 
-void appendVector(std::vector<float>& out, const glm::dvec3& v) {
-    for (int i = 0; i < 3; ++i) out.push_back(static_cast<float>(v[i]));
+template <typename Number>
+void appendVector(std::vector<Number>& out, const glm::dvec3& v) {
+    for (int i = 0; i < 3; ++i) out.push_back(static_cast<Number>(v[i]));
 }
 
 glm::dvec3 placeOf(const SceneToWrite& source, int slice) {
@@ -84,10 +89,11 @@ void addElements(const SceneToWrite& source, int slice, PolyData& out) {
 }
 
 /// Adds the points of a surface, and returns the index of the first one in the file.
-std::int64_t addPoints(const slicing::SliceSurface& surface, const glm::dvec3& place, PolyData& out) {
+std::int64_t addPoints(const FieldSliceSurface& exported, const glm::dvec3& place, PolyData& out) {
+    const slicing::SliceSurface& surface = exported.surface;
     const auto first = static_cast<std::int64_t>(out.points.size() / 3);
     for (std::size_t p = 0; p < surface.points.size(); ++p) {
-        appendVector(out.points, glm::dvec3(surface.points[p]) + place);
+        appendVector(out.points, exported.point(p) + place);
         appendVector(out.normals, glm::dvec3(surface.normals[p]));
         out.values.push_back(surface.values[p]);
         if (!surface.secondValues.empty()) out.secondValues.push_back(surface.secondValues[p]);
@@ -133,10 +139,10 @@ std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std
     return copies;
 }
 
-void addSurface(const SceneToWrite& source, int slice, PolyData& out) {
+void addSurface(const SceneToWrite& source, const FieldSliceSurface& exported, int slice, PolyData& out) {
     const slicing::SliceSet& slices = *source.scene.slices;
-    const slicing::SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(slice)];
-    const std::int64_t first = addPoints(surface, placeOf(source, slice), out);
+    const slicing::SliceSurface& surface = exported.surface;
+    const std::int64_t first = addPoints(exported, placeOf(source, slice), out);
     const std::vector<std::int64_t> copies = addCapPoints(surface, first, out);
     const auto& levels = source.scene.look.field.levels;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -156,8 +162,10 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
     appendVtkArray(out, name, components, std::span<const Number>(numbers), quantity);
 }
 
-// `field` is null for other objects. `units` are the units of the axes.
-std::string pieceElement(const PolyData& data, const fields::Field* field, const fields::PictureUnits& units) {
+// `field` is null for other objects. `units` are the units of the axes. `asDoubles` says whether the coordinates of
+// points are written as 64-bit floats.
+std::string pieceElement(const PolyData& data, const fields::Field* field, const fields::PictureUnits& units,
+                         bool asDoubles) {
     const auto countOf = [&](ListedElementKind elements) {
         return "=\"" + std::to_string(data.elements == elements ? data.ends.size() : 0) + '"';
     };
@@ -182,7 +190,13 @@ std::string pieceElement(const PolyData& data, const fields::Field* field, const
     appendArray(out, "n", data.n);
     appendArray(out, "w", data.w, 1, {"", units[3].isToScale ? units[3].text : ""});
     out += "</CellData>\n<Points>\n";
-    appendArray(out, "points", data.points, 3, {"", fields::lengthUnit(units)});
+    if (asDoubles) {
+        appendArray(out, "points", data.points, 3, {"", fields::lengthUnit(units)});
+    } else {
+        std::vector<float> points(data.points.size());
+        std::ranges::transform(data.points, points.begin(), [](double each) { return static_cast<float>(each); });
+        appendArray(out, "points", points, 3, {"", fields::lengthUnit(units)});
+    }
     const std::string list = data.elements == ListedElementKind::vertices ? "Verts"
                              : data.elements == ListedElementKind::edges  ? "Lines"
                                                                           : "Polys";
@@ -199,12 +213,14 @@ std::string vtp(const SceneToWrite& source) {
     const bool isField = field != nullptr;
     PolyData data;
     if (!isField) data.elements = elementsOf(source.object);
+    std::optional<FieldSurfaces> surfaces;
+    if (isField) surfaces.emplace(source.scene, *field, source.orientation, source.exact, source.budget);
     std::vector<int> empty;
     for (int i = 0; i < source.scene.slices->planes.count; ++i) {
         source.budget.checkTimeAndStop();
         source.budget.checkTrianglesAndMemory(data.ends.size());
         const std::size_t before = data.ends.size();
-        isField ? addSurface(source, i, data) : addElements(source, i, data);
+        isField ? addSurface(source, surfaces->ofSlice(i), i, data) : addElements(source, i, data);
         if (data.ends.size() == before) empty.push_back(i);
     }
     if (!empty.empty()) {
@@ -212,7 +228,7 @@ std::string vtp(const SceneToWrite& source) {
         source.warnings.push_back(warningOfOmission(source.scene.slices->planes, empty, fault,
                                                     slicing::infoOf(source.object).originInFile.w));
     }
-    return vtkFile("PolyData", "", pieceElement(data, field, source.scene.axisUnits));
+    return vtkFile("PolyData", "", pieceElement(data, field, source.scene.axisUnits, isField && source.exact));
 }
 
 }  // namespace oval4d::exports

@@ -22,7 +22,8 @@ std::string obj(const MeshesToWrite& meshes);
 
 /// Returns a binary little-endian PLY file in millimeters, with all bodies in one mesh and a color for each triangle.
 /// For fields, not the triangles but the points have colors, and each point has the value of the function as the
-/// property `value`; the value is NaN at the points of labels.
+/// property `value`; the value is NaN at the points of labels. The coordinates are 32-bit floats or, if
+/// MeshesToWrite::hasDoubles is true, 64-bit floats.
 std::string ply(const MeshesToWrite& meshes);
 
 /// Returns an OpenSCAD program in millimeters. It has a module for each body, body_1 and so on, which makes a
@@ -82,8 +83,9 @@ std::string vti(const SceneToWrite& source);
 /// with the arrays `value`, `second_value` (if there is a second function), `normals` and `growth` (see
 /// slicing::SliceSurface) for each point, and `level` and `cap` for each triangle. The arrays `n` and `w` have, for
 /// each face, edge, point or triangle, the index n of the hyperplane of its slice, and the w of this hyperplane in the
-/// coordinates of the object's file. Infinite growth is written as NaN. Adds a warning about slices that have none of
-/// these elements. Throws ExportRefused if a limit is exceeded or a stop is requested.
+/// coordinates of the object's file. Infinite growth is written as NaN. The points are 32-bit floats or, if
+/// SceneToWrite::exact is true, 64-bit floats. Adds a warning about slices that have none of these elements. Throws
+/// ExportRefused if a limit is exceeded or a stop is requested.
 std::string vtp(const SceneToWrite& source);
 
 // --- Formats of drawings.
@@ -103,13 +105,14 @@ std::string tikz(const Drawing& drawing);
 // --- All of them.
 
 /// The name of a format, and the function that writes it, from bodies, a scene or a drawing; the other two functions
-/// are null. `readsSurfaces` and `showsPicture` have the meaning of the members of Format with these names.
+/// are null. `readsSurfaces`, `showsPicture` and `keepsDoubles` have the meaning of the members of Format with these
+/// names.
 struct FormatWriterRow {
     std::string_view name;
     std::string (*ofBodies)(const MeshesToWrite&) = nullptr;
     std::string (*ofScene)(const SceneToWrite&) = nullptr;
     std::string (*ofDrawing)(const Drawing&) = nullptr;
-    bool readsSurfaces = false, showsPicture = false;
+    bool readsSurfaces = false, showsPicture = false, keepsDoubles = false;
 };
 
 /// All writers. Each has a row of protocol/export_formats.json with the same name.
@@ -117,10 +120,10 @@ inline constexpr auto kWriters =
     std::to_array<FormatWriterRow>({{.name = "3mf", .ofBodies = threeMf},
                                     {.name = "csv", .ofScene = measurementsCsv},
                                     {.name = "glb", .ofBodies = glb},
-                                    {.name = "obj", .ofBodies = obj},
+                                    {.name = "obj", .ofBodies = obj, .keepsDoubles = true},
                                     {.name = "off", .ofScene = off},
                                     {.name = "pdf", .ofDrawing = pdf},
-                                    {.name = "ply", .ofBodies = ply},
+                                    {.name = "ply", .ofBodies = ply, .keepsDoubles = true},
                                     {.name = "pov", .ofScene = pov, .readsSurfaces = true, .showsPicture = true},
                                     {.name = "scad", .ofBodies = scad},
                                     {.name = "stl", .ofBodies = stl},

@@ -33,9 +33,9 @@ std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::si
 
 }  // namespace
 
-Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const RoundingGrid& grid,
-                 const Budget& budget) {
-    const slicing::SliceSurface& surface = scene.slices->surfaces[static_cast<std::size_t>(i)];
+Mesh fieldBodyOf(const scene::Scene& scene, const FieldSliceSurface& slice, int i, std::size_t level, double scale,
+                 const RoundingGrid& grid, const Budget& budget) {
+    const slicing::SliceSurface& surface = slice.surface;
     const scene::SurfaceLook::LevelLook& look = scene.surfaces.levels[level];
     std::vector<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -44,7 +44,7 @@ Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double sca
     if (triangles.empty()) return {};
     std::vector<glm::dvec3> points;
     points.reserve(surface.points.size());
-    for (const glm::vec3& point : surface.points) points.push_back(glm::dvec3(point) * scale);
+    for (std::size_t p = 0; p < surface.points.size(); ++p) points.push_back(slice.point(p) * scale);
     SnappedSurface snapped = snapSurface(points, triangles, grid, budget);
     if (!isThickEnough(snapped.mesh, grid)) return {};
     const auto colors =

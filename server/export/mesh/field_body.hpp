@@ -4,17 +4,18 @@
 #include <cstddef>
 
 #include "export/budget.hpp"
+#include "export/mesh/field_surfaces.hpp"
 #include "export/mesh/mesh.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::exports {
 
 /// Returns the body that the surface of one level encloses, together with its caps (see slicing::SliceSurface), in
-/// slice i of a field. The mesh has Mesh::pointColors, as in the picture, and Mesh::pointValues. `level` is an index
-/// into scene.surfaces.levels. `scene.slices` must contain the surfaces of the slices. `scale` is in millimeters per
-/// unit of the object. Returns an empty mesh if the rounded body has no volume (see isThickEnough()). Throws the
-/// exceptions of snapSurface().
-Mesh fieldBodyOf(const scene::Scene& scene, int i, std::size_t level, double scale, const RoundingGrid& grid,
-                 const Budget& budget);
+/// slice i of a field. `slice` is the surface in this slice. The mesh has Mesh::pointColors, as in the picture, and
+/// Mesh::pointValues. `level` is an index into scene.surfaces.levels. `scale` is in millimeters per unit of the object.
+/// Returns an empty mesh if the rounded body has no volume (see isThickEnough()). Throws the exceptions of
+/// snapSurface().
+Mesh fieldBodyOf(const scene::Scene& scene, const FieldSliceSurface& slice, int i, std::size_t level, double scale,
+                 const RoundingGrid& grid, const Budget& budget);
 
 }  // namespace oval4d::exports

@@ -93,6 +93,9 @@ TEST(Parse, GetAndShown) {
     EXPECT_EQ(file(R"("at":"-1, 1/2")").chosenW, (std::vector<double>{-1, 0.5}));
     EXPECT_EQ(file(R"("fit":5)").fittedSlices, 5);
     EXPECT_EQ(file(R"("fit":5)").contents, exports::ExportContentsKind::oval);
+    EXPECT_TRUE(file(R"("exact":true)").exact);
+    EXPECT_FALSE(file(R"("exact":false)").exact);
+    EXPECT_FALSE(file(R"("fit":5)").exact);
     EXPECT_EQ(file(R"("at":[0],"of":"focus")").contents, exports::ExportContentsKind::focus);
     EXPECT_EQ(file(R"("body":"solid")").contents, exports::ExportContentsKind::focus);
     const auto measure = std::get<Measure>(parsed(R"({"type":"measure","element":"edge","number":17})").body);

@@ -61,7 +61,7 @@ Variations variationsOf(std::type_identity<Get> /*type*/) {
             {R"({"type": "get", "what": "at", "x": 1, "y": 1})", R"({"x": 2, "y": 2})"},
             {R"({"type": "get", "what": "file", "format": "stl"})",
              R"({"format": "3mf", "of": "oval", "body": "skeleton", "size": 10, "label": "engraved", "at": [1],
-                 "fit": 3})"}};
+                 "fit": 3, "exact": true})"}};
 }
 
 template <typename Body>

@@ -41,6 +41,7 @@ TEST(Formats, areThoseOfTheTable) {
         EXPECT_EQ(format.writeBodies != nullptr, group == "print" || group == "model");
         EXPECT_EQ(format.writeDrawing != nullptr, group == "figure");
         EXPECT_EQ(format.writeScene != nullptr, group == "data");
+        EXPECT_EQ(format.writeBodies != nullptr || format.readsSurfaces, rows[i].value("surfaces", false));
     }
     EXPECT_EQ(formatNamed("STL"), nullptr);
     EXPECT_EQ(formatNamed(""), nullptr);

@@ -1,0 +1,56 @@
+#include "export/mesh/exact_slicer.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "fields/array/array_function.hpp"
+
+namespace oval4d::exports {
+
+namespace {
+
+// Returns the size in bytes of the tables of a slicing::ClosedSurfaceSlicer for the field. They have two numbers for
+// each index along each axis of an array. For a formula, whose tables are small, returns 0.
+std::size_t tableBytes(const fields::Field& field) {
+    std::size_t indices = 0;
+    if (field.array)
+        for (const std::size_t samples : field.array->shape()) indices += samples;
+    return 2 * sizeof(double) * indices;
+}
+
+const fields::Field& withRoomForTables(const fields::Field& field, const Budget& budget) {
+    budget.checkFileSize(tableBytes(field));
+    return field;
+}
+
+}  // namespace
+
+ExactSlicer::ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, Options options,
+                         const Budget& budget)
+    : budget_(budget), options_(std::move(options)), slicer_(withRoomForTables(field, budget), orientation) {}
+
+void ExactSlicer::slice(double w, double level, std::size_t others, slicing::ClosedSurface& out) {
+    const std::size_t limit = budget_.triangleLimit();
+    const auto done = slicer_.slice(w,
+                                    {.level = level,
+                                     .inside = options_.inside,
+                                     .maxTriangles = limit - std::min(limit, others),
+                                     .pointData = options_.pointData,
+                                     .mustStop =
+                                         [&] {
+                                             const std::size_t triangles = others + out.triangles.size();
+                                             budget_.checkTrianglesAndMemory(std::min(limit, triangles));
+                                             return budget_.mustStop();
+                                         }},
+                                    out);
+    budget_.checkTimeAndStop();
+    if (!done) {
+        throw ExportRefused{{ExportRefusal::Cause::too_large, "the exact surfaces have more than the allowed " +
+                                                                  std::to_string(limit) + " triangles" +
+                                                                  options_.advice}};
+    }
+    budget_.checkTrianglesAndMemory(others + out.triangles.size());
+}
+
+}  // namespace oval4d::exports

@@ -1,0 +1,43 @@
+#pragma once
+// Exact slices of fields, within the limits of an export.
+
+#include <cstddef>
+#include <string>
+
+#include "export/budget.hpp"
+#include "fields/field.hpp"
+#include "fields/inside.hpp"
+#include "geometry/rotation.hpp"
+#include "slicing/closed_surfaces/closed_surface.hpp"
+#include "slicing/closed_surfaces/closed_surface_slicer.hpp"
+
+namespace oval4d::exports {
+
+/// Slices a field exactly: see slicing::ClosedSurfaceSlicer. A formula is sampled on its default lattice.
+class ExactSlicer {
+  public:
+    struct Options {
+        fields::Inside inside = fields::Inside::below;
+        bool pointData = false;  ///< see slicing::ClosedSurfaceSlicer::Options
+        /// The end of the error message about too many triangles: what the user can do. Empty, or begins with a
+        /// semicolon.
+        std::string advice = {};
+    };
+
+    /// `field` and `budget` must outlive this object. Throws ExportRefused if the memory limit leaves no room for the
+    /// tables of the slicer.
+    ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, Options options,
+                const Budget& budget);
+
+    /// Slices the body of one level by the hyperplane at `w`. Overwrites `out`. `others` is the number of triangles
+    /// that the export has made already and that count, too. Throws ExportRefused if a limit is exceeded or a stop is
+    /// requested.
+    void slice(double w, double level, std::size_t others, slicing::ClosedSurface& out);
+
+  private:
+    const Budget& budget_;
+    const Options options_;
+    slicing::ClosedSurfaceSlicer slicer_;
+};
+
+}  // namespace oval4d::exports
