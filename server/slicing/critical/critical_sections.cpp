@@ -13,6 +13,7 @@
 
 #include "fields/field.hpp"
 #include "slicing/critical/critical_point.hpp"
+#include "slicing/critical/local_change.hpp"
 #include "slicing/element.hpp"
 #include "slicing/field_slicer.hpp"
 #include "slicing/surfaces/surface_measurements.hpp"
@@ -27,6 +28,9 @@ using TopologyByLevel = std::vector<SectionTopology>;
 const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
 
+// The farthest distance at which a change is searched from the w that the lattices of whole sections show, relative to
+// the range of w.
+constexpr double kLocalReach = 5e-3;
 constexpr std::size_t kMaxChanges = 1000;  // of all levels together; a noisy field may have more changes
 
 /// Cuts one field by one hyperplane at a time.
@@ -281,12 +285,15 @@ class CriticalSearch {
         CriticalSection result{
             (change.from + change.to) / 2, SectionChange::handle, 0, change.level, change.before, change.after};
         result.change = PartMatching(before, after, change.level, cutter_).change(change.before, change.after);
-        if (!field_.formula.empty() && !mustEnd()) {
-            std::optional<double> best;
+        if (mustEnd()) return result;
+        std::optional<double> best;
+        if (field_.formula.empty()) {
+            best = searchOnFinerLattices(change, result.change, before, after);
+        } else {
             searchNearTangentPoints(change, before, change.from, best);
             searchNearTangentPoints(change, after, change.to, best);
-            result.w = best.value_or(result.w);
         }
+        result.w = best.value_or(result.w);
         return result;
     }
 
@@ -307,6 +314,34 @@ class CriticalSearch {
                 continue;
             if (!best || std::abs(point->w - middle) < std::abs(*best - middle)) best = point->w;
         }
+    }
+
+    // Refines the critical w of a change of this kind on finer lattices around those points where the sections before
+    // and after it are most nearly tangent to the hyperplane. The parts that merge or vanish are tangent before the
+    // change, and those that split or appear after it. Returns std::nullopt for a change of handles, of which finer
+    // lattices show more where the surface has creases.
+    std::optional<double> searchOnFinerLattices(const TopologyChange& change, SectionChange kind,
+                                                const SliceSurface& before, const SliceSurface& after) const {
+        constexpr std::size_t kStarts = 24;
+        if (kind == SectionChange::handle) return std::nullopt;
+        const bool ofBody = kind != SectionChange::cavity;
+        const bool becomesMore = ofBody ? kind == SectionChange::appearance || kind == SectionChange::split
+                                        : change.after.cavities > change.before.cavities;
+        const double cube = cutter_.cubeSide();
+        LocalChangeSearch search(field_, orientation_, settings_.levels[change.level], settings_.inside,
+                                 [this] { return mustEnd(); });
+        for (const SliceSurface* surface : {becomesMore ? &after : &before, becomesMore ? &before : &after}) {
+            for (const std::uint32_t i : tangentPoints(*surface, change.level, 4 * cube, kStarts)) {
+                const auto w =
+                    search.find({ofBody, becomesMore}, {.point = glm::dvec3(surface->points[i]),
+                                                        .half = 4 * cube,
+                                                        .w = (change.from + change.to) / 2,
+                                                        .reach = kLocalReach * width() + (change.to - change.from) / 2,
+                                                        .tolerance = kCriticalTolerance * width()});
+                if (w) return w;
+            }
+        }
+        return std::nullopt;
     }
 
     // Returns the indices of up to `count` points of the level set: those where |growth| is greatest, but more than

@@ -78,27 +78,58 @@ inline fields::Field testField(TestFunction::Callable f, double lipschitz, const
     return fields::makeField("test", std::make_shared<TestFunction>(std::move(f), lipschitz), box);
 }
 
-/// Returns an array with the values of the field at `side` points along each axis of its box.
-inline fields::Field sampledField(const fields::Field& field, std::size_t side) {
+/// Returns an array of this shape with the values of the field in its box.
+inline fields::Field sampledField(const fields::Field& field, const fields::Shape& shape) {
     const fields::Box& box = field.box;
     const auto at = [&](int axis, std::size_t i) {
         return static_cast<float>(box.min[axis] + (box.max[axis] - box.min[axis]) * static_cast<double>(i) /
-                                                      static_cast<double>(side - 1));
+                                                      static_cast<double>(shape[static_cast<std::size_t>(axis)] - 1));
     };
-    std::vector<float> samples(side * side * side * side), x(side), y(side), z(side), w(side);
-    for (std::size_t i = 0; i < side; ++i) x[i] = at(0, i);
-    for (std::size_t row = 0; row < samples.size() / side; ++row) {
-        std::ranges::fill(y, at(1, row % side));
-        std::ranges::fill(z, at(2, row / side % side));
-        std::ranges::fill(w, at(3, row / side / side));
-        field.function->evaluate({x, y, z, w}, std::span(samples).subspan(row * side, side));
+    const std::size_t row = shape[0];
+    std::vector<float> samples(fields::sampleCount(shape)), x(row), y(row), z(row), w(row);
+    for (std::size_t i = 0; i < row; ++i) x[i] = at(0, i);
+    for (std::size_t n = 0; n < samples.size() / row; ++n) {
+        std::ranges::fill(y, at(1, n % shape[1]));
+        std::ranges::fill(z, at(2, n / shape[1] % shape[2]));
+        std::ranges::fill(w, at(3, n / shape[1] / shape[2]));
+        field.function->evaluate({x, y, z, w}, std::span(samples).subspan(n * row, row));
     }
-    auto function = std::make_shared<const fields::ArrayFunction>(fields::Shape{side, side, side, side}, box,
-                                                                  fields::SampleStorage(std::move(samples)));
+    auto function =
+        std::make_shared<const fields::ArrayFunction>(shape, box, fields::SampleStorage(std::move(samples)));
     fields::Field array = fields::makeField("array", function, box);
     array.array = function;
     return array;
 }
+
+/// Returns an array with the values of the field at `side` points along each axis of its box.
+inline fields::Field sampledField(const fields::Field& field, std::size_t side) {
+    return sampledField(field, fields::Shape{side, side, side, side});
+}
+
+/// Heat that spreads from the points x = ±1, y = z = 0, since the time w = 0, as a field and as an array. The samples
+/// lie so close together along w that the level is reached halfway between the points at nearly the right time; one of
+/// them lies there at each moment. The middle of the box is not there.
+struct HeatKernels {
+    static constexpr double kLevel = 5;
+    fields::Box box{{-2.1, -1.1, -1.1, 0.06}, {2.3, 1.3, 1.2, 0.3}};
+    fields::Field field = testField(
+        [](const glm::dvec4& p) {
+            const auto kernel = [&](double x) { return std::exp(-(x * x + p.y * p.y + p.z * p.z) / (4 * p.w)); };
+            return std::pow(p.w, -1.5) * (kernel(p.x - 1) + kernel(p.x + 1));
+        },
+        1000, box);
+    fields::Field array = sampledField(field, fields::Shape{45, 25, 24, 97});
+
+    /// Returns the time at which the parts of the body above kLevel merge.
+    static double merging() {
+        double below = 0.06, above = 1.0 / 6;  // halfway between the points, it is hottest at 1/6
+        for (int i = 0; i < 60; ++i) {
+            const double t = (below + above) / 2;
+            (2 * std::pow(t, -1.5) * std::exp(-1 / (4 * t)) < kLevel ? below : above) = t;
+        }
+        return below;
+    }
+};
 
 /// The measurements of the body that the triangles of one level enclose.
 struct Measure {

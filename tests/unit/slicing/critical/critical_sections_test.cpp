@@ -173,6 +173,25 @@ TEST(CriticalSections, HeatKernelsMerge) {
     }
 }
 
+// Also in sections that are turned in space, which does not change w.
+TEST(CriticalSections, HeatKernelsInAnArrayMergeToAThousandth) {
+    SKIP_IF_SANITIZED();
+    const HeatKernels heat;
+    const FieldPtr array = std::make_shared<const fields::Field>(heat.array);
+    const geometry::Rotation turned = geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.4, {}}) *
+                                      geometry::Rotation(geometry::Turn{geometry::Plane::yz, 1.1, {}});
+    for (const geometry::Rotation& orientation : {geometry::Rotation(), turned}) {
+        const CriticalSections found = criticalOf(array, {{HeatKernels::kLevel}, fields::Inside::above}, orientation);
+        const auto merges = std::ranges::count(found.all, merge, &CriticalSection::change);
+        EXPECT_EQ(merges, 1);
+        for (const CriticalSection& section : found.all) {
+            if (section.change == merge) {
+                EXPECT_NEAR((section.w + heat.array.center.w) / HeatKernels::merging(), 1, 1e-3);
+            }
+        }
+    }
+}
+
 TEST(CriticalSections, DomainsEndsAreNotCritical) {
     SKIP_IF_SANITIZED();
     std::mt19937 random(3);

@@ -1,0 +1,188 @@
+#include "slicing/critical/local_change.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include <glm/vector_relational.hpp>
+
+namespace oval4d::slicing {
+
+namespace {
+
+constexpr int kWindowSide = LocalChangeSearch::kSide, kWindowMiddle = kWindowSide / 2;
+constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWindowSide,
+                      kWindowPoints = kWindowLayer * kWindowSide;
+constexpr int kMaxSamplings = 600;          // of one search
+constexpr std::size_t kMaxTriedPoints = 8;  // the number of points of a change that are tried as middles of windows
+constexpr int kWindowMargin = 2;          // points closer to the boundary of a window than this are not in its interior
+constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, relative to Start::tolerance
+constexpr double kReachShrink = 2;        // the reach in a window, divided by that in the next one
+constexpr int kNeededWindows = 3;         // the number of windows in which a change must be found
+
+std::size_t windowPointIndex(int x, int y, int z) {
+    return static_cast<std::size_t>(x) +
+           kWindowSide * (static_cast<std::size_t>(y) + kWindowSide * static_cast<std::size_t>(z));
+}
+
+// Returns twice the least step along w that changes one of the coordinates of points in the box if they are 32-bit
+// floats.
+double leastStepAlongW(const fields::Box& box, const glm::dvec4& normal) {
+    double least = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 4; ++axis) {
+        const double largest = std::max(std::abs(box.min[axis]), std::abs(box.max[axis]));
+        if (normal[axis] != 0)
+            least = std::min(least, largest * std::numeric_limits<float>::epsilon() / std::abs(normal[axis]));
+    }
+    return 2 * least;
+}
+
+}  // namespace
+
+LocalChangeSearch::LocalChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
+                                     fields::Inside inside, std::function<bool()> mustEnd)
+    : field_(field),
+      toFunction_(field.toFunction * orientation.inverse().matrix()),
+      level_(level),
+      inside_(inside),
+      mustEnd_(std::move(mustEnd)),
+      leastStep_(leastStepAlongW(field.box, toFunction_[3])),
+      flags_(kWindowPoints),
+      otherFlags_(kWindowPoints),
+      parents_(kWindowPoints),
+      values_(kWindowLayer),
+      x_(kWindowLayer),
+      y_(kWindowLayer),
+      z_(kWindowLayer),
+      w_(kWindowLayer) {}
+
+std::optional<double> LocalChangeSearch::find(const Change& change, const Start& start) {
+    change_ = change;
+    tolerance_ = start.tolerance;
+    samplings_ = 0;
+    return findIn({start.point, start.half}, start.w, start.reach, 1);
+}
+
+// Finds the change in a window and in those around its points. `number` is the number of the window, from 1.
+std::optional<double> LocalChangeSearch::findIn(const Window& window, double w, double reach, int number) {
+    const std::optional<LocalEvent> event = eventIn(window, w, reach, number);
+    if (!event) return std::nullopt;
+    if (number == kWindows) return event->w;
+    for (std::size_t i = 0; i < std::min(kMaxTriedPoints, event->points.size()); ++i) {
+        if (const auto finer =
+                findIn({event->points[i], window.half / kZoom}, event->w, reach / kReachShrink, number + 1))
+            return finer;
+    }
+    return number >= kNeededWindows ? std::optional(event->w) : std::nullopt;
+}
+
+// Finds the change in a window that is nearest to `w`, at a distance of at most `reach`.
+std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Window& window, double w, double reach,
+                                                                        int number) {
+    double from = w, to = w;
+    std::size_t before = 0, after = 0;
+    for (double distance = std::min(tolerance_, reach);; distance = std::min(2 * distance, reach)) {
+        if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
+        from = w - distance;
+        to = w + distance;
+        before = partsAt(window, from);
+        after = partsAt(window, to);
+        if (isChange(before, after)) break;
+        if (distance >= reach) return std::nullopt;
+    }
+    // The finer the lattice is, the more points change sides in an interval of w.
+    const double precision = std::max(leastStep_, kFirstPrecision * tolerance_ / std::pow(kZoom, number - 1));
+    while (to - from > precision) {
+        if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
+        const double middle = (from + to) / 2;
+        (isChange(before, partsAt(window, middle)) ? to : from) = middle;
+    }
+    sample(window, from, flags_);
+    sample(window, to, otherFlags_);
+    LocalEvent event{(from + to) / 2, {}};
+    const double step = window.half / kWindowMiddle;
+    for (int z = kWindowMargin; z < kSide - kWindowMargin; ++z) {
+        for (int y = kWindowMargin; y < kSide - kWindowMargin; ++y) {
+            for (int x = kWindowMargin; x < kSide - kWindowMargin; ++x) {
+                const std::size_t i = windowPointIndex(x, y, z);
+                if (flags_[i] != otherFlags_[i])
+                    event.points.push_back(window.center + step * (glm::dvec3(x, y, z) - double{kWindowMiddle}));
+            }
+        }
+    }
+    if (event.points.empty()) return std::nullopt;
+    return event;
+}
+
+std::size_t LocalChangeSearch::partsAt(const Window& window, double w) {
+    sample(window, w, flags_);
+    return countParts(flags_);
+}
+
+// Sets `inside`: which points of the window in the section at `w` are in the body. Points beside the domain and points
+// without a value are outside.
+void LocalChangeSearch::sample(const Window& window, double w, PointFlags& inside) {
+    ++samplings_;
+    const double step = window.half / kWindowMiddle;
+    const bool isBelow = inside_ == fields::Inside::below;
+    for (int z = 0; z < kSide; ++z) {
+        const auto flags = inside.begin() + static_cast<std::ptrdiff_t>(z * kWindowLayer);
+        std::size_t i = 0;
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x, ++i) {
+                const glm::dvec3 p = window.center + step * (glm::dvec3(x, y, z) - double{kWindowMiddle});
+                const glm::dvec4 at = field_.center + toFunction_ * glm::dvec4(p, w);
+                const bool isInDomain = glm::all(glm::greaterThanEqual(at, field_.box.min)) &&
+                                        glm::all(glm::lessThanEqual(at, field_.box.max));
+                flags[static_cast<std::ptrdiff_t>(i)] = isInDomain ? 1 : 0;
+                x_[i] = static_cast<float>(at.x);
+                y_[i] = static_cast<float>(at.y);
+                z_[i] = static_cast<float>(at.z);
+                w_[i] = static_cast<float>(at.w);
+            }
+        }
+        field_.function->evaluate({x_, y_, z_, w_}, values_);
+        for (i = 0; i < kWindowLayer; ++i) {
+            const double value = values_[i];
+            if (!(isBelow ? value < level_ : value > level_)) flags[static_cast<std::ptrdiff_t>(i)] = 0;
+        }
+    }
+}
+
+// Counts the parts of the body or, if change_ says so, those outside of it.
+std::size_t LocalChangeSearch::countParts(const PointFlags& inside) {
+    std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
+    const auto rootOf = [&](std::uint32_t point) {
+        while (parents_[point] != point) point = parents_[point] = parents_[parents_[point]];
+        return point;
+    };
+    const std::uint8_t counted = change_.ofBody ? 1 : 0;
+    std::size_t parts = 0;
+    for (int z = 0; z < kSide; ++z) {
+        for (int y = 0; y < kSide; ++y) {
+            for (int x = 0; x < kSide; ++x) {
+                const std::size_t point = windowPointIndex(x, y, z);
+                if (inside[point] != counted) continue;
+                ++parts;
+                // The edges of the Freudenthal subdivision lead from a corner of a cube to those with larger
+                // coordinates.
+                for (int bits = 1; bits < 8; ++bits) {
+                    const int dx = bits & 1, dy = bits >> 1 & 1, dz = bits >> 2;
+                    if (x < dx || y < dy || z < dz) continue;
+                    const std::size_t other = windowPointIndex(x - dx, y - dy, z - dz);
+                    if (inside[other] != counted) continue;
+                    const std::uint32_t a = rootOf(static_cast<std::uint32_t>(point));
+                    const std::uint32_t b = rootOf(static_cast<std::uint32_t>(other));
+                    if (a == b) continue;
+                    parents_[std::max(a, b)] = std::min(a, b);
+                    --parts;
+                }
+            }
+        }
+    }
+    return parts;
+}
+
+}  // namespace oval4d::slicing

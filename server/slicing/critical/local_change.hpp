@@ -1,0 +1,95 @@
+#pragma once
+// Refines a critical w of a field on ever finer lattices around the point at which the topology changes.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "fields/field.hpp"
+#include "fields/inside.hpp"
+#include "geometry/rotation.hpp"
+
+namespace oval4d::slicing {
+
+/// Finds the w at which the number of connected parts changes, of the body of a level or of what is outside of the
+/// body, in the part of the section around a point. It needs no derivatives, so it also works for arrays, whose
+/// critical points mostly lie where the derivatives of the interpolation jump.
+///
+/// Takes the section for a piecewise linear function on a cubic lattice in a window, a cube with kSide points along
+/// each side. The body of such a function has as many parts as the graph of the lattice points in the body, of which
+/// two are neighbors if an edge of the Freudenthal subdivision joins them. Bisection finds the w of the change that is
+/// nearest to a given w, and a lattice point that changes sides there. The next window, with the same number of points,
+/// is kZoom times smaller, with this point in its middle. Changes that are due to the boundary of a window are not
+/// counted: the point must lie in its interior, and the same change must be in the next windows.
+///
+/// Reuses its memory. Only one thread at a time may use an object of this class.
+class LocalChangeSearch {
+  public:
+    static constexpr int kSide = 33;    // the number of lattice points along each side of a window
+    static constexpr int kWindows = 4;  // the number of windows
+    static constexpr double kZoom = 4;  // the width of a window divided by that of the next one
+
+    /// What changes while w increases.
+    struct Change {
+        bool ofBody = true;       ///< whether the parts are those of the body; if false, those outside of the body
+        bool becomesMore = true;  ///< whether they become more
+    };
+    /// Where to search. Lengths and w are in the units of the object.
+    struct Start {
+        glm::dvec3 point;  ///< the middle of the first window
+        double half;       ///< half the width of the first window
+        double w;
+        double reach;      ///< how far from `w` the change in the first window may be
+        double tolerance;  ///< the error that is small enough
+    };
+
+    /// `mustEnd` is called often. If it returns true, find() ends without a result. `field` must outlive this object.
+    LocalChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
+                      fields::Inside inside, std::function<bool()> mustEnd);
+
+    /// Returns the w of the change, or std::nullopt if there is none in the first window, or if it is not in the next
+    /// windows.
+    std::optional<double> find(const Change& change, const Start& start);
+
+  private:
+    struct Window {
+        glm::dvec3 center;
+        double half;
+    };
+    struct LocalEvent {
+        double w;
+        std::vector<glm::dvec3> points;  // those in the interior of the window that change sides; not empty
+    };
+    using PointFlags = std::vector<std::uint8_t>;  // per point of a window: whether it is in the body
+
+    std::optional<double> findIn(const Window& window, double w, double reach, int number);
+    std::optional<LocalEvent> eventIn(const Window& window, double w, double reach, int number);
+    void sample(const Window& window, double w, PointFlags& inside);
+    std::size_t countParts(const PointFlags& inside);
+    std::size_t partsAt(const Window& window, double w);
+    bool isChange(std::size_t before, std::size_t after) const {
+        return change_.becomesMore ? after > before : after < before;
+    }
+
+    const fields::Field& field_;
+    const glm::dmat4 toFunction_;
+    const double level_;
+    const fields::Inside inside_;
+    const std::function<bool()> mustEnd_;
+    double leastStep_ = 0;  // the least step along w that changes the function's coordinates, which are 32-bit floats
+    Change change_;
+    double tolerance_ = 0;
+    int samplings_ = 0;  // how often a window was sampled in the current search
+    PointFlags flags_, otherFlags_;
+    std::vector<std::uint32_t> parents_;
+    std::vector<float> values_;
+    std::vector<float> x_, y_, z_, w_;  // the coordinates of one layer of points
+};
+
+}  // namespace oval4d::slicing

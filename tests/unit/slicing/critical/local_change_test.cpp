@@ -1,0 +1,78 @@
+#include "slicing/critical/local_change.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "unit/slicing/field_support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+using fields::Inside;
+
+// A rotation in space, which does not change w.
+geometry::Rotation turnedInSpace() {
+    return geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.4, {}}) *
+           geometry::Rotation(geometry::Turn{geometry::Plane::yz, 1.1, {}});
+}
+
+glm::dvec3 placeOf(const fields::Field& field, const geometry::Rotation& orientation, const glm::dvec4& point) {
+    return glm::dvec3(orientation.matrix() * (point - field.center));
+}
+
+bool never() { return false; }
+
+TEST(LocalChange, HeatKernelsInAnArrayMerge) {
+    const HeatKernels heat;
+    const geometry::Rotation orientation = turnedInSpace();
+    LocalChangeSearch search(heat.array, orientation, HeatKernels::kLevel, Inside::above, never);
+    const double expected = HeatKernels::merging(), center = heat.array.center.w;
+    for (const double early : {-5e-4, 0.0, 5e-4}) {
+        LocalChangeSearch::Start start{.point = placeOf(heat.array, orientation, {0.02, -0.03, 0.02, center}),
+                                       .half = 0.11,
+                                       .w = expected - center - early,
+                                       .reach = 1.2e-3,
+                                       .tolerance = 2.4e-5};
+        const auto found = search.find({.ofBody = true, .becomesMore = false}, start);
+        ASSERT_TRUE(found) << early;
+        EXPECT_NEAR((*found + center) / expected, 1, 1e-3);
+        EXPECT_FALSE(search.find({.ofBody = true, .becomesMore = true}, start)) << "nothing splits";
+        start.point = placeOf(heat.array, orientation, {1.85, 0, 0, center});
+        EXPECT_FALSE(search.find({.ofBody = true, .becomesMore = false}, start)) << "the surface only moves there";
+    }
+}
+
+// A ball appears at w = −1: the body, or what is outside of the body.
+TEST(LocalChange, BallsAppear) {
+    const fields::Field ball = sampledField(
+        testField([](const glm::dvec4& p) { return glm::dot(p, p) - 1; }, 6, {glm::dvec4(-1.5), glm::dvec4(1.5)}), 25);
+    const geometry::Rotation orientation = turnedInSpace();
+    for (const Inside inside : {Inside::below, Inside::above}) {
+        LocalChangeSearch search(ball, orientation, 0, inside, never);
+        const LocalChangeSearch::Start start{
+            .point = glm::dvec3(0.02, -0.01, 0.03), .half = 0.075, .w = -0.995, .reach = 0.015, .tolerance = 3e-4};
+        const bool ofBody = inside == Inside::below;
+        const auto found = search.find({.ofBody = ofBody, .becomesMore = true}, start);
+        ASSERT_TRUE(found);
+        EXPECT_NEAR(*found, -1, 1e-3);
+        EXPECT_FALSE(search.find({.ofBody = ofBody, .becomesMore = false}, start));
+    }
+}
+
+TEST(LocalChange, EndsWhenItMust) {
+    const HeatKernels heat;
+    int asked = 0;
+    LocalChangeSearch search(heat.array, {}, HeatKernels::kLevel, Inside::above, [&] { return ++asked > 2; });
+    const double center = heat.array.center.w;
+    EXPECT_FALSE(
+        search.find({.ofBody = true, .becomesMore = false}, {.point = placeOf(heat.array, {}, {0, 0, 0, center}),
+                                                             .half = 0.11,
+                                                             .w = HeatKernels::merging() - center,
+                                                             .reach = 1.2e-3,
+                                                             .tolerance = 2.4e-5}));
+    EXPECT_EQ(asked, 3);
+}
+
+}  // namespace
+}  // namespace oval4d::slicing
