@@ -359,19 +359,19 @@ function flattened(message: Message): Message {
         scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
         coordinates: floats(loose.coordinates ?? []),
         density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
-        slices: Array.isArray(slices) ? slices.map(flattenedSlice) : slicesFromColumns(slices, allocateIntegers),
+        slices: Array.isArray(slices) ? slices.map(sliceFromJson) : slicesFromColumns(slices, allocateIntegers),
         ...(projection && {
             projection: {
                 ...projection,
                 parts: Array.isArray(projection.parts)
-                    ? projection.parts.map(flattenedElements)
+                    ? projection.parts.map(elementsFromJson)
                     : partsOf(projection.parts, allocateIntegers),
             },
         }),
     };
 }
 
-function flattenedElements<T extends JsonElements>(all: T): Omit<T, keyof JsonElements> & Elements {
+function elementsFromJson<T extends JsonElements>(all: T): Omit<T, keyof JsonElements> & Elements {
     const { vertices, edges, faces, of, tints, seen, balls, ...rest } = all;
     return {
         ...rest,
@@ -385,9 +385,9 @@ function flattenedElements<T extends JsonElements>(all: T): Omit<T, keyof JsonEl
     };
 }
 
-function flattenedSlice({ fill, surface, fog, ...slice }: JsonSlice): Slice {
+function sliceFromJson({ fill, surface, fog, ...slice }: JsonSlice): Slice {
     return {
-        ...flattenedElements(slice),
+        ...elementsFromJson(slice),
         ...(fill && {
             fill: {
                 points: floats(fill.points),
@@ -396,12 +396,12 @@ function flattenedSlice({ fill, surface, fog, ...slice }: JsonSlice): Slice {
                 ...(fill.seen && { seen: indices(fill.seen) }),
             },
         }),
-        ...(surface && { surface: flattenedSurface(surface) }),
+        ...(surface && { surface: surfaceFromJson(surface) }),
         ...(fog && { fog: { ...fog, walls: floats(fog.walls), values: Uint8Array.from(fog.values.flat()) } }),
     };
 }
 
-function flattenedSurface({ colors, cap_colors, ...surface }: NonNullable<JsonSlice["surface"]>): Surface {
+function surfaceFromJson({ colors, cap_colors, ...surface }: NonNullable<JsonSlice["surface"]>): Surface {
     return {
         ...surface,
         points: floats(surface.points),

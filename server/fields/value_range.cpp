@@ -48,7 +48,7 @@ FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
 
 FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(values, 0.1); }
 
-const ValueRange& TypicalRangeOnBox::get() const {
+const ValueRange& TypicalRangeOnBox::typicalRange() const {
     std::call_once(measured_, [&] {
         // The slower the function, the fewer batches are evaluated.
         constexpr double kTime = 1e6;  // nanoseconds, for all points

@@ -39,15 +39,15 @@ struct FullAndTypicalRange {
 FullAndTypicalRange rangesOf(std::span<const float> values);
 
 /// The range of a function on a box, without outliers: like FullAndTypicalRange::typical, but extended by half of its
-/// length instead of a tenth. The first call of get() computes the range from a few thousand points of the box,
-/// including the corners and the midpoints of edges, faces and cells. The range depends only on the function and the
-/// box. Thread-safe.
+/// length instead of a tenth. The first call of typicalRange() computes the range from a few thousand points of the
+/// box, including the corners and the midpoints of edges, faces and cells. The range depends only on the function and
+/// the box. Thread-safe.
 class TypicalRangeOnBox {
   public:
     TypicalRangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)
         : function_(std::move(function)), box_(box) {}
 
-    const ValueRange& get() const;
+    const ValueRange& typicalRange() const;
 
   private:
     const std::shared_ptr<const ScalarFunction> function_;

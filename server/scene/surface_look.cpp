@@ -64,7 +64,7 @@ void chooseSurfaceLook(const fields::Field& field, const Look& look, const geome
                         : coloring == Coloring::value ? PointColoring::value
                                                       : PointColoring::none;
     out.capColoring = look.caps == CapStyle::value ? PointColoring::value : PointColoring::none;
-    if (colorsByValue(look)) out.scale = valueScaleFor(field.coloringRange->get(), out.scheme);
+    if (colorsByValue(look)) out.scale = valueScaleFor(field.coloringRange->typicalRange(), out.scheme);
     out.sliceColors.clear();
     if (coloring != Coloring::w) return;
     for (int i = 0; i < planes.count; ++i)

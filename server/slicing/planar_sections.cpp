@@ -110,9 +110,9 @@ void PlanarSlicer::copyCloudPoints(const SliceSet& slices, int slice, int axis, 
     }
 }
 
-// Adds the points at which the hyperplane cuts the slice's edges. `faces` is the number of 2-faces of the polytope,
-// `at` the coordinate of the hyperplane along `axis`.
-void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t faces, int axis, double at,
+// Adds the points at which the hyperplane cuts the slice's edges. `polytopeFaces` is the number of 2-faces of the
+// polytope, `at` the coordinate of the hyperplane along `axis`.
+void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t polytopeFaces, int axis, double at,
                             PlanarSection& out) {
     const std::uint32_t begin = slices.edgeBegin[slice], end = slices.edgeBegin[slice + 1];
     const std::uint32_t firstVertex = slices.vertexBegin[slice];
@@ -127,7 +127,7 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t fac
     const auto addVertex = [&](std::uint32_t v) {
         // A source number e or E + v of the slice vertex (see SliceSet) becomes F + e or F + E + v (see PlanarSection).
         if (pointOfVertex_[v] == kNone)
-            pointOfVertex_[v] = add(vertices_[v], faces + slices.vertexSource[firstVertex + v]);
+            pointOfVertex_[v] = add(vertices_[v], polytopeFaces + slices.vertexSource[firstVertex + v]);
         return pointOfVertex_[v];
     };
     const bool isCurve = slices.faceBegin[slice] == slices.faceBegin[slice + 1];

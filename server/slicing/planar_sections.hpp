@@ -64,7 +64,8 @@ class PlanarSlicer {
 
     void cut(const Object& object, const SliceSet& slices, int slice, const glm::dmat4& toObject, int axis,
              const glm::dvec4& point, PlanarSection& out);
-    void cutEdges(const SliceSet& slices, int slice, std::uint32_t faces, int axis, double at, PlanarSection& out);
+    void cutEdges(const SliceSet& slices, int slice, std::uint32_t polytopeFaces, int axis, double at,
+                  PlanarSection& out);
     void cutFaces(const SliceSet& slices, int slice, PlanarSection& out);
     void copyCloudPoints(const SliceSet& slices, int slice, int axis, double at, PlanarSection& out);
     static void findBoundary(PlanarSection& section);

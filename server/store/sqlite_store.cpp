@@ -101,7 +101,7 @@ void SqliteStore::open() {
         if (damage.empty()) {
             setUp();
         } else {
-            replaceDamagedFile(damage);
+            salvageDamagedFile(damage);
         }
     } catch (...) {
         database_.reset();
@@ -185,7 +185,7 @@ void SqliteStore::migrate() {
 }
 
 /// Copies the intact sessions into a new file, which replaces the damaged one.
-void SqliteStore::replaceDamagedFile(const std::string& why) {
+void SqliteStore::salvageDamagedFile(const std::string& why) {
     spdlog::error("store damaged store={} damage=\"{}\"", name(), why);
     const std::string fresh = path_ + ".salvaged";
     for (const char* beside : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(fresh + beside);
@@ -245,7 +245,7 @@ auto SqliteStore::runAfterPendingRepair(Work work) {
     if (!database_) {
         open();
     } else if (!damage_.empty()) {
-        replaceDamagedFile(std::string(damage_));
+        salvageDamagedFile(std::string(damage_));
     }
     try {
         return work();

@@ -49,7 +49,7 @@ class SqliteStore final : public Store {
     void check();
     void setUp();
     void migrate();
-    void replaceDamagedFile(const std::string& why);
+    void salvageDamagedFile(const std::string& why);
     void logDamagedRecords();
     SaveResult saveOne(const RecordUpdate& update);
     std::size_t evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned);

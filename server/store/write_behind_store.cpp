@@ -300,7 +300,7 @@ void WriteBehindStore::write() {
     try {
         takeJobs(jobs, updates);
         if (jobs.empty()) return;
-        results = runTimed("save", [&] { return saveOrEvict(updates); });
+        results = runTimed("save", [&] { return saveMakingRoom(updates); });
     } catch (const std::exception& fault) {
         storeFailed(fault);
         for (Job& job : jobs) requeue(job);
@@ -318,7 +318,7 @@ void WriteBehindStore::write() {
 
 /// Saves the updates. If the store is full, evicts closed sessions from it. If updates do not fit even then, their
 /// results are empty optionals, and storeFailed() is called; the other updates are saved.
-std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<const RecordUpdate> updates) {
+std::vector<std::optional<SaveResult>> WriteBehindStore::saveMakingRoom(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
         for (const SaveResult one : store_->save(updates)) results.emplace_back(one);
@@ -328,7 +328,7 @@ std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<c
     }
     for (const RecordUpdate& update : updates) {
         try {
-            results.emplace_back(saveOneOrEvict(update));
+            results.emplace_back(saveOneMakingRoom(update));
         } catch (const NotWritable& fault) {
             if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeFailed(fault);
             results.emplace_back();
@@ -339,7 +339,7 @@ std::vector<std::optional<SaveResult>> WriteBehindStore::saveOrEvict(std::span<c
 
 /// Saves one update. If the store is full, evicts closed sessions from it. Throws NotWritable if the update does not
 /// fit even then.
-SaveResult WriteBehindStore::saveOneOrEvict(const RecordUpdate& update) {
+SaveResult WriteBehindStore::saveOneMakingRoom(const RecordUpdate& update) {
     const std::span<const RecordUpdate> one(&update, 1);
     try {
         return store_->save(one).at(0);

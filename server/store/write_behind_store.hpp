@@ -140,8 +140,8 @@ class WriteBehindStore {
     void runThread();
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
-    std::vector<std::optional<SaveResult>> saveOrEvict(std::span<const RecordUpdate> updates);
-    SaveResult saveOneOrEvict(const RecordUpdate& update);
+    std::vector<std::optional<SaveResult>> saveMakingRoom(std::span<const RecordUpdate> updates);
+    SaveResult saveOneMakingRoom(const RecordUpdate& update);
     std::size_t evictFor(std::span<const RecordUpdate> updates);
     void writeRemovals();
     void dropKeys(const std::string& id);

@@ -65,11 +65,11 @@ char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t e
 
 #if defined(__x86_64__)
 
-using Double4 = double __attribute__((vector_size(32)));
-using Uint64x4 = std::uint64_t __attribute__((vector_size(32)));
-using Uint32x8 = std::uint32_t __attribute__((vector_size(32)));
-using Float4 = float __attribute__((vector_size(16)));
-using Int32x4 = std::int32_t __attribute__((vector_size(16)));
+using SimdDouble4 = double __attribute__((vector_size(32)));
+using SimdUint64x4 = std::uint64_t __attribute__((vector_size(32)));
+using SimdUint32x8 = std::uint32_t __attribute__((vector_size(32)));
+using SimdFloat4 = float __attribute__((vector_size(16)));
+using SimdInt32x4 = std::int32_t __attribute__((vector_size(16)));
 
 // A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
 // processes all groups of a block before the next step begins. This hides the latency of the instructions, because the
@@ -112,68 +112,70 @@ constexpr std::array<float, 8> kUnitsPerOne{1e10, 1e9, 1e8, 1e7, 1e6}, kUnitSize
 // Adding kRounder to a number from −0.5 to 2^51 (exclusive) rounds the number to an integer. The low bits of the sum
 // then contain this integer; integerOf() extracts it.
 constexpr double kRounder = 0x1.8p52;
-[[gnu::target("avx2")]] inline Uint64x4 integerOf(Double4 sum) {
-    return Uint64x4(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
+[[gnu::target("avx2")]] inline SimdUint64x4 integerOf(SimdDouble4 sum) {
+    return SimdUint64x4(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
 }
 
-[[gnu::target("avx2")]] inline Double4 widened(Float4 numbers) { return Double4(_mm256_cvtps_pd(__m128(numbers))); }
+[[gnu::target("avx2")]] inline SimdDouble4 widened(SimdFloat4 numbers) {
+    return SimdDouble4(_mm256_cvtps_pd(__m128(numbers)));
+}
 
 // Returns table[which[i]] for each i.
-[[gnu::target("avx2")]] inline Double4 pick(const std::array<float, 8>& table, Int32x4 which) {
+[[gnu::target("avx2")]] inline SimdDouble4 pick(const std::array<float, 8>& table, SimdInt32x4 which) {
     const __m256i places = _mm256_castsi128_si256(__m128i(which));
     const __m256 picked = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table.data()), places);
-    return widened(Float4(_mm256_castps256_ps128(picked)));
+    return widened(SimdFloat4(_mm256_castps256_ps128(picked)));
 }
 
 // Operations on 16-bit elements: plus() adds; highTimes() returns the upper 16 bits of the products.
-[[gnu::target("avx2")]] inline Uint64x4 plus(Uint64x4 a, Uint64x4 b) {
-    return Uint64x4(_mm256_add_epi16(__m256i(a), __m256i(b)));
+[[gnu::target("avx2")]] inline SimdUint64x4 plus(SimdUint64x4 a, SimdUint64x4 b) {
+    return SimdUint64x4(_mm256_add_epi16(__m256i(a), __m256i(b)));
 }
-[[gnu::target("avx2")]] inline Uint64x4 highTimes(Uint64x4 a, short b) {
-    return Uint64x4(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
+[[gnu::target("avx2")]] inline SimdUint64x4 highTimes(SimdUint64x4 a, short b) {
+    return SimdUint64x4(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
 }
 // Returns the product of the lower byte of each 16-bit number and `b`, which must be from −128 to 127.
-[[gnu::target("avx2")]] inline Uint64x4 lowTimes(Uint64x4 a, int b) {
-    return Uint64x4(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
+[[gnu::target("avx2")]] inline SimdUint64x4 lowTimes(SimdUint64x4 a, int b) {
+    return SimdUint64x4(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
 }
 
 // Converts the two 32-bit halves of each element to their four decimal digits: one digit per byte, the most significant
 // one in the lowest byte. Each half must be a number below 10,000.
-[[gnu::target("avx2")]] inline Uint64x4 fourDigits(Uint64x4 numbers) {
-    const auto hundreds = Uint64x4(Uint32x8(highTimes(numbers, 5243)) >> 3);
-    const Uint64x4 pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
-    const Uint64x4 tens = highTimes(pairs, 6554);
+[[gnu::target("avx2")]] inline SimdUint64x4 fourDigits(SimdUint64x4 numbers) {
+    const auto hundreds = SimdUint64x4(SimdUint32x8(highTimes(numbers, 5243)) >> 3);
+    const SimdUint64x4 pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
+    const SimdUint64x4 tens = highTimes(pairs, 6554);
     return tens | plus(pairs, lowTimes(tens, -10)) << 8;
 }
 
 [[gnu::target("avx2")]] void convert(const double* numbers, FormattedNumbers& out) {
-    Int32x4 bits[kGroups], drop[kGroups], outOfRange[kGroups];
-    Double4 unitsPerOne[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
-    Uint64x4 digits[kGroups], first[kGroups];
+    SimdInt32x4 bits[kGroups], drop[kGroups], outOfRange[kGroups];
+    SimdDouble4 unitsPerOne[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
+    SimdUint64x4 digits[kGroups], first[kGroups];
     for (std::size_t g = 0; g < kGroups; ++g) {
-        Double4 four;
+        SimdDouble4 four;
         std::memcpy(&four, numbers + 4 * g, sizeof four);
-        bits[g] = Int32x4(__builtin_convertvector(four, Float4));
-        const Int32x4 place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
+        bits[g] = SimdInt32x4(__builtin_convertvector(four, SimdFloat4));
+        const SimdInt32x4 place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
         outOfRange[g] = place & ~(kExponents - 1);
         drop[g] = (place * 1233 + 270) >> 12;  // the index 10 − p: 10 + log10(2^(e − 23)), rounded down
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         unitsPerOne[g] = pick(kUnitsPerOne, drop[g]);
-        exact[g] = widened(Float4(bits[g] & 0x7FFF'FFFF)) * unitsPerOne[g];
+        exact[g] = widened(SimdFloat4(bits[g] & 0x7FFF'FFFF)) * unitsPerOne[g];
     }
     for (std::size_t g = 0; g < kGroups; ++g) rounder[g] = ((exact[g] * 0.1 + kRounder) - kRounder) * 10;
     for (std::size_t g = 0; g < kGroups; ++g) {
-        const auto half = Float4((bits[g] & kExponentMask) - kHalfSpacing);
-        const Double4 reach = widened(half) * unitsPerOne[g] - kMargin;
-        const Double4 off = Double4(Uint64x4(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
-        const Double4 nearest = (exact[g] + kRounder) - kRounder;
+        const auto half = SimdFloat4((bits[g] & kExponentMask) - kHalfSpacing);
+        const SimdDouble4 reach = widened(half) * unitsPerOne[g] - kMargin;
+        const SimdDouble4 off = SimdDouble4(SimdUint64x4(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
+        const SimdDouble4 nearest = (exact[g] + kRounder) - kRounder;
         decimals[g] = (off < reach ? rounder[g] : nearest) * pick(kUnitSize, drop[g]);
     }
     for (std::size_t g = 0; g < kGroups; ++g) upper[g] = (decimals[g] - 49'999'999.5) * 1e-8 + kRounder;
     for (std::size_t g = 0; g < kGroups; ++g) {
-        const Double4 eight = decimals[g] - (upper[g] - kRounder) * 1e8;
-        const Double4 thousands = (eight - 4'999.5) * 1e-4 + kRounder;
+        const SimdDouble4 eight = decimals[g] - (upper[g] - kRounder) * 1e8;
+        const SimdDouble4 thousands = (eight - 4'999.5) * 1e-4 + kRounder;
         digits[g] = integerOf(thousands) | integerOf(eight - (thousands - kRounder) * 1e4 + kRounder) << 32;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
@@ -181,18 +183,18 @@ constexpr double kRounder = 0x1.8p52;
         first[g] = fourDigits(integerOf(upper[g]));  // the digits of the tens, ones, tenths and hundredths
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
-        const Uint64x4 tens = first[g] & 0xFF;
-        const Uint64x4 tensBits = tens != 0 ? Uint64x4{} + 8 : Uint64x4{};
-        const Uint64x4 negative = Uint64x4(_mm256_cvtepi32_epi64(__m128i(bits[g] >> 31)));
-        const Uint64x4 signBits = negative & 8;
-        Uint64x4 head = (first[g] >> 8 & 0xFF) | (first[g] & 0xFFFF'0000) | 0x3030'2E30;
+        const SimdUint64x4 tens = first[g] & 0xFF;
+        const SimdUint64x4 tensBits = tens != 0 ? SimdUint64x4{} + 8 : SimdUint64x4{};
+        const SimdUint64x4 negative = SimdUint64x4(_mm256_cvtepi32_epi64(__m128i(bits[g] >> 31)));
+        const SimdUint64x4 signBits = negative & 8;
+        SimdUint64x4 head = (first[g] >> 8 & 0xFF) | (first[g] & 0xFFFF'0000) | 0x3030'2E30;
         head = head << tensBits | (tens != 0 ? tens | '0' : tens);
         head = head << signBits | (negative & '-');
-        const Uint64x4 length = 4 + ((tensBits + signBits) >> 3);
+        const SimdUint64x4 length = 4 + ((tensBits + signBits) >> 3);
         std::memcpy(out.head + 4 * g, &head, sizeof head);
         std::memcpy(out.headLength + 4 * g, &length, sizeof length);
         std::memcpy(out.digits + 4 * g, &digits[g], sizeof digits[g]);
-        const Uint64x4 zero = digits[g] == 0;
+        const SimdUint64x4 zero = digits[g] == 0;
         out.needsFallback[g] = (outOfRange[g][0] | outOfRange[g][1] | outOfRange[g][2] | outOfRange[g][3]) != 0 ||
                                (zero[0] | zero[1] | zero[2] | zero[3]) != 0;
     }

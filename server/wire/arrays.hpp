@@ -7,8 +7,9 @@
 
 namespace oval4d::wire {
 
-using Pair = std::array<std::uint32_t, 2>;
-using Triple = std::array<std::uint32_t, 3>;
+/// Two or three indices, such as those of the ends of an edge or of the corners of a triangle.
+using IndexPair = std::array<std::uint32_t, 2>;
+using IndexTriple = std::array<std::uint32_t, 3>;
 
 /// A jagged array: n lists, stored one after another in `items`. `begin` has n + 1 entries. List i is the half-open
 /// range [begin[i] − begin[0], begin[i + 1] − begin[0]) of `items`. `begin` may be a section of a longer array, so its

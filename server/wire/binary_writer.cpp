@@ -63,11 +63,11 @@ void BinaryWriter::numbers(std::span<const std::uint32_t> list) {
     }
 }
 
-void BinaryWriter::pairs(std::span<const Pair> list) {
+void BinaryWriter::pairs(std::span<const IndexPair> list) {
     numbers({reinterpret_cast<const std::uint32_t*>(list.data()), 2 * list.size()});
 }
 
-void BinaryWriter::triples(std::span<const Triple> list) {
+void BinaryWriter::triples(std::span<const IndexTriple> list) {
     numbers({reinterpret_cast<const std::uint32_t*>(list.data()), 3 * list.size()});
 }
 

@@ -54,8 +54,8 @@ class BinaryWriter {
     void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
-    void pairs(std::span<const Pair> list);
-    void triples(std::span<const Triple> list);
+    void pairs(std::span<const IndexPair> list);
+    void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< does not round the numbers; only JsonWriter does
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< 8-bit values, row by row

@@ -159,8 +159,8 @@ void JsonWriter::tuples(std::span<const std::array<std::uint32_t, Size>> list) {
     });
 }
 
-void JsonWriter::pairs(std::span<const Pair> list) { tuples(list); }
-void JsonWriter::triples(std::span<const Triple> list) { tuples(list); }
+void JsonWriter::pairs(std::span<const IndexPair> list) { tuples(list); }
+void JsonWriter::triples(std::span<const IndexTriple> list) { tuples(list); }
 
 void JsonWriter::numbers(std::span<const std::uint32_t> list) {
     array(list.size(), [list](char* at) { return list.empty() ? at : putIntegers(at, list) - 1; });

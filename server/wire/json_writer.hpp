@@ -60,8 +60,8 @@ class JsonWriter {
     void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);
     void vectors(std::span<const glm::dvec4> list);
-    void pairs(std::span<const Pair> list);
-    void triples(std::span<const Triple> list);
+    void pairs(std::span<const IndexPair> list);
+    void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
     void lists(JaggedArrayView view);                     ///< writes an array of arrays

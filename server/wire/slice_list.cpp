@@ -92,7 +92,7 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
 // count from the first point of the triangle's slice.
 struct FillTriangles {
     std::vector<glm::dvec3> points;
-    std::vector<Triple> triangles;
+    std::vector<IndexTriple> triangles;
     std::vector<std::uint32_t> colorCells, visibilities;
 };
 

@@ -89,7 +89,7 @@ void writeUnits(JsonWriter& w, const fields::AxisUnits& units) {
 // Writes the member `values`: the second function, if there is one, and the color scale of values.
 void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
     constexpr int kColors = 9;
-    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->get(), scheme);
+    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->typicalRange(), scheme);
     w.key("values");
     w.beginObject();
     if (field.second && field.second->array) {

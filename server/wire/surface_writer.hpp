@@ -48,7 +48,7 @@ class SurfaceWriter {
     void writeArrays(W& w, const scene::Scene& scene) const;
 
     std::vector<glm::vec3> points_, normals_;
-    std::vector<Triple> triangles_;
+    std::vector<IndexTriple> triangles_;
     // level_, cap_: one number for each triangle. colors_, capColors_: one number for each point.
     std::vector<std::uint32_t> level_, cap_, colors_, capColors_;
     std::vector<std::uint32_t> pointCounts_, triangleCounts_;  // one number for each slice

@@ -12,7 +12,7 @@ namespace oval4d::fields {
 namespace {
 
 ValueRange rangeOf(std::string_view formula, const Box& box = kFormulaBox) {
-    return fieldFromFormula("test", formula, box)->coloringRange->get();
+    return fieldFromFormula("test", formula, box)->coloringRange->typicalRange();
 }
 
 TEST(ValueRange, IsExactWhereTheExtremesAreAtTheEndsOrMiddlesOfTheBox) {
@@ -36,7 +36,7 @@ TEST(ValueRange, LeavesOutPolesAndWhatHasNoValue) {
 TEST(ValueRange, IsThatOfTheSecondFunction) {
     const auto field = fieldFromFormula("test", "x^2 + y^2 - a; a=2", kFormulaBox, "a*z");
     ASSERT_TRUE(field);
-    EXPECT_EQ(field->coloringRange->get(), (ValueRange{-4, 4}));
+    EXPECT_EQ(field->coloringRange->typicalRange(), (ValueRange{-4, 4}));
     EXPECT_EQ(field->second->formula, "a*z");
     const auto wrong = fieldFromFormula("test", "x - a; a=2", kFormulaBox, "b*z");
     ASSERT_FALSE(wrong);

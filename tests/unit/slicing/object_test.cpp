@@ -253,7 +253,7 @@ TEST(ObjectBytes, FieldsKeepTheirSecondFunction) {
             ASSERT_TRUE(back.second);
             EXPECT_EQ(back.second->formula, field.second->formula);
             EXPECT_EQ(back.second->variable, field.second->variable);
-            EXPECT_EQ(back.coloringRange->get(), field.coloringRange->get());
+            EXPECT_EQ(back.coloringRange->typicalRange(), field.coloringRange->typicalRange());
             EXPECT_EQ(memoryOf(copy), memoryOf(object));
         }
         for (std::size_t size = 0; size < parts.size(); ++size) {
