@@ -31,7 +31,7 @@ class PipelinePool {
     /// system through `heap`. `forkJoin` and `heap` must outlive the pool.
     PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap);
 
-    /// Queues a job; returns false, and drops the job, if the queue is full. See WorkerPool::post().
+    /// Queues a job; returns false, and drops the job, if a limit on waiting jobs is reached. See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::JobQueuePtr jobQueue, parallel::WorkerPool::Seconds cost);
 
     const parallel::WorkerPool& workers() const { return workers_; }

@@ -14,16 +14,17 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Writes to `out`, for each of `elements`, the cell that determines the color of the element. `sourceOf` returns the
-// source number of an element (see SliceSet). If all source numbers are numbers of cells, each element has the color of
-// its source, and `out` is left empty.
-template <typename Sources, typename SourceOf>
-void findCells(const Object& object, const slicing::Visibilities& visibilities, const Sources& elements,
-               SourceOf sourceOf, std::vector<std::uint32_t>& out) {
+// Writes to `out`, for each of the slice faces `faces`, the cell that determines its color. `sourceOf` returns the
+// source number of a face (see SliceSet::faceSource): the index of the cell from which the face was cut or, for 2-face
+// f of the object if it lies in the hyperplane, the number of cells + f. If every face was cut from a cell, this cell
+// is its source number, and `out` is left empty.
+template <typename Faces, typename SourceOf>
+void findCells(const Object& object, const slicing::Visibilities& visibilities, const Faces& faces, SourceOf sourceOf,
+               std::vector<std::uint32_t>& out) {
     const auto cells = static_cast<std::uint32_t>(slicing::elementCounts(object)[3]);
     out.clear();
-    if (std::ranges::all_of(elements, [&](const auto& element) { return sourceOf(element) < cells; })) return;
-    for (const auto& element : elements) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(element)));
+    if (std::ranges::all_of(faces, [&](const auto& face) { return sourceOf(face) < cells; })) return;
+    for (const auto& face : faces) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(face)));
 }
 
 // Returns the opacity of translucent faces: `own` times Look::opacity. The result is always below 1, because 1 tells

@@ -87,7 +87,8 @@ class LabelLayout {
     bool overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
                             double aspect) const;
 
-    // Returns the box of a label, with the name of its section, as the camera sees it.
+    // Returns the box of the label of `placement` as `camera` sees it, in viewport heights from the lower left corner
+    // of the picture. The box of the focus slice's label includes the name of the section. `toView` is camera.view().
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
 
     // Returns the smallest k such that, before the viewer moves the camera, no two labels overlap if only every k-th

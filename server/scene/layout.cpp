@@ -193,7 +193,7 @@ MatrixLayout placeMatrix(Rect& room, double relativeBall) {
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
-    // The sections of an object with many elements have many points. These points are small, like the object's balls.
+    // The sections of an object with many elements have many points, so the points become smaller, as its balls do.
     matrix.pointRadius = std::min(relativeBall * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {

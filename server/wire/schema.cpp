@@ -133,8 +133,9 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
     return deepest;
 }
 
-// Returns what a value must be, as a noun phrase: "a finite number of radians". This is the schema's title or, for a
-// number without one, "a number from 0.25 to 4"; if there are no bounds either, "different".
+// Returns how an error message continues after "must be": the schema's title, such as "a finite number of radians".
+// Without a title, returns "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both bounds, and
+// otherwise "different".
 std::string expected(const json& schema) {
     if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
         return schema.value("title", "different");

@@ -1,7 +1,8 @@
 // A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
 // Practices Guide. The button that had the focus last is the tab stop, even while a text field replaces the button.
 
-// A vertical distance counts this many times, so that Up and Down prefer the next row to the same column.
+// Up and Down go to the nearest button above or below. In this distance, the vertical part is multiplied by this factor,
+// so that a button in the next row is nearer than one straight above or below in a row farther away.
 const kRowWeight = 3;
 
 /** Makes an element with buttons a toolbar. Buttons may be added, removed and disabled later. */

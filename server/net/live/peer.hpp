@@ -20,7 +20,9 @@ class Peer {
     /// socket; it is not called if the connection ends before that.
     virtual void send(OutgoingMessage message, std::function<void()> written = {}) = 0;
 
-    /// Returns the account of the connection's client. The worker pools charge the connection's jobs to this account.
+    /// Returns the account of the IP address or network from which the client is connected (see AddressAccount). The
+    /// worker pools divide their time among these accounts: what this connection requests counts as this account's
+    /// work.
     virtual const AddressAccountPtr& client() const = 0;
 
     /// Makes the connection notice at once if its client leaves while the current request is being executed, and then

@@ -37,8 +37,10 @@ glm::dvec4 referenceCorner(std::size_t i) {
     return corner;
 }
 
-// Returns whether the signed volume of the tetrahedron in the section of the reference pentatope is positive. The bits
-// of `above` tell which corners of the pentatope are above the hyperplane, and thus how the hyperplane is oriented.
+// Returns whether the signed volume of `tetrahedron`, a part of the section of the reference pentatope by a hyperplane,
+// is positive: the sign of det(b − a, c − a, d − a, u), where a, b, c and d are its corners, and u points to the upper
+// side of the hyperplane. Bit i of `above` says whether corner i of the pentatope is on the upper side. The middles of
+// the cut edges serve as the corners a, b, c and d.
 bool isPositive(const SectionTetrahedron& tetrahedron, unsigned above) {
     const auto middle = [&](const PentatopeEdge& edge) {
         return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1]));
