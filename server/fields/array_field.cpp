@@ -19,9 +19,10 @@ Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
     glm::dvec4 scale(1);
     for (int axis = 0; axis < 4; ++axis) {
         if (array.shape[static_cast<std::size_t>(axis)] == 1) {
-            // Along this axis, the object extends from −reach to reach. Far from 0, 32-bit floats might not distinguish
-            // the ends of an interval so short. Therefore the box may be longer than the object, which makes no
-            // difference, because the function is constant along this axis.
+            // Along this axis, the object extends from −reach to reach, and the box from middle − inBox to middle +
+            // inBox. If `middle` is far from 0, 32-bit floats might not distinguish middle − reach from middle + reach;
+            // then inBox is greater than reach. The function is constant along this axis, so a longer box makes no
+            // difference.
             constexpr double kMinRelativeReach = 1e-4;
             const double middle = box.center()[axis], reach = 0.25 * longest;
             const double inBox = std::max(reach, kMinRelativeReach * std::abs(middle));

@@ -10,10 +10,10 @@
 namespace oval4d::fields {
 
 /// Makes a field from an array. The initial level is the mean of the least and the greatest sample (see
-/// ArrayFunction::statistics()); values above the level are inside. As an object, the field is as long along w as along
-/// the longest of the axes x, y and z, because a unit of time and a unit of length cannot be compared. Along an axis
-/// with one sample, the field has half of this length. The texts of the units and of the quantity are shortened by
-/// quantityText(). Error: `bad_field` if the box is not valid, or if no sample has a value.
+/// ArrayFunction::statistics()); values above the level are inside. Let L be the length of the longest of the axes x, y
+/// and z. The 4-D object has the length L along w, too, because a unit of time and a unit of length cannot be compared.
+/// Along an axis with one sample, the object has the length L / 2. The texts of the units and of the quantity are
+/// shortened by quantityText(). Error: `bad_field` if the box is not valid, or if no sample has a value.
 Result<Field> fieldFromArray(std::string name, const FieldArray& array);
 
 /// Adds a second array to `field`, which must be a field of an array (Field::array is not null). The values of the

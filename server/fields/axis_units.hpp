@@ -18,16 +18,18 @@ struct PictureAxisUnit {
 using PictureUnits = std::array<PictureAxisUnit, 4>;
 
 /// Returns the units of the axes x, y, z and w after the field has been rotated by `orientation`. Each coordinate in
-/// the picture is a linear combination of the coordinates in the box. It has a unit if all coordinates with a nonzero
-/// factor have the same unit. The axis w of an array, for example, is not to scale if fieldFromArray() or
-/// ReferenceFrame::pace has scaled w.
+/// the picture is a linear combination of the coordinates in the box. The coordinate in the picture has a unit if all
+/// coordinates in the box with a nonzero factor have the same unit. It is to scale if the factors, as a vector, have
+/// the length 1. For example, the axis w of an array is not to scale if fieldFromArray() or ReferenceFrame::pace has
+/// scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
 /// Returns the unit of lengths in a hyperplane w = const of the picture: the unit of the axes x, y and z if all three
 /// have the same unit and are to scale, else an empty string.
 std::string lengthUnit(const PictureUnits& units);
 
-/// Returns "x, m" for the axis 0 with the unit m, and "x" if its unit is unknown.
+/// Returns the label of an axis, 0 … 3 for x … w: "x, m" for the axis 0 with the unit m, and only "x" if the unit is
+/// unknown.
 std::string axisLabel(int axis, const PictureAxisUnit& unit);
 
 }  // namespace oval4d::fields

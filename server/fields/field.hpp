@@ -33,16 +33,17 @@ struct SecondFunction {
     Quantity quantity = {};                           ///< what the values of the array measure
 };
 
-/// Where the samples of a field come from if they are too large for memory: a file in the server's data folder, and the
-/// options with which it is read. The members are explained at the members of session::LoadObject with the same names.
+/// The origin of the samples of a field that are too large for memory: a file in the server's data folder, and the
+/// options with which this file is read. The members are explained at the members of session::LoadObject with the same
+/// names.
 struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box;
 };
 
-/// A 4-D scalar field: a function on a box. As a 4-D object, it is centered at the origin: the object's point p has the
-/// function's coordinates center + toFunction · p. Made by makeField() or transformedTo(); setSecondFunction() can add
-/// a second function.
+/// A 4-D scalar field: a function on a box. It is shown as a 4-D object that is centered at the origin: the point p of
+/// the object has the function's coordinates center + toFunction · p. Made by makeField() or transformedTo();
+/// setSecondFunction() can add a second function.
 struct Field : geometry::ObjectInfo {
     std::shared_ptr<const ScalarFunction> function;
     Box box;               ///< the domain, in the function's coordinates
@@ -85,8 +86,9 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 /// Sets the second function of the field. Both functions use the same coordinates.
 void setSecondFunction(Field& field, SecondFunction second);
 
-/// Returns the image of the field in the frame of reference `frame`, with the serial number `serial`. The image has the
-/// same functions on the same box as `field`; only the coordinates of the 4-D object differ.
+/// Returns the field as a 4-D object in the frame of reference `frame`, with the serial number `serial`. The result has
+/// the same functions on the same box as `field`. The map frame.matrix() is applied to the points of the 4-D object, so
+/// `toFunction`, `domain` and `circumradius` change.
 Field transformedTo(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial);
 
 }  // namespace oval4d::fields

@@ -22,16 +22,16 @@ using AxisUnits = std::array<std::string, 4>;
 /// The maximum length in bytes of the names of quantities and of units.
 inline constexpr std::size_t kMaxQuantityText = 64;
 
-/// Returns `text` as the name of a quantity or as a unit: valid UTF-8 of at most kMaxQuantityText bytes. Replaces by
-/// "?" what text::printable() replaces, and by "…" the end of a text that is too long. Returns an empty string for a
-/// text of blanks only.
+/// Returns `text` as the name of a quantity or as a unit: valid UTF-8 of at most kMaxQuantityText bytes. Control
+/// characters and bytes that are not UTF-8 become "?" (see text::printable()), and "…" replaces the end of a text that
+/// is too long. Returns an empty string for a text of blanks only.
 std::string quantityText(std::string_view text);
 
 /// Returns whether quantityText() leaves `text` as it is.
 bool isQuantityText(std::string_view text);
 
-/// Returns the unit of a product of numbers with these units: "m²" for m and m, "m s" for m and s. A unit that does not
-/// consist of letters only is in parentheses if it is raised to a power. Returns an empty string if a unit is unknown.
+/// Returns the unit of a product of numbers with these units: "m²" for m and m, "m s" for m and s, "(m/s)²" for m/s and
+/// m/s. Returns an empty string if a unit is unknown.
 std::string unitOfProduct(std::span<const std::string> units);
 
 /// Returns "temperature, K" for {"temperature", "K"}, the only known text if one of them is unknown, and an empty

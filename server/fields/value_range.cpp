@@ -7,9 +7,9 @@
 
 namespace oval4d::fields {
 
-// The points are u_n = (1/2 + n a) mod 1. The vector a has the components a_j = g^−(j+1) for j = 0 … 3, and g is the
-// real root of g⁵ = g + 1. The coordinates are computed in units of 2⁻³² in 32-bit integers, so that integer overflow
-// reduces them modulo 1.
+// Coordinate j (0 … 3) of point n is the fractional part of 1/2 + n / g^(j + 1). Here, g is kRoot, the real root of g⁵
+// = g + 1. The coordinates are computed as 32-bit integers in units of 2⁻³². When such an integer overflows, only the
+// fractional part of the coordinate remains.
 void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
     constexpr double kRoot = 1.1673039782614187;
     double fraction = 1;
@@ -56,8 +56,8 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
         const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
         std::vector<float> values((count + 1) * kUnitPoints);
-        // For an array that is too large for memory, versionForSteps() returns an array in memory with a selection of
-        // the samples.
+        // With the step 0, versionForSteps() returns the function itself. However, if the function is an array that is
+        // too large for memory, it returns a selection of the samples, which is in memory.
         const ScalarFunction& function = function_->versionForSteps(std::array{glm::dvec4(0)});
         UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {

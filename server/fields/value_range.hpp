@@ -35,13 +35,13 @@ struct FullAndTypicalRange {
     ValueRange full, typical;
 };
 
-/// Returns the ranges of those values that are finite; 0 … 1 if no value is finite.
+/// Returns the two ranges of those values that are finite. If no value is finite, both ranges are 0 … 1.
 FullAndTypicalRange rangesOf(std::span<const float> values);
 
-/// The range of a function on a box, without outliers: like FullAndTypicalRange::typical, but extended by half of its
-/// length instead of a tenth. The first call of typicalRange() computes the range from a few thousand points of the
-/// box, including the corners and the midpoints of edges, faces and cells. The range depends only on the function and
-/// the box. Thread-safe.
+/// The range of a function on a box, without outliers: like FullAndTypicalRange::typical, but extended at both ends by
+/// half of its length instead of a tenth. The first call of typicalRange() computes the range from a few thousand
+/// points of the box, including the corners and the midpoints of edges, faces and cells. The range depends only on the
+/// function and the box. Thread-safe.
 class TypicalRangeOnBox {
   public:
     TypicalRangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)

@@ -20,11 +20,12 @@ namespace oval4d::fields {
 /// - Outside the box, the function has the value of the nearest point of the box. Along an axis with one sample, the
 ///   function is constant.
 /// - Samples that are NaN or infinite are missing. The function has no value wherever a missing sample has a nonzero
-///   weight. In a cell with a missing sample as a corner, this is the case in the interior, and on the faces and edges
-///   that contain this sample, but not on the other faces.
+///   weight. If a corner of a cell is missing, the function has no value inside the cell, and none on the faces and
+///   edges that contain this corner. On the other faces of the cell, it has values.
 /// - At a point with a NaN coordinate, the function has no value.
 /// - Values are computed with 32-bit floats, and are the same on all processors, with and without AVX2. If all corners
-///   of a cell are equal, the value is exactly equal to them; otherwise, it may be off by 2⁻¹⁹ of their range.
+///   of a cell are equal, the value is exactly equal to them. Otherwise, its rounding error is at most 2⁻¹⁹ times the
+///   difference between the greatest and the least corner.
 class ArrayFunction final : public ScalarFunction {
   public:
     /// The default of `eagerSamples` in the constructor.
@@ -52,14 +53,16 @@ class ArrayFunction final : public ScalarFunction {
                               const GradientBatch& gradients) const override;
 
     /// See ScalarFunction. The bounds are those of all bricks that meet the region (see BrickBounds), widened by the
-    /// rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks may be missing,
-    /// or if the difference of the bounds exceeds the largest float. If the minimum or maximum of the region along an
-    /// axis is NaN, the region is taken to extend along the whole axis.
+    /// rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks may be missing.
+    /// It is also false if the difference of the bounds exceeds the largest float, because an interpolated value may
+    /// then be NaN. If the minimum or maximum of the region along an axis is NaN, the region is taken to extend along
+    /// the whole axis.
     ValueBounds boundsIn(const Box& region) const override;
 
-    /// Returns the coarsest of this array and its downsampled versions in which each step is at least one cell long. If
-    /// a step is shorter than a cell of this array, returns this array. If the constructor has not read the array, a
-    /// selection of at most kSelectedSamples of the samples takes the place of this array in these rules.
+    /// Returns this array or one of its downsampled versions: the coarsest one in which each step is at least one cell
+    /// long. If a step is shorter than a cell of this array, returns this array. However, if the constructor has not
+    /// read this array, returns a selection of at most kSelectedSamples of its samples, or a downsampled version of the
+    /// selection.
     const ScalarFunction& versionForSteps(std::span<const glm::dvec4> steps) const override;
 
     /// Releases the resident pages of the samples if they are in a mapped file and the constructor has not read them:
@@ -85,10 +88,10 @@ class ArrayFunction final : public ScalarFunction {
     bool rangeIsExact() const { return isEager(); }
 
     /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. A sample of the
-    /// result is the mean of the interpolant along each axis over an interval around the sample, which is as long as a
-    /// coarse cell. It is not averaged along an axis where it is the first or the last sample. Missing samples are left
-    /// out of a mean; if all samples of a mean are missing, the result is missing. Reads all samples once, in order.
-    /// Returns an equal array if no axis has more than one cell.
+    /// result is the mean of the interpolant over a box around the sample. This box is as long as a coarse cell along
+    /// each axis, but has no extent along an axis on which the sample is the first or the last one. Missing samples are
+    /// left out of a mean; if all samples of a mean are missing, the result is missing. Reads all samples once, in
+    /// order. Returns an equal array if no axis has more than one cell.
     std::shared_ptr<const ArrayFunction> downsampled() const;
 
   private:

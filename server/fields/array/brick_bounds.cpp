@@ -17,9 +17,9 @@ constexpr std::size_t kRun = 64;  // the maximum number of bricks along x that a
 constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
 // Returns the entry of a brick: its minimum (high half) and maximum (low half) in 8 bytes, so that threads can write
-// the entry atomically. The lowest bit of the maximum is set if and only if a sample is missing. If this bit of the
-// actual maximum has the other value, the next greater float is stored. A minimum of 0 is stored as −0, so that no
-// entry is 0: the number 0 stands for an empty slot.
+// the entry atomically. The lowest bit of the stored maximum is 1 if a sample is missing, else 0. If the lowest bit of
+// the actual maximum is different, the next greater float, which has the right lowest bit, is stored in its place. A
+// minimum of 0 is stored as −0, so that no entry is 0: the number 0 stands for an empty slot of the cache.
 std::uint64_t pack(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
     float max = brick.max;
@@ -175,8 +175,8 @@ void BrickBounds::readAll() {
 
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
-    // A run is a sequence of samples in memory. As a fraction of the array, the position of run i is i times this
-    // number modulo 1. These positions are spread evenly, but not at equal distances. At equal distances, all runs
+    // Each run is a sequence of samples that are neighbors in memory. Run i begins at the fraction (i · kGoldenRatio)
+    // mod 1 of the array. The beginnings are spread evenly, but not at equal distances. At equal distances, all runs
     // might begin at the same phase of a periodic array.
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);

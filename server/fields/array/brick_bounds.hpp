@@ -28,14 +28,15 @@ struct SampleIndexRange {
 };
 
 /// Bounds of the samples in each brick of 4 × 4 × 4 × 4 cells. Neighboring bricks share the samples on their common
-/// face.
+/// face. A query is a call of boundsOf(). Thread-safe.
 ///
-/// The constructor reads small arrays once, and makes a pyramid of coarser bricks, each of which joins up to 2⁴ bricks
-/// of the level below. From this pyramid, a query of any size reads at most kMaxEntries entries (an entry is the bounds
-/// of one brick). Large arrays may be in files that are larger than the memory; each brick of a large array is read
-/// when a query first needs it. The result of a query that would need more than kMaxLazyBricks bricks is unbounded,
-/// because such a query would have to read a large part of the file. The bounds of bricks that were read are kept in a
-/// cache of at most kMaxLazyBytes, in which a brick may replace another one. Thread-safe.
+/// - The constructor reads small arrays once, and makes a pyramid of coarser bricks, each of which joins up to 2⁴
+///   bricks of the level below. From this pyramid, a query of any size reads at most kMaxEntries entries (an entry is
+///   the bounds of one brick).
+/// - Large arrays may be in files that are larger than the memory; each brick of a large array is read when a query
+///   first needs it. A cache of at most kMaxLazyBytes keeps the bounds of the bricks that were read; the bounds of a
+///   brick may replace those of another one. A query that needs more than kMaxLazyBricks bricks would have to read a
+///   large part of the file. Therefore its result is unbounded, and it reads nothing.
 class BrickBounds {
   public:
     static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
@@ -81,8 +82,9 @@ class BrickBounds {
     SampleStatistics statistics_;
     std::vector<std::vector<std::uint64_t>> eagerEntries_;
     // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
-    // implementation for parallel search": `check` is the brick's index XOR its entry. If different threads have
-    // written the two members of a slot, the members practically never fit together, so the slot counts as empty.
+    // implementation for parallel search": `check` is the brick's index XOR its entry. If two threads have written the
+    // two members of a slot for different bricks, `check` XOR `entry` is practically never the index of a brick that is
+    // looked up, so the slot counts as empty.
     struct CacheSlot {
         std::uint64_t check, entry;
     };

@@ -75,7 +75,8 @@ struct CellPoint {
         return isFinite(weighted) ? weighted : kNoValue;
     }
 
-    /// Returns the interpolated value and its derivatives. If a corner is NaN or infinite, so are all of these numbers.
+    /// Returns the interpolated value and its derivatives. If a corner is NaN or infinite, none of these numbers is
+    /// finite.
     ValueAndDerivatives valueAndDerivatives() const {
         std::array<std::array<float, 4>, 2> ends{};  // at x = 0 and x = 1 of the cell: value, derivatives along y, z, w
         for (std::size_t x = 0; x < 2; ++x) {

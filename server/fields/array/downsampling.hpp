@@ -17,9 +17,9 @@ Shape downsampledShape(const Shape& shape);
 /// `samples`.
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples);
 
-/// Returns the shape of a selection of at most `maxSamples` samples of an array with the shape `shape`. Repeatedly
-/// halves the number of samples, rounding up, along the axis that has the most samples at that time, until there are
-/// few enough.
+/// Returns the shape of a selection of at most `maxSamples` samples of an array with the shape `shape`. Halves the
+/// number of samples along the axis that has the most samples, rounding up, and repeats this until there are few enough
+/// samples in all.
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
 /// Returns a selection of `samples`: for each point of a lattice with the shape `size` in the same box, the nearest

@@ -127,8 +127,9 @@ MappedFile::~MappedFile() {
 bool MappedFile::isLost() const {
     const MappedRange& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
-    // The file may have been shortened and then restored since it was mapped. In between, another process of the server
-    // that has mapped the file may have read zeros. Therefore, any modification since the mapping counts as a loss.
+    // Any modification since the file was mapped counts as a loss, even if the file has its full size now. It may have
+    // been shortened and then restored; in between, another process of the server that has mapped the file may have
+    // read zeros.
     struct stat status{};
     return fstat(file_->descriptor(), &status) != 0 || static_cast<std::size_t>(status.st_size) < size_ ||
            status.st_mtim.tv_sec != range.modified.tv_sec || status.st_mtim.tv_nsec != range.modified.tv_nsec;

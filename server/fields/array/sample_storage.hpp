@@ -32,10 +32,10 @@ class SampleStorage {
     /// Returns the position of the first sample in the file, in bytes. The samples must be in a mapped file.
     std::size_t byteOffsetInFile() const;
 
-    /// Returns these samples, followed by `others`. Copies all of them into new memory, which has room for 1.5 times as
-    /// many samples. Copies only `others`, and shares the memory of these samples, if three conditions are met: an
-    /// earlier call has returned these samples, nothing has been appended to them yet, and their memory has room for
-    /// `others`. Thread-safe.
+    /// Returns these samples, followed by `others`. Normally, copies all of them into new memory, which has room for
+    /// 1.5 times as many samples. However, if an earlier call has returned these samples, if their memory has room for
+    /// `others`, and if nothing has been appended to them yet, copies only `others` into this memory. The result then
+    /// shares the memory of these samples. Thread-safe.
     SampleStorage followedBy(std::span<const float> others) const;
 
     /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the

@@ -208,7 +208,7 @@ class GradientLoops : private ValueLoops<Math> {
         powerOrAtan2(instruction, out.value, a, b, size);
     }
 
-    // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a. The latter is 0 for a = 0 and b > 0.
+    // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a. For a = 0 and b > 0, ∂(a^b)/∂b is 0.
     static void powerPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
                               const float* b, SizeType size) {
         if (instruction.axesOfB != 0) {

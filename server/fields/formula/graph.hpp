@@ -12,8 +12,9 @@
 namespace oval4d::fields {
 
 /// A graph of operations. While it is built, operations on constants are folded in double precision, and equal nodes
-/// are shared. Simplifications preserve all values apart from the sign of zero. Therefore, x·0 and x − x are not
-/// replaced by 0: they are NaN for infinite x. The exception is x⁰, which becomes 1 even where x is NaN.
+/// are shared. Simplifications preserve all values apart from the sign of zero. For example, x·0 and x − x are not
+/// replaced by 0, because they are NaN for infinite x. There is one exception: x⁰ becomes 1, even though it is NaN
+/// where x is NaN.
 class Graph {
   public:
     using Ref = std::uint32_t;  ///< the index of a node

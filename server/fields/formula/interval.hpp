@@ -3,19 +3,22 @@
 // computes for it.
 //
 // Proof by induction over the operations of a formula: the interval of each operand contains the exact value and the
-// float, and the interval of the result is computed such that it contains both, too. Let [m, M] contain the exact
-// results for all real operands in the intervals; these include the operands that are floats.
+// float, and the interval of the result is computed such that it contains the exact result and its float, too. Let m
+// and M be bounds of the exact results for all real operands in the intervals; these include the operands that are
+// floats.
 //
 // - Addition, subtraction, multiplication, division, squares and square roots are correctly rounded. The float is the
 //   exact result times 1 + δ, |δ| ≤ 2⁻²⁴; it is off by at most 2⁻¹⁵⁰ if it is subnormal, and infinite if it is beyond
-//   the largest float. Therefore each end is moved outward by 2⁻²³ of its value and by 2⁻¹⁴⁸, and an end beyond the
+//   the largest float. Therefore m and M are moved outward by 2⁻²³ of their value and by 2⁻¹⁴⁸, and an end beyond the
 //   largest float becomes infinite. This also covers the error of computing m and M in double precision (2⁻⁵³ for
 //   arithmetic, a few times that for the functions of the C library). A correctly rounded result never has the wrong
 //   sign, so an end is never moved beyond 0.
-// - Functions such as sin have errors of at most 4 units in the last place (2⁻²¹, which the tests check). Their
-//   intervals are widened by 2⁻²⁰ and, because they may return 0 for a subnormal result, by 2⁻¹²⁵.
-// - aⁿ is computed by multiplications, with a relative error of less than n · 2⁻²⁴; its interval is widened by
-//   n · 2⁻²³. A power with the exponent n + 1/2, n ≤ 8, is aⁿ times a square root; its interval is widened as for sin.
+// - Functions such as sin have errors of at most 4 units in the last place (2⁻²¹ of the value, which the tests check).
+//   Each end of their intervals is moved outward by 2⁻²⁰ of its value and, because they may return 0 for a subnormal
+//   result, by 2⁻¹²⁵.
+// - aⁿ is computed by multiplications, with a relative error of less than n · 2⁻²⁴; each end of its interval is moved
+//   outward by n · 2⁻²³ of its value. A power with the exponent n + 1/2, n ≤ 8, is aⁿ times a square root; its interval
+//   is widened as for sin.
 // - Negation, abs, min, max, step, sign and floor are exact.
 
 #include "fields/formula/operation.hpp"

@@ -239,8 +239,8 @@ class Parser {
         if (found == uses_.end()) uses_.push_back({name, byte});
         return add(Kind::constant, {}, index);
     }
-    // Adds a node for a name that occurs in the definition of another name. Fails unless it is defined before that
-    // name.
+    // Adds a node for `name`, which occurs in the definition of another name. Fails unless `name` is defined before
+    // that definition.
     Index earlierName(std::string_view name, std::size_t byte) {
         isConstantDefinition_ = false;
         if (const auto found = resolve(name)) return add(found->kind, {}, found->index);

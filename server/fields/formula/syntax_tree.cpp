@@ -21,8 +21,8 @@ Ref buildVariable(std::uint32_t index, Graph& graph) {
     return graph.sqrt(sum);
 }
 
-// Adds the operation of a tree's node to the graph, and returns its node in the graph. `operands` are the nodes of its
-// operands in the graph.
+// Adds the operation of `node`, a node of the tree, to the graph, and returns the new node of the graph. `operands` are
+// the graph's nodes for the operands of `node`.
 Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<const FormulaConstant> constants,
               Graph& graph) {
     switch (node.kind) {

@@ -20,7 +20,7 @@ struct FormulaConstant {
     bool operator==(const FormulaConstant&) const = default;
 };
 
-/// How the two sides of a formula are compared, if it has two.
+/// How the two sides of a formula are compared; `none` if the formula is not a comparison.
 enum class Relation : std::uint8_t { none, equal, less, less_equal, greater, greater_equal };
 
 struct SyntaxNode {

@@ -116,8 +116,8 @@ class ValueLoops {
         }
     }
 
-    // Returns whether min or max returns its first operand. `compared` is whether this operand is the smaller one (for
-    // min) or the larger one (for max). Also returns true if the operand is NaN.
+    // Returns whether min or max returns its first operand, `first`. `compared` is whether `first` is the smaller
+    // operand (for min) or the larger one (for max). If `first` is NaN, returns true.
     static bool choosesFirst(bool compared, float first) {
         return static_cast<int>(compared) | static_cast<int>(first != first);
     }

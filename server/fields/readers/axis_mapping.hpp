@@ -15,8 +15,8 @@
 
 namespace oval4d::fields {
 
-/// The maximum count of numbers in a slab, a part of an array that is read and converted at once. After each slab, the
-/// readers release the pages of mapped files.
+/// The maximum number of elements of a slab. A slab is a part of an array in a file that is read and converted at once.
+/// After each slab, the readers release the pages of mapped files.
 inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
 
 /// The size in bytes of the cache in which the libraries for HDF5 and NetCDF keep decompressed chunks, because several
@@ -83,8 +83,9 @@ class AxisMapping {
 };
 
 /// Returns a box, centered at the origin, for an array of which only the shape is known. The distance between samples
-/// is the same along all axes, and the longest axis extends from −1 to 1. If `time` is true, w extends from −1 to 1,
-/// and these rules apply only to x, y and z. An axis with one sample has no extent.
+/// is the same along all axes, and the longest axis extends from −1 to 1. However, if `time` is true, w always extends
+/// from −1 to 1, and the distances and lengths along w are left out of these rules. An axis with one sample has no
+/// extent.
 Box defaultBox(const Shape& shape, bool time);
 
 }  // namespace oval4d::fields

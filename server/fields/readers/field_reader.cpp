@@ -66,7 +66,7 @@ void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadO
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     const auto last = static_cast<double>(times.size() - 1);
     if (known) static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
-    // The times are equal if the files state none.
+    // If the files state no times, all times are equal, which needs no warning.
     const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();
     if (series.boxIsKnown && !known && differ && !options.box) {
         series.warnings.emplace_back(
@@ -110,8 +110,8 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOpt
     std::optional<SampleBuffer> all;
     std::vector<double> times;
     bool unitsDiffer = false;
-    // Each file of the series but the first is decompressed into the same new file, because its samples are copied to
-    // `all` before the next file of the series is read.
+    // The first file of the series has a decompressed file of its own, and all later files share another one: the
+    // samples of each file are copied to `all` before the next file is decompressed.
     std::shared_ptr<MappedFile> decompressed;
     const MappedFileMaker reuseFile = [&](std::size_t bytes) -> Result<std::shared_ptr<MappedFile>> {
         if (decompressed && decompressed->bytes().size() >= bytes) return decompressed;

@@ -34,13 +34,17 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start);
 /// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of FieldFormat::read.
 Result<FieldArray> readField(const FileContents& file, const ReadOptions& options);
 
-/// Reads a series of files, each with one time step, as one field. If the files do not state their boxes, the box is
-/// defaultBox(). If they state their boxes, the boxes give x, y and z. If the values of w in the boxes increase from
-/// file to file, w extends from the first to the last of these values, evenly spaced. If they do not increase, w is the
-/// number of the file, from 0 on, with a warning if the values differ. All files must have the same shape, with one
-/// sample along w, and the same box in x, y and z. `options.axes` names the axes of each file; `options.box` is the box
-/// of the whole field. Errors: those of readField(), with the number of the file; `bad_field` if there are no files or
-/// if they differ; `too_large` if there are more than `options.maxSamples` samples in all.
+/// Reads a series of files, each with one time step, as one field. All files must have the same shape, with one sample
+/// along w, and the same box in x, y and z. `options.axes` names the axes of each file. The box of the field is:
+///
+/// - `options.box`, if it is set.
+/// - defaultBox(), if the files do not state their boxes.
+/// - Otherwise, the box of the files in x, y and z. Let the time of a file be the w at which its box begins. If the
+///   times increase from file to file, w extends from the first to the last time, as if they were evenly spaced. If
+///   they do not increase, w is the number of the file, from 0 on; unless all times are equal, there is a warning.
+///
+/// Errors: those of readField(), with the number of the file; `bad_field` if there are no files, or if their shapes or
+/// boxes are not as required; `too_large` if there are more than `options.maxSamples` samples in all.
 Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOptions& options);
 
 /// Returns the files in a folder that have one of the formats, sorted by name. Numbers in names are compared by value:

@@ -250,7 +250,7 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
     std::string name = options.variable;
     if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
     if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
-    // The name may be a path with soft links, which `datasets` does not list. No path leads out of this file, because
+    // `name` may be a path with soft links, which `datasets` does not list. No path leads out of this file, because
     // readHdf5() refuses files with external links.
     const bool isPath = !name.ends_with('/') && name.find('\0') == std::string::npos;
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);

@@ -165,10 +165,10 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
-// Returns the coordinate variable of a dimension of `variable`: a variable that has the name of the dimension, and no
-// dimension but this one. The coordinate variable may be in the group of `variable` or in an outer group. Its name
-// alone does not suffice: a variable may be named like a dimension that it does not have, and a dimension of a group
-// may be named like a dimension of an outer group.
+// Returns the coordinate variable of a dimension of `variable`: a variable that has the name of the dimension, and this
+// dimension as its only one. The coordinate variable may be in the group of `variable` or in an outer group. A variable
+// with the right name need not be the coordinate variable: a variable may be named like a dimension that it does not
+// have, and a dimension of a group may be named like a dimension of an outer group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;

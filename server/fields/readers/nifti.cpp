@@ -263,8 +263,10 @@ std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions&
     return {};
 }
 
-// Returns the first `size` bytes of a decompressed file. If these are too many to be kept in memory, they are in a file
-// that `options.newFile` makes. `unzipped` must contain the bytes that `gzip` has already decompressed.
+// Returns the first `size` bytes of the decompressed contents of `file`, a gzip file. `gzip` decompresses `file`, and
+// `unzipped` must contain the bytes that `gzip` has returned so far. The result is in memory if it has at most 4 ·
+// `options.maxInMemory` bytes, or if `options.newFile` is null. Otherwise, it is in a file that `options.newFile`
+// makes.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
                            std::size_t size, const ReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;
@@ -284,8 +286,8 @@ Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vect
     return FileContents::of(MappedFilePtr(std::move(*to)));
 }
 
-// Returns the stored numbers: the `size` bytes from the byte `begin` on, of the file or, if `gzip` is not null, of the
-// decompressed file. `unzipped`: see unzip().
+// Returns the stored numbers, which take `size` bytes from the byte `begin` on. If `gzip` is null, these are bytes of
+// `file`; otherwise, they are bytes of the decompressed contents of `file`. For `gzip` and `unzipped`, see unzip().
 Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
                             std::size_t begin, std::size_t size, const ReadOptions& options) {
     if (gzip != nullptr) {

@@ -14,12 +14,16 @@ namespace oval4d::fields {
 bool isNiftiStart(std::span<const std::byte> start);
 
 /// Reads a NIfTI-1 or NIfTI-2 file (.nii, .nii.gz) with 1 to 4 dimensions of integers or real numbers, in either byte
-/// order. Refuses images whose header and data are in two files (.hdr, .img). The box is `options.box` if it is set.
-/// Else the file's orientation gives the box along the first three dimensions if `options.axes` is empty and the
-/// voxels' axes are parallel to the axes of space. If they are oblique, there is a warning; in this case, and if
-/// `options.axes` is set, the box is centered at the origin along the first three dimensions, and uses the file's
-/// distances between samples. Along the fourth dimension, the box begins at the time offset that the file states.
-/// Errors: `bad_field`, `too_large`; `out_of_range` for the options.
+/// order. Refuses images whose header and data are in two files (.hdr, .img). If `options.box` is set, it is the box.
+/// Otherwise, the box along the first three dimensions depends on `options.axes`:
+///
+/// - If `options.axes` is empty and the voxels' axes are parallel to the axes of space, the file's orientation gives
+///   the box.
+/// - Otherwise, the box is centered at the origin, with the file's distances between samples. If `options.axes` is
+///   empty and the voxels' axes are oblique, there is also a warning.
+///
+/// Along the fourth dimension, the box begins at the time offset that the file states. Errors: `bad_field`,
+/// `too_large`; `out_of_range` for the options.
 Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& options);
 
 }  // namespace oval4d::fields

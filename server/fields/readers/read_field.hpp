@@ -26,7 +26,8 @@ using MappedFileMaker = std::function<Result<std::shared_ptr<MappedFile>>(std::s
 struct ReadOptions {
     /// The axes of the array's dimensions in the order of its indices, such as "tzyx"; t means w. The last index varies
     /// fastest in memory, unless the file states otherwise. An axis that is not named gets one sample. If empty, the
-    /// axes are those that the file states, or "tzyx", "zyx", "yx" or "x".
+    /// axes are those that the file states; if it states none, "tzyx", "zyx", "yx" or "x", depending on the number of
+    /// dimensions.
     std::string axes = {};
     std::optional<Box> box = {};  ///< used instead of the box that the file states
     std::string variable = {};    ///< the path of the variable in a NetCDF file, of the dataset in an HDF5 file, or of

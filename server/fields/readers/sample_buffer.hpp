@@ -12,8 +12,8 @@
 
 namespace oval4d::fields {
 
-/// Memory for samples: ReadOptions::into if it has the right size; otherwise a new file, if ReadOptions::newFile is set
-/// and there are more samples than ReadOptions::maxInMemory; otherwise a vector.
+/// Memory for samples, of the first kind that applies: ReadOptions::into, if it has the right size; a new file, if
+/// ReadOptions::newFile is set and there are more samples than ReadOptions::maxInMemory; a vector.
 class SampleBuffer {
   public:
     /// Errors: those of ReadOptions::newFile.

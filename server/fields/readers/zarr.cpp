@@ -296,7 +296,7 @@ Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& o
     if (!read) return read.error();
     field.samples = buffer->take();
     field.quantity = {quantityText(array.text("long_name")), quantityText(array.text("units"))};
-    // The levels of an image are numbered.
+    // The path of a level of a multiscale image is a number, which says nothing about the quantity.
     if (field.quantity.name.empty() && !zarr.coordinatesOf(path))
         field.quantity.name = quantityText(path.substr(path.rfind('/') + 1));
     return field;
