@@ -44,9 +44,9 @@ struct CellInvariants {
     }
 };
 
-// Measures cells. Measuring all cells of a polytope takes time linear in its size: measure() marks the vertices of each
-// cell with another number, so the mark of a vertex shows, without a search, whether the vertex has already been
-// visited in the current cell.
+// Measures cells. Measuring all cells of a polytope takes time linear in its size: for each cell, measure() marks the
+// vertices that it visits with a number that is different for each cell. Therefore the mark of a vertex shows, without
+// a search, whether the vertex has already been visited in the current cell.
 class CellMeasurer {
   public:
     explicit CellMeasurer(const Polytope& polytope) : p_(polytope), markOf_(polytope.vertices.size(), 0) {}

@@ -12,8 +12,8 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // the tolerance of distances, relative to maxDistanceFromMean()
-// The angles around an edge or a vertex add up to 2π, one full turn, or to at least 4π. This limit, in radians,
-// distinguishes the two cases.
+// The angles around an edge or a vertex add up to one or more full turns of 2π. kMaxTurn, in radians, distinguishes one
+// full turn from two or more.
 constexpr double kMaxTurn = 3 * std::numbers::pi;
 
 // Returns the component of v perpendicular to a unit vector.
@@ -195,8 +195,8 @@ class ConvexityTest {
         v = glm::normalize(v);
         std::array<glm::dvec4, 2> plane{};
         for (glm::dvec4& found : plane) {
-            // Remove from each coordinate axis its components along a, b and the vector already found. The longest
-            // remainder is the most accurate.
+            // Of the four coordinate axes without their components along a, b and the vector already found, the longest
+            // one is the most accurate.
             double most = 0;
             for (int axis = 0; axis < 4; ++axis) {
                 glm::dvec4 rest(0);

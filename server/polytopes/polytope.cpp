@@ -85,9 +85,9 @@ class Orienter {
         incidences[incidences[0] == kNone ? 0 : 1] = incidence;
     }
 
-    // Orients one connected component of the boundary, beginning with the incidence `first`. Chooses the orientation
-    // with negative signed hypervolume, which is the outward one. With it, the face loops of slices are
-    // counterclockwise, seen from outside the slice.
+    // Orients one connected component of the boundary, beginning with the incidence `first`. Chooses the outward
+    // orientation: that in which the sum of scaledConeVolume() over the cells is negative. With this orientation, the
+    // face loops of slices are counterclockwise, seen from outside the slice.
     void orientComponent(std::uint32_t first) {
         std::vector<std::uint32_t> cells;
         std::vector<std::uint32_t> waiting{first};
@@ -120,9 +120,9 @@ class Orienter {
         }
     }
 
-    // Sets the signs of all 2-faces of the cell to agree with the sign of one of them, which the caller must have set.
-    // Returns false, without changing anything, if the cell was oriented before. Throws InvalidPolytope if the cell is
-    // not a connected closed orientable surface.
+    // Sets the signs of all 2-faces of the cell to agree with the sign of one of these 2-faces, which the caller must
+    // have set. Returns false, without changing anything, if the cell was oriented before. Throws InvalidPolytope if
+    // the cell is not a connected closed orientable surface.
     bool orientCell(std::uint32_t cell) {
         if (done_[cell]) return false;
         done_[cell] = true;
@@ -185,8 +185,9 @@ class Orienter {
 
     // Returns 24 times the signed hypervolume of the cone over the cell. The apex of the cone, `tip`, is a vertex of
     // the polytope. It is not the origin, because rounding errors would exceed the sum for a polytope that is far from
-    // the origin. The cone is divided into 4-simplices. The corners of each simplex are `tip`, a fixed vertex of the
-    // cell (`tip` + `fromTipToCell`), and the corners of one of the triangles into which a 2-face is divided as a fan.
+    // the origin. Each 2-face of the cell is divided as a fan into triangles (a, b, c), whose corners follow each other
+    // as in its loop. The result is the sum of sign · det(v, a, b, c) over all these triangles. Here, `sign` is the
+    // sign of the 2-face in the cell, and v is a fixed vertex of the cell; v, a, b and c are relative to `tip`.
     double scaledConeVolume(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];

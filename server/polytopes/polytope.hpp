@@ -23,9 +23,8 @@ using geometry::CellType;
 struct Polytope : geometry::CellComplex {
     /// The 2-faces around each edge, in cyclic order: 2-face f is stored as 2 f + 1 if its vertex loop traverses the
     /// edge from the edge's first vertex to its second, else as 2 f. The cell between an entry s and the next entry of
-    /// its cycle is faceCells[s / 2][1 − s mod 2]. If several bodies meet in an edge, the edge has several cycles,
-    /// which are stored one after another. In each cycle, the cell after the last entry is the cell before the first
-    /// entry.
+    /// its cycle is faceCells[s / 2][1 − s mod 2]; after the last entry of a cycle, the next entry is the first one. If
+    /// several bodies meet in an edge, the edge has several cycles, which are stored one after another.
     geometry::JaggedArray edgeFaces;
 
     std::size_t cellCount() const { return cells.size(); }

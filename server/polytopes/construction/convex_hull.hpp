@@ -17,9 +17,9 @@ namespace oval4d::polytopes {
 /// The maximum total number of points of all convex hulls that are computed to build one polytope.
 inline constexpr std::uint64_t kMaxHullPoints = 20'000;
 
-/// The maximum number of sides of a 2-face, in a polytope from which a construction computes the points of a hull. In a
-/// polygon with more sides, each vertex lies so close to the line through its two neighbors that rounding errors
-/// matter.
+/// The maximum number of sides of a 2-face of a polytope that is used in a construction by convex hulls, as in
+/// "truncation of X". In a polygon with more sides, each vertex lies so close to the line through its two neighbors
+/// that rounding errors matter.
 inline constexpr std::size_t kMaxHullSides = 1000;
 
 /// The maximum number of cells of a hull.

@@ -24,11 +24,12 @@ Mirrors mirrorsOf(const Diagram& diagram);
 glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed);
 
 /// Builds the uniform polytope of the diagram. Its vertices are the orbit of the generating vertex under the group of
-/// the mirrors. Its other elements are the images, under this group, of elements at the generating vertex: one, two or
-/// three mirrors generate an edge, a 2-face or a cell there if each connected component of these mirrors contains a
-/// ringed one. All cells of an orbit have the same cell type. If a symmetry of the diagram maps an orbit to another
-/// one, both have the same cell type. Throws std::invalid_argument if a connected component of the diagram has no
-/// ringed mirror, if two orbits of 2-faces coincide, or if there are more than `maxVertices` vertices.
+/// the mirrors. Its edges, 2-faces and cells are the images, under this group, of elements at the generating vertex. A
+/// set of one, two or three mirrors generates an edge, a 2-face or a cell at the generating vertex if
+/// generatesElement() is true for the set. All cells of an orbit have the same cell type. If a symmetry of the diagram
+/// maps an orbit to another one, the cells of both orbits have the same cell type. Throws std::invalid_argument if a
+/// connected component of the diagram has no ringed mirror, if two orbits of 2-faces coincide, or if there are more
+/// than `maxVertices` vertices.
 Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices = 100'000);
 
 }  // namespace oval4d::polytopes

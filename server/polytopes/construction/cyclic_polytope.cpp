@@ -29,8 +29,7 @@ namespace {
 // Returns the number of cells of the cyclic polytope with n vertices.
 constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
 
-// The maximum follows from the number of cells, which grows with the square of the number of vertices: there are no
-// more cells than a hull may have (kMaxHullCells).
+// The maximum, 448, is the largest number of vertices for which the polytope has at most kMaxHullCells cells.
 constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
@@ -53,18 +52,20 @@ class CyclicPolytopeRecipe : public Recipe {
         const std::uint64_t n = n_;
         return {n, n * (n - 1) / 2, n * (n - 3), cyclicCells(n)};
     }
-    // The symmetries t → t + 2π/n and t → −t of the points on the curve generate a dihedral group of order 2n. For
-    // n = 6, the vertices with even and odd numbers are equal triangles in perpendicular planes. The symmetries of each
-    // triangle, and the exchange of both, are symmetries of the polytope.
+    // The symmetries t → t + 2π/n and t → −t of the points on the curve generate a dihedral group of order 2n. If n is
+    // 6, there are more symmetries: the vertices with even numbers and those with odd numbers are equal triangles in
+    // perpendicular planes. The symmetries of each triangle, and the exchange of the two triangles, are symmetries of
+    // the polytope.
     std::uint64_t symmetryOrder() const override { return hasPerpendicularTriangles() ? 2U * 6 * 6 : 2 * n_; }
 
     Polytope build(const std::string& name) const override {
         const std::uint32_t n = n_;
         const double step = 2 * std::numbers::pi / n;
-        // With this radius r, the edges between neighbors have the length 2, and no edge is shorter: an edge between
-        // vertices that are k steps apart has the length 2r √(s + 4s(1 − s)), where s = sin²(kπ/n). The radicand is a
-        // concave function of s, so it is least for neighbors, which have the least s, or for s = 1. It is 1 for s = 1,
-        // and at most 1 for neighbors.
+        // With this radius r, the edges between neighbors have the length 2, and no edge is shorter. Proof: the edge
+        // between vertices that are k steps apart has the length 2r √R, where R = s + 4s(1 − s) and s = sin²(kπ/n). R
+        // is a concave function of s. Therefore, of all s from that of neighbors (k = 1) to 1, R is least at one of
+        // these two ends. It is at most 1 for neighbors, and 1 for s = 1, so no edge is shorter than those between
+        // neighbors.
         const double radius = 1 / std::hypot(std::sin(step / 2), std::sin(step));
         std::vector<glm::dvec4> vertices;
         for (std::uint32_t k = 0; k < n; ++k) {

@@ -66,8 +66,8 @@ class SnubPrismRecipe : public Recipe {
         }
         return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
     }
-    // The order is twice rotations(), because the prism has a mirror between its bases. Over an antiprism, it is four
-    // times rotations(), because the antiprism itself has as many other symmetries as rotations.
+    // The order is 2 · rotations(), because the prism has a mirror between its bases. However, if the base is an
+    // antiprism, it is 4 · rotations(), because half of the symmetries of an antiprism are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
         // By convention, the diagram of an antiprism begins with the branch number 2: the prism over the 5-antiprism is

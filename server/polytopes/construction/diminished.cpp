@@ -116,9 +116,9 @@ Polytope buildSnub24Cell(std::string name) {
 
 Polytope buildGrandAntiprism(std::string name) {
     // Two neighboring vertices and the center span the plane of the first decagon, whose sides are edges of the
-    // 600-cell. The second decagon lies in the completely orthogonal plane. `part` is the length of the projection of a
-    // vertex to the plane of the first decagon, in circumradii: 1 for a vertex of the first decagon, 0 for a vertex of
-    // the second.
+    // 600-cell. The second decagon lies in the completely orthogonal plane. `part` is the distance from the center, in
+    // circumradii, of the projection of a vertex onto the plane of the first decagon. It is 1 for a vertex of the first
+    // decagon, and 0 for a vertex of the second.
     const Polytope whole = sixHundredCell();
     const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
     glm::dvec4 v = whole.vertices[whole.edges[0][1]];

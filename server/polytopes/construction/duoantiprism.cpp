@@ -27,13 +27,15 @@ namespace {
 // Returns point `index` of 2n points at equal distances on a circle around the origin. Every other point is a vertex of
 // a regular n-gon of edge length 2.
 //
-// A duoantiprism has its vertices on two such circles, with n = p and n = q. Their radii make its edges as equal as
-// possible. Proof: for any radii, let a and b be the edge lengths of the p-gons and the q-gons, and c the length of the
-// other edges. The two ends of an edge of length c project to neighboring points on either circle.
+// A duoantiprism has its vertices on two such circles, with n = p and n = q. With these radii, the ratio of its longest
+// edge to its shortest edge is as small as possible. Proof: for any radii, let a and b be the edge lengths of the
+// p-gons and the q-gons, and c the length of the other edges. The two ends of an edge of length c project to
+// neighboring points on each of the two circles. The distance of neighboring points is a / (2 cos(π/(2p))) on the first
+// circle and b / (2 cos(π/(2q))) on the second.
 //
-// Therefore c² = (a / 2cos(π/2p))² + (b / 2cos(π/2q))². The coefficients of a² and b² are at most 1/2, and both are 1/2
-// only for p = q = 2. Hence all lengths can be equal only for p = q = 2; otherwise c is less than the larger of a and
-// b, and max(a, b) / min(a, b, c) is least for a = b.
+// Therefore c² = a² / (4 cos²(π/(2p))) + b² / (4 cos²(π/(2q))). The coefficients of a² and b² are at most 1/2, and both
+// are 1/2 only for p = q = 2. Hence all lengths can be equal only for p = q = 2. For other p and q, c is less than the
+// larger of a and b, and max(a, b) / min(a, b, c) is least for a = b.
 glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
     const double angle = std::numbers::pi / n;
     return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
@@ -54,7 +56,7 @@ class DuoantiprismRecipe : public Recipe {
     }
     // The dihedral groups of order 4p and 4q act on the two circles. There are 16pq pairs of an element of the first
     // group and one of the second; half of these pairs map the vertices of the duoantiprism to each other. If p = q,
-    // there are equally many further symmetries, which exchange the two planes.
+    // there are twice as many symmetries, because the two planes can be exchanged.
     std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
     std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
     std::string schlaefli() const override {

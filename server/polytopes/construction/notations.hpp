@@ -62,8 +62,8 @@ extern const Notation kCyclicPolytopeNotation;             // defined in cyclic_
 extern const Notation kPrismNotation;                      // defined in prism_names.cpp
 extern const Notation kOperationNotation;                  // defined in diagram_names.cpp
 
-/// All notations, in the order in which they are tried. The result is that of the first notation that returns a design,
-/// or an error other than NameError::Reason::unknown without a message.
+/// All notations, in the order in which they are tried. The result is that of the first notation that returns a design
+/// or an error. An error with NameError::Reason::unknown and an empty message does not count.
 inline constexpr auto kNotations = std::to_array<const Notation*>({
     &kDualNotation,
     &kOverPolyhedronNotation,

@@ -16,8 +16,8 @@ namespace oval4d::polytopes {
 namespace {
 
 // The unit normals of three mirrors that meet at the angles π/p, π/q and π/2, and two rotations: rotationP, of order p,
-// is the product of the reflections in the first two mirrors; rotationQ, of order q, is that of the reflections in the
-// last two.
+// is the product of the reflections in the first two mirrors; rotationQ, of order q, is the product of the reflections
+// in the last two mirrors.
 struct TriangleGroupGenerators {
     std::array<glm::dvec3, 3> mirrorNormals;
     glm::dmat3 rotationP, rotationQ;

@@ -18,11 +18,11 @@ class TruncationRecipe : public Recipe {
   public:
     TruncationRecipe(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
-    // The number of vertices is exact: a hyperplane that touches the convex base only in one edge touches the hull only
-    // in the points that cut this edge, so these points are vertices of the hull. The other numbers are estimates. They
-    // assume that one cell replaces each vertex, and that each of the f 2-faces of the base has four corners. An edge
-    // replaces each of these 4 f corners. If the base is truncated, a part of each of its e edges also remains. Euler's
-    // relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
+    // The number of vertices is exact: the points on an edge of the convex base are vertices of the hull, because some
+    // hyperplane touches the base only in this edge, and therefore the hull only in these points. The other numbers are
+    // estimates. They assume that one cell replaces each vertex, and that each of the f 2-faces of the base has four
+    // corners. An edge replaces each of these 4 f corners. If the base is truncated, a part of each of its e edges also
+    // remains. Euler's relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
     ElementCounts counts() const override {
         const auto [v, e, f, c] = base_.recipe->counts();
         const std::uint64_t corners = 4 * f;

@@ -76,8 +76,8 @@ class SimplexMerger {
         Triangle corners;
     };
 
-    // Sets signs_ such that all simplices, with these signs, are oriented coherently. The sign +1 means the orientation
-    // given by the ascending order of the vertices.
+    // Sets signs_ such that all simplices are oriented coherently. A simplex with the sign +1 is oriented by the
+    // ascending order of its vertices; a simplex with the sign −1 has the opposite orientation.
     void orient() {
         std::vector<std::uint32_t> waiting{0};
         signs_[0] = 1;

@@ -17,8 +17,8 @@
 
 namespace oval4d::polytopes {
 
-/// A flat: the plane or hyperplane through the corners of a simplex. Its position is uncertain due to the corners'
-/// errors.
+/// A flat: the plane or hyperplane through the corners of a simplex. Its position is uncertain, because the corners
+/// have errors.
 template <std::size_t Dimension>
 class Flat {
   public:
@@ -73,9 +73,9 @@ class Flat {
         return sum + std::abs(first);
     }
 
-    /// Returns whether p lies in the flat, within `factor` times the sum of two error bounds: that of p
-    /// (HullFrame::errorBound()) and that of the flat at p, which is cornerErrorFactor() times as large, but at most 16
-    /// times.
+    /// Returns whether the distance of p from the flat is at most `factor` times the sum of two error bounds. The error
+    /// bound of p is HullFrame::errorBound(). The error bound of the flat at p is HullFrame::errorBound() times
+    /// cornerErrorFactor(), or times 16 if cornerErrorFactor() is greater than that.
     bool contains(const glm::dvec4& p, const HullFrame& frame, double factor = 1) const {
         glm::dvec4 rest = p - origin_;
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
@@ -122,12 +122,12 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
     return chosen;
 }
 
-/// Grows a group of simplices (triangles or tetrahedra) that lie in one flat. The caller must set `flat` to the flat
-/// through the corners `own` of one of the simplices. A larger simplex determines a flat more precisely. Therefore, if
-/// vertices of the group span a larger simplex whose flat also contains `own`, replaces `flat` by the flat of this
-/// simplex, and grows the group again. Repeats this up to four times. grow(flat) returns the group in a flat, and
-/// verticesOf(group) returns the vertices of a group. Returns the final group, and leaves the flat of this group in
-/// `flat`.
+/// Finds a group of neighboring simplices (triangles or tetrahedra) that lie in one flat. `own` are the corners of one
+/// of the simplices, and the caller must set `flat` to the flat through them. grow(flat) returns the group in a flat,
+/// and verticesOf(group) returns the vertices of a group. First calls grow(flat). A larger simplex determines a flat
+/// more precisely. Therefore, if vertices of the group span a larger simplex whose flat also contains `own`, sets
+/// `flat` to the flat of this simplex, and calls grow(flat) again. Does this at most four times. Returns the last
+/// group; `flat` is then the flat of this group.
 template <typename F, typename Corners, typename Grow, typename VerticesOf>
 std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow& grow, const VerticesOf& verticesOf,
                                         std::span<const glm::dvec4> points, const HullFrame& frame) {

@@ -22,10 +22,10 @@ namespace {
 
 using geometry::kNone;
 
-// kMaxDeviation is the largest permitted distance of a vertex from the hyperplane of its cell; the search for better
-// places ends at kGoalDeviation. Both are relative to the parameter `size` of flattenOrSplit(). However, the permitted
-// distance is at least kMaxRounding times doublePrecisionErrorBound(), and the goal is at least kGoalRounding times
-// doublePrecisionErrorBound().
+// kMaxDeviation is the largest permitted distance of a vertex from the hyperplane of its cell. The search for better
+// places ends when all distances are at most kGoalDeviation. Both constants are relative to the parameter `size` of
+// flattenOrSplit(). However, the permitted distance is at least kMaxRounding times doublePrecisionErrorBound(), and the
+// goal is at least kGoalRounding times doublePrecisionErrorBound().
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
 // If the cosine of the angle between two hyperplanes is larger than this, rounding errors make the plane in which they
@@ -36,17 +36,19 @@ constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; a sm
 constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
 constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round
 constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equations and unknowns, summed over all steps
-// A round of Newton's method solves its equations until the gradient of the error is less than its first value times a
-// tolerance. The first tolerance, kFirstTolerance, makes the result more precise by a few digits. If a round does not
-// reduce the deviation by the factor kGoodProgress, some unknowns have little effect on the equations; therefore the
-// next round multiplies the tolerance by kTighter, down to kLeastTolerance.
+// A round of Newton's method solves its equations until the gradient of the error is less than the gradient at the
+// start of the round, times a tolerance. The tolerance of the first round, kFirstTolerance, makes the result more
+// precise by a few digits. If a round does not reduce the deviation by the factor kGoodProgress, some unknowns have
+// little effect on the equations; therefore the next round multiplies the tolerance by kTighter, down to
+// kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
 // A set of vertices to be moved into one hyperplane, and the hyperplane that fits them best, which contains their mean.
-// There are two kinds of such sets: the vertices of a cell, if there are more than four; and the vertices of a 2-face,
-// if there are more than three and the hyperplanes of its two cells are nearly parallel. Such hyperplanes do not
-// determine the plane of the 2-face. Therefore the 2-face is also moved into a third hyperplane, which is perpendicular
-// to the hyperplane of `cell`, one of the two cells.
+// There are two kinds of such sets:
+// - The vertices of a cell, if there are more than four.
+// - The vertices of a 2-face, if there are more than three and the hyperplanes of the two cells of the 2-face are
+//   nearly parallel. Such hyperplanes do not determine the plane of the 2-face. Therefore the 2-face is also moved into
+//   a third hyperplane, which is perpendicular to the hyperplane of `cell`, one of the two cells.
 struct FittedFlat {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
     glm::dvec4 across{0};      // for a 2-face: the normal of the hyperplane of `cell`, perpendicular to `normal`

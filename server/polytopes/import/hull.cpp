@@ -112,7 +112,7 @@ class QhullRun {
     throw FileError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
 }
 
-// Returns the simplices of the hull, and sets the perturbation of `frame`. The number of simplices can grow with the
+// Returns the simplices of the hull, and calls frame.allowForPerturbation(). The number of simplices can grow with the
 // square of the number of points. Therefore first computes the hulls of samples of increasing size: if the hull of a
 // sample is too large, throws a FileError before memory is exhausted.
 std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
@@ -164,9 +164,9 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
     return places;
 }
 
-// Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the others by more
-// than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding and
-// perturbation have moved them outward and made them vertices of simplices.
+// Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the other points by
+// more than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding
+// and perturbation have moved these points outward and made them vertices of simplices.
 std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);

@@ -141,12 +141,13 @@ ImportedPolytope importOff4(std::string_view text, const std::string& name, cons
 }
 
 // Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
-// numbers of few decimals, are normally treated as exact. They are treated as rounded only if the hull that allows for
-// rounding errors has no ambiguous cell pairs (see MergedHull), and at most half as many cells as the hull of the exact
-// points. Both conditions hold for a polytope that was scaled and then rounded to whole numbers.
+// numbers of few decimals, are normally treated as exact. They are treated as rounded only if two conditions hold for
+// the hull that allows for rounding errors: it has no ambiguous cell pairs (see MergedHull), and it has at most half as
+// many cells as the hull of the exact points. Both conditions hold for a polytope that was scaled and then rounded to
+// whole numbers.
 Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    // If `size` is less than this many units of the last digit, rounding by half a unit exceeds the distance by which
+    // If `size` is less than kMinUnits units of the last digit, rounding by half a unit exceeds the distance by which
     // makeFlat() may move a vertex. Cells with such rounding errors might remain uneven, so the coordinates count as
     // exact.
     constexpr double kMinUnits = 0.5 / kFlatnessTolerance;

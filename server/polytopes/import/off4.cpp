@@ -99,9 +99,10 @@ struct SingularAndPlural {
     std::string one, many;
 };
 
-// How the records of a kind are divided into lines. `lines`: each record begins on a new line and may continue on
-// further lines; words after it are ignored. `continuous`: line breaks do not matter. `own_lines`: each record begins
-// and ends on a line of its own.
+// How the records of a kind are divided into lines:
+// - `lines`: each record begins on a new line and may continue on further lines; words after the record are ignored.
+// - `continuous`: line breaks do not matter.
+// - `own_lines`: each record begins and ends on a line of its own.
 enum class RecordLayout { lines, continuous, own_lines };
 
 // Returns the next word of a record. With RecordLayout::own_lines, the word must be on the current line; if this line
@@ -139,8 +140,8 @@ struct SizeRange {
 };
 
 // Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number within
-// `sizes`, followed by that many indices, each less than `below`. Error messages call record i `what` i, and an element
-// of its list `member`.
+// `sizes`, followed by that many indices, each less than `below`. `what` and `member` are for error messages: if they
+// are "2-face" and "vertex", a message may say that "2-face 7" has too few vertices.
 void readLists(Tokenizer& file, RecordLayout layout, std::uint32_t records, std::size_t below, SizeRange sizes,
                const std::string& what, const SingularAndPlural& member, geometry::JaggedArray& lists,
                std::vector<PolygonSoup::SourcePosition>& positions) {
@@ -181,8 +182,9 @@ using RecordLayouts = std::array<RecordLayout, 3>;
 PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
-    // The greatest sizes limit the use of memory. If there are cells, a loop may have more corners than there are
-    // vertices, because it may pass through a vertex more than once; repair() splits such a loop there.
+    // The greatest sizes limit the use of memory. If there are cells, the loop of a 2-face may have more corners than
+    // the file has vertices, because the loop may pass through a vertex more than once; repair() splits it at this
+    // vertex.
     const std::size_t mostCorners = std::size_t{header.vertices} * (header.cells > 0 ? 2 : 1);
     readLists(file, layouts[1], header.faces, header.vertices, {3, mostCorners}, "2-face", {"vertex", "vertices"},
               soup.faces, soup.faceSourcePositions);
@@ -194,9 +196,9 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayout
     return soup;
 }
 
-// Returns the fault of the first record whose line has too few words, if the file has as many lines as records;
-// otherwise std::nullopt. A reader that ignores line breaks completes such a record with words of the next line, so
-// that a later record seems to be wrong. `file` is a copy, which begins after the header.
+// If the file has as many lines as records, returns the fault of the first record whose line has too few words;
+// otherwise std::nullopt. Without this function, the error would name a later record: a reader that ignores line breaks
+// completes the short record with words of the next line. `file` is a copy, which begins after the header.
 std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;

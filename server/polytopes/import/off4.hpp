@@ -15,9 +15,9 @@ namespace oval4d::polytopes {
 struct Off4 {
     PolygonSoup soup;
     std::uint32_t edges = 0;  ///< the number of edges that the file states
-    /// Set if the file has a line for each record, but some of these lines have too few words: the fault of the first
-    /// such record. The records were then read without regard to lines; if they do not form a polytope, this fault is
-    /// the reason.
+    /// Set if the file has a line for each record, but some of these lines have too few words. In this case, the
+    /// records were read without regard to lines, and `shortRecord` is the fault of the first such record. If the
+    /// records do not form a polytope, this fault is the reason.
     std::optional<text_files::FileError> shortRecord;
 };
 
@@ -28,8 +28,9 @@ struct Off4 {
 /// whose line has too few words.
 Off4 readOff4(std::string_view text, std::size_t maxVertices);
 
-/// Returns whether a 4OFF file has cells, as its header says: the fourth count is not 0. In a file of Geomview, which
-/// has no cells, the header has only three counts. Reads only the header. Throws a FileError if it is malformed.
+/// Returns whether a 4OFF file has cells: whether the fourth count in its header is not 0. In a file of Geomview, which
+/// has no cells, the header has only three counts. Reads only the header. Throws a FileError if the header is
+/// malformed.
 bool listsCells(std::string_view text);
 
 /// Returns whether the first word of the file is a keyword of the OFF formats, in upper or lower case, even one that

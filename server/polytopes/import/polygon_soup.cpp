@@ -16,8 +16,8 @@ namespace {
 
 constexpr double kThin = 1e-6;  // relative to halfDiagonal(): the minimum extent of a polytope in any direction
 
-// Returns the deviation of the points from a flat (a plane or hyperplane) of this dimension, 2 or 3: their largest
-// distance from the flat through some of the points, chosen greedily to be far apart.
+// Returns the deviation of the points from a flat: a plane (`dimension` 2) or a hyperplane (3) through some of the
+// points, which are chosen greedily to be far apart. The deviation is the largest distance of a point from the flat.
 double deviation(std::vector<glm::dvec4> points, int dimension) {
     if (points.empty()) return 0;  // a cell whose 2-faces were all removed; build() refuses it
     const glm::dvec4 origin = points.front();

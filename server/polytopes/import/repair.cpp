@@ -44,7 +44,8 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
     };
     for (std::size_t i = 0; i < order.size(); ++i) {
         const glm::dvec4& point = points[order[i]];
-        // If the previous point in this order is equal, it has already been compared with all points that follow.
+        // If the previous point in this order is equal to `point`, all points that follow have already been compared
+        // with it.
         if (i > 0 && point == points[order[i - 1]]) continue;
         for (std::size_t j = i + 1; j < order.size() && place[order[j]] - place[order[i]] <= distance; ++j) {
             if (glm::distance(point, points[order[j]]) > distance) continue;

@@ -13,8 +13,8 @@ namespace {
 constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
 constexpr int kMinSingleExponent = -149;     // the last bit of a single-precision number is worth at least 2^−149
 constexpr double kSingleRounding = 0x1p-24;  // the maximum relative rounding error of a single-precision number
-// The least singleEvidence_ at which the coordinates count as single-precision numbers: other numbers reach it with a
-// probability of at most 2 to the power of −kSingleEvidence.
+// The least singleEvidence_ at which the coordinates count as single-precision numbers. Other numbers reach it with a
+// probability of at most 2^(−kSingleEvidence).
 constexpr double kSingleEvidence = 10;
 constexpr double kMaxExactUnits = 400;  // see maxRoundingError(); in units of the last digit
 
@@ -73,9 +73,10 @@ void RoundingEstimator::updateFloat32Evidence(int lastPlace, int lastNonzeroPlac
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
-    // Of all decimals near `value` that end at the place of its last nonzero digit, the fraction `part` is each nearest
-    // to a single-precision number. Zeros at the end of `value` do not count as digits here, because a number such as
-    // 0.50000000 is both a single-precision number and a short decimal.
+    // `part` is the probability that a random decimal near `value`, with the same last place, is a rounded
+    // single-precision number: the distance of such decimals, divided by the distance of single-precision numbers. The
+    // last place is that of the last digit other than 0, because a number such as 0.50000000 is also a short decimal,
+    // so it is weak evidence.
     const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }
@@ -92,8 +93,9 @@ glm::dvec4 RoundingEstimator::lastDigitUnit() const {
 }
 
 glm::dvec4 RoundingEstimator::roundingErrorIfRounded() const {
-    // The shortest decimal that identifies a single-precision number may be farther from this number than half a unit
-    // of the last digit of the longest decimals.
+    // Programs may write the single-precision number 0.100000001490116 as 0.1, the shortest decimal that is read back
+    // as this number. The error of 0.1 is 1.5e-9, which is more than half a unit of the last digit of a longer
+    // coordinate such as 0.102687284. Therefore fromSingle_ contains the largest such error.
     if (single_ && !whole_ && singleEvidence_ >= kSingleEvidence)
         return largest_ * kSingleRounding + glm::max(lastDigitUnit() / 2.0, fromSingle_);
     return lastDigitUnit() / 2.0;

@@ -21,7 +21,7 @@ VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); 
 
 // Divides the 2-faces and cells of a soup. The caller must call divideFaces() first, then divideCells(), which replaces
 // the 2-faces and cells of the soup by the new ones. If the soup has source positions, each new element gets the source
-// position of an old one.
+// position of the element that was divided; a new triangle inside a cell gets that of the first 2-face of the cell.
 class SimplexDivider {
   public:
     explicit SimplexDivider(PolygonSoup& soup) : soup_(soup), hasPositions_(!soup.cellSourcePositions.empty()) {}

@@ -9,10 +9,10 @@ namespace oval4d::polytopes {
 
 /// Divides 2-faces into triangles and cells into tetrahedra. `faces` and `cells` say of each 2-face and cell whether it
 /// is to be divided; all 2-faces of a divided cell are divided, too. A 2-face is divided by the diagonals from its
-/// vertex with the least index, and a cell by the triangles that join its vertex with the least index to its edges.
-/// This is a pulling triangulation (De Loera, Rambau and Santos, Triangulations, 4.3.2): neighboring cells divide their
-/// common 2-face in the same way. Each triangle of a 2-face is the base of at most one tetrahedron in each of the two
-/// cells of this 2-face.
+/// vertex with the least index. A cell is divided by the triangles that join its vertex with the least index to its
+/// edges. This is a pulling triangulation (De Loera, Rambau and Santos, Triangulations, 4.3.2): neighboring cells
+/// divide their common 2-face in the same way. Each triangle of a 2-face is the base of at most one tetrahedron in each
+/// of the two cells of the 2-face.
 void splitIntoSimplices(PolygonSoup& soup, std::vector<bool> faces, const std::vector<bool>& cells);
 
 }  // namespace oval4d::polytopes
