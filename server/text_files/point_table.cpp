@@ -147,8 +147,8 @@ class PointReader {
 
   private:
     // Reads the header, if there is one. `line` must be the first line of the table, apart from titles and comments. If
-    // `line` is a row of numbers, looks for the header in `comments`, which precede it, and returns false. Otherwise,
-    // reads `line` as the header or, if it names no columns, as a title, and returns true.
+    // `line` is a row of numbers, looks for the header in `comments`, the comments above `line`, and returns false.
+    // Otherwise, reads `line` as the header or, if it names no columns, as a title, and returns true.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         split(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
@@ -175,8 +175,9 @@ class PointReader {
         return true;
     }
 
-    // Uses as the header the last comment that names every column of the first row. If there is no such comment, warns
-    // of the first comment that names the coordinates in another order than x, y, z, w. `row_` must be the first row.
+    // Uses as the header the last of the comments that name every column of the first row. If there is no such comment,
+    // warns of the first comment that names the coordinates in another order than x, y, z, w. `row_` must be the first
+    // row.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
         const auto fits = [&](const ColumnLayout& layout) {

@@ -31,10 +31,11 @@ struct PointTableOptions {
 /// has more than PointTableOptions::maxPoints rows.
 ///
 /// - The separator of the columns is the first of these that fits: a tab, if every row has at least four numbers
-///   between tabs; a semicolon; a comma, unless the commas may be decimal commas; a tab, if a row has at least four
-///   columns between tabs; blanks. If the separator is not a comma, numbers may have decimal commas. Words in double
-///   quotes are read without the quotes. A separator at the end of a row is ignored. Comments begin with #, or with %
-///   at the beginning of a line, and extend to the end of the line.
+///   between tabs; a semicolon, if one stands inside a row; a comma, if one stands inside a row and the commas cannot
+///   be decimal commas; a tab, if a row has at least four columns between tabs; blanks. If the separator is not a
+///   comma, numbers may have decimal commas. Words in double quotes are read without the quotes. A separator at the end
+///   of a row is ignored. Comments begin with #, or with % at the beginning of a line, and extend to the end of the
+///   line.
 /// - Without a header, the columns are x, y, z, w and, if points may have radii, an optional radius. Other orders and
 ///   further columns need a header. The further columns are left out, and may contain text.
 /// - A first row without numbers is the header if it names at least two of the coordinates; otherwise, it is a title,

@@ -47,9 +47,9 @@ TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
     return result;
 }
 
-// Splits a line into words at blanks and tabs. Returns an empty optional if commas may separate the columns: if there
-// are fewer than four words, or if a word has two commas, or a comma at its beginning or end. Otherwise, returns
-// whether a word has a decimal comma. Overwrites `row`.
+// Splits a line into words at blanks and tabs. Returns whether a word has a decimal comma. Returns an empty optional if
+// commas may separate the columns: if there are fewer than four words, or if a word has two commas, or a comma at its
+// beginning or end. Overwrites `row`.
 std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
@@ -144,8 +144,9 @@ std::optional<TableLine> TableLines::next() {
 }
 
 TableFormat formatOf(TableLines lines) {
-    // A row may begin with a text. Such a row must have at least as many numbers as a point has coordinates, because a
-    // line with fewer numbers may be a title. Half as many numbers are enough only if no line is a row by this rule.
+    // A line with fewer numbers than a point has coordinates may be a title. Therefore a line that begins with a text
+    // counts as a row only if it has at least that many numbers. Half as many numbers are enough only if no line is a
+    // row by this rule.
     for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
         if (const auto format = formatOfRows(lines, least)) return *format;
     }
