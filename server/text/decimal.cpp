@@ -85,23 +85,24 @@ struct FormattedNumbers {
     // byte.
     alignas(32) std::uint64_t digits[kBlock];
     // Per group: whether putPlain() must write all numbers of the group. This is so if one of the numbers is too small
-    // or too large for `head` and `digits`, or has no nonzero digit after the second decimal. In the latter case,
-    // `head` could end in superfluous zeros.
+    // or too large for `head` and `digits`. It is also so if one of the numbers has no nonzero digit after the second
+    // decimal, because `head` could then end in superfluous zeros.
     bool needsFallback[kGroups];
 };
 
 // The method: a float from 2^e to 2^(e + 1) is rounded to the nearest integer multiple of 10^−p. Here, 10^−p is the
 // largest power of ten that is less than 2^(e − 23), the spacing of these floats. Therefore the multiple is read back
-// as the same float. At most one multiple of 10^(1 − p), which has one decimal less, is also read back as this float.
-// If there is one, it is used instead.
+// as the same float. At most one integer multiple of 10^(1 − p), which has one decimal less, is also read back as this
+// float. If there is such a multiple, it is used instead.
 //
-// The method is valid for e from −10 to 5; p falls from 10 to 6 as e grows. The lower bound has two reasons. First,
-// FormattedNumbers has room for only ten decimals. Second, a power of two must be written exactly, because the floats
-// below it have half the spacing of the floats above it. It is written exactly, because 2^e has at most p decimals if e
-// is at least −10. The upper bound has one reason: FormattedNumbers has room for only two digits before the point.
+// The method is valid for e from −10 to 5; p falls from 10 to 6 as e grows. There are two reasons for these bounds:
+// - FormattedNumbers has room for only ten decimals, and for only two digits before the point.
+// - The spacing of the floats below a power of two is only half as large, so the multiple nearest to a power of two
+//   might be read back as another float. This does not happen if the power of two, 2^e, is itself a multiple of 10^−p:
+//   if it has at most p decimals. It has −e decimals if e is negative, so e must be at least −10.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
-// kExponentMask selects the exponent bits of a float. If kHalfSpacing is subtracted from these bits, they represent the
-// float 2^(e − 24), which is half the spacing of the floats.
+// kExponentMask selects the exponent bits of a float. If kHalfSpacing is subtracted from these bits, the result, as a
+// float, is 2^(e − 24), half the spacing of the floats from 2^e to 2^(e + 1).
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
 constexpr double kMargin = 0x1p-20;  // bounds the rounding errors of convert(), in units of 10^−p (for p, see above)
 
