@@ -28,7 +28,8 @@ void encodeReadRequest(const session::LoadObject& load, const session::Limits& l
 void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 
 /// Encodes the result of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
-/// `files` and `maxInMemory`: see slicing::writeObjectContent(). Overwrites `out`.
+/// `files` are mapped files, in the order in which the receiver maps them. An array in a mapped file is encoded as a
+/// reference to the file if otherwise more than `maxInMemory` samples would be encoded. Overwrites `out`.
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out,
                    slicing::MappedFiles files = {}, std::size_t maxInMemory = fields::kMaxSamples);
 

@@ -73,8 +73,8 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
         std::vector<ChildProcessPtr> used = std::exchange(used_, {});
         std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
-        // If no process was waiting, acquire() has created further ones, so there may now be more processes than
-        // needed.
+        // If no process was waiting when acquire() was called, acquire() created a further one. Therefore there may now
+        // be more processes than needed.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
