@@ -11,11 +11,11 @@ using Seconds = FairQueue::Seconds;
 constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
 
 constexpr double kDecay = 0.75;  // each new measurement multiplies the weights of earlier ones by this factor
-// In EstimateCorrection::correctionFactor(), the prior `general` has the same weight as measured jobs whose estimates
-// add up to this time.
+// EstimateCorrection::correctionFactor() gives the prior `general` as much weight as measured jobs whose estimated
+// times add up to kPriorWeight.
 constexpr Seconds kPriorWeight{0.02};
-// Before a correction is learned from the measured time of a job, this time is reduced to at most this multiple of the
-// job's cost, because other programs sometimes delay a job.
+// Other programs sometimes delay a job. Therefore, before a correction is learned from the measured time of a job, the
+// measured time is reduced to at most kMaxOverrun times the job's cost.
 constexpr double kMaxOverrun = 2;
 constexpr double kMaxCorrection = 8;  // a correction multiplies or divides an estimate by at most this factor
 
@@ -39,8 +39,8 @@ Seconds FairQueue::correctedCost(const JobQueue& jobQueue, Seconds estimate) con
     return std::max(kMinCost, jobQueue.correction_.correctionFactor(ofClient) * estimate);
 }
 
-/// Returns the cost of a job as `scheduler_` counts it for the job's class (all short jobs, or all long ones): the cost
-/// divided by the weight of the class, which is its number of active clients.
+/// Returns the cost of a job for `scheduler_`, whose flows are the two classes (all short jobs, and all long ones):
+/// `cost` divided by the weight of the class `length`. The weight of a class is its number of active clients.
 Seconds FairQueue::costChargedToClass(JobLength length, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
 }
@@ -103,9 +103,9 @@ Seconds FairQueue::nextCost(const ClientFlow& client, JobLength length) {
     return client.jobQueues_[length].next()->jobs_.front().cost;
 }
 
-/// Updates the positions of a job queue, of its client and of the class of the job queue's first job in the queues of
-/// their schedulers. Must be called when the job queue's first job or virtual finish time has changed. The job queue
-/// must not be empty.
+/// Updates the position of a job queue among the job queues of its client, for the length of its first job. Then
+/// updates the positions of the client and of the class of this length: see scheduleClient(). Must be called when the
+/// job queue's first job or virtual finish time has changed. The job queue must not be empty.
 void FairQueue::scheduleJobQueue(const JobQueuePtr& jobQueue) {
     const QueuedJob& first = jobQueue->jobs_.front();
     jobQueue->client_->jobQueues_[first.length].enqueueOrUpdateFlow(jobQueue->states_[first.length], jobQueue,
@@ -113,9 +113,10 @@ void FairQueue::scheduleJobQueue(const JobQueuePtr& jobQueue) {
     scheduleClient(jobQueue->client_, first.length);
 }
 
-/// Updates the positions of a client and of the class of jobs of this length in the queues of their schedulers; removes
-/// from its queue each of the two that has no waiting job of this length. Must be called when the client's next job of
-/// this length, or the client's virtual finish time, has changed.
+/// Updates the position of a client among the clients of the class `length` (all short jobs, or all long ones); removes
+/// the client from them if it has no waiting job of this length. Then updates the position of the class in `scheduler_`
+/// in the same way. Must be called when the client's next job of this length, or the client's virtual finish time, has
+/// changed.
 void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     ClassScheduler& jobClass = classes_[length];
     if (client->jobQueues_[length].empty()) {
@@ -131,9 +132,9 @@ void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
     }
 }
 
-/// Records that the job queue queues a job of this length. Puts the job queue at the end of `recentShortJobQueues_`,
-/// unless it has queued a long job within the last kActivePeriod. While `recentShortJobQueues_` is not empty, no long
-/// job starts on a reserved thread, so that these threads stay free for the short jobs of the job queues in
+/// Records that a job of this length is queued in `jobQueue`. Puts the job queue at the end of `recentShortJobQueues_`,
+/// unless a long job was queued in it within the last kActivePeriod. While `recentShortJobQueues_` is not empty, no
+/// long job starts on a reserved thread, so that these threads stay free for the short jobs of the job queues in
 /// `recentShortJobQueues_`.
 void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobLength length, Clock::time_point now) {
     pruneRecentShortJobQueues(now);

@@ -135,8 +135,8 @@ class FairQueue {
     /// short jobs is active.
     static constexpr Seconds kVeryLongJobThreshold{0.25};
     /// A job queue is active for this time after a short job was queued in it, unless the job queue is destroyed.
-    /// However, if a long job was queued in the job queue less than this time ago, the short job does not make it
-    /// active.
+    /// However, a short job does not make its job queue active if a long job was queued there less than this time
+    /// before.
     static constexpr std::chrono::seconds kActivePeriod{10};
 
     /// A job that popStartableJob() returned. The caller must run it at once and then call recordJobEnd().
@@ -192,8 +192,8 @@ class FairQueue {
         JobLength length;
     };
 
-    // The class of all short jobs, or of all long jobs: the scheduler of its clients, and the state of the class as a
-    // flow of `scheduler_`.
+    // A class: all short jobs, or all long jobs. Each class has a scheduler of its clients. In `scheduler_`, which
+    // chooses between the classes, the class is a flow with the state `state`.
     struct ClassScheduler {
         FairScheduler<ClientFlowPtr> clients;
         FairScheduler<JobLength>::FlowState state;

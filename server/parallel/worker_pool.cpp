@@ -103,9 +103,9 @@ void WorkerPool::run(std::size_t worker) {
     }
 }
 
-/// Waits until a job may be ready to start. If no job is queued within kIdleDelay, and `used` or cleanUp_ is true, sets
-/// both to false and runs `whenIdle`. `used`: whether the worker has run a job since it last ran `whenIdle`; true if it
-/// has never run `whenIdle`.
+/// Waits until a job may be ready to start. Meanwhile, if no job is queued within kIdleDelay, runs `whenIdle` and sets
+/// `used` and cleanUp_ to false; does so only if one of them is true. `used`: whether the worker has run a job since it
+/// last ran `whenIdle`; true if it has never run `whenIdle`.
 void WorkerPool::waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
     if (queue_.waiting() > 0) {
         wake_.wait_for(lock, kRecheckInterval);

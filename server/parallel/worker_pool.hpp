@@ -22,8 +22,8 @@ class QueueFull : public std::runtime_error {
 };
 
 /// A pool of worker threads that run jobs in the order of a FairQueue. Each job receives the index of its worker, from
-/// 0 to Options::threads − 1, so that it can use data that belongs to the worker. Thread-safe, but size() and a second
-/// stop() may not run at the same time as stop().
+/// 0 to Options::threads − 1, so that it can use data that belongs to the worker. Thread-safe. However, while stop()
+/// runs, neither size() nor stop() may be called.
 class WorkerPool {
   public:
     using JobArgument = std::size_t;  ///< the type of a job's argument: the index of the worker
@@ -51,13 +51,14 @@ class WorkerPool {
     explicit WorkerPool(Options options);
     ~WorkerPool();
 
-    /// Queues a job whose estimated running time is `cost` in `jobQueue`; all jobs whose `jobQueue` is null share one
-    /// job queue. A job must not throw, except Canceled after stop(). Returns false, and drops the job, if the queue is
-    /// full. After stop(), drops the job and returns true.
+    /// Queues `job` in `jobQueue`. `cost` is the estimated running time of the job. If `jobQueue` is null, queues the
+    /// job in one job queue that all such jobs share. A job must not throw, except Canceled after stop(). Returns
+    /// false, and drops the job, if a limit on the number of waiting jobs is reached (see Options::limits). After
+    /// stop(), drops the job and returns true, because no such limit is the cause.
     [[nodiscard]] bool post(Job job, JobQueuePtr jobQueue, Seconds cost);
 
-    /// Makes one worker call `whenIdle` after it has been idle for kIdleDelay, even if it has run no job since its last
-    /// call of `whenIdle`.
+    /// Makes one worker call Options::whenIdle after the worker has been idle for kIdleDelay, even if it has run no job
+    /// since its last call of `whenIdle`.
     void cleanUpWhenIdle();
 
     /// Drops the waiting jobs, requests the running jobs to stop, and waits until all threads have ended.
