@@ -55,8 +55,9 @@ class Environment {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
-// How long a process may take to exit after its channel was closed; after this time, it is killed. Also the maximum
-// time to wait for the end of a killed process, because a debugger, for example, may delay the end.
+// How long a process may take to exit after its channel was closed; after this time, it is killed. This is also how
+// long the server then waits for the end of the killed process, because something, such as a debugger, may delay the
+// end.
 constexpr auto kExitTimeout = 1s;
 
 /// Waits until a process has exited, and sets `status` as waitpid(2) does. Returns false if the process has not exited
@@ -147,8 +148,8 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
         auto transfer = TransferResult::complete;
         bool talked = false;
         try {
-            // `talked` stays false if the process hangs while it starts, because the conversation is then not the
-            // cause.
+            // If the process hangs while it starts, the conversation is not the cause. Therefore `talked` stays false
+            // in this case.
             if (!ready_) awaitReady(transfer, waitLimit(stop));
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));

@@ -37,8 +37,8 @@ struct ChildOptions {
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
 };
 
-/// Thrown when a conversation fails: the process was lost, and either the conversation must not be repeated, or the new
-/// process was lost, too.
+/// Thrown when a conversation fails: the process was lost, and either the new process that replaced it was lost, too,
+/// or the conversation was not repeated (see hung()).
 class ProcessLostError : public std::runtime_error {
   public:
     ProcessLostError(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
@@ -52,8 +52,9 @@ class ProcessLostError : public std::runtime_error {
 
 /// A child process that runs this program. The process is started on demand, and a new process replaces it if it is
 /// lost. The process ends when this object is destroyed or the server ends. It inherits only one file descriptor of the
-/// server, standard error (the log). It inherits the environment variables of the server without those named OVAL4D_…,
-/// which may hold secrets; only OVAL4D_FONT is inherited, too. Not thread-safe: one thread at a time may use an object.
+/// server, standard error (the log). It inherits the environment variables of the server, except those named OVAL4D_…,
+/// which may hold secrets; of these, it inherits only OVAL4D_FONT. Not thread-safe: one thread at a time may use an
+/// object.
 class ChildProcess {
   public:
     /// A function that sends messages to the process and receives the replies, within the WaitLimit that it gets.
@@ -70,8 +71,8 @@ class ChildProcess {
     void start();
 
     /// Starts the process if necessary, and calls `conversation` when the process is ready. If the process is lost,
-    /// starts a new process and repeats the conversation once, unless the process hung during `conversation` and
-    /// `repeatAfterHang` is false. Throws:
+    /// starts a new process and repeats the conversation once. However, if the process hung during `conversation` and
+    /// ChildOptions::repeatAfterHang is false, does not repeat it. Throws:
     /// - Canceled if a stop is requested,
     /// - ProcessLostError if the new process is lost, too, or if the conversation is not repeated,
     /// - std::runtime_error if the process cannot be started, or reports that it failed to start,

@@ -18,10 +18,10 @@ enum class SandboxMode : std::uint8_t {
     required,   ///< sandboxed; the server does not start if the system does not support it
 };
 
-/// Returns whether child processes are to be confined by a filter of system calls. Unless `wanted` is `off`, tries to
-/// set such a filter for a temporary thread. If the filter cannot be set, sets `why` to the reason and, if `wanted` is
-/// `required`, throws std::runtime_error. Builds with a sanitizer have no sandbox, because sanitizers need more system
-/// calls.
+/// Returns whether child processes are to be confined by a filter of system calls. If `wanted` is `off`, returns false.
+/// Otherwise, tries to set such a filter for a temporary thread, and returns whether this succeeds. If it fails, sets
+/// `why` to the reason and, if `wanted` is `required`, throws std::runtime_error. Builds with a sanitizer have no
+/// sandbox, because sanitizers need more system calls.
 bool shouldSandbox(SandboxMode wanted, std::string& why);
 
 /// The task of a child process, which determines the system calls that its filter allows. Every child may allocate
