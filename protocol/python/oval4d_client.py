@@ -871,6 +871,14 @@ def _elements_of(columns):
         scales, opacities = (_rows(columns["balls"][name], counts["vertices"]) for name in ("scale", "opacity"))
         for piece, scale, opacity in zip(elements, scales, opacities):
             piece["balls"] = {"scale": scale, "opacity": opacity}
+    if "fill" in columns:
+        fill = columns["fill"]
+        points, triangles = fill["counts"]["points"], fill["counts"]["triangles"]
+        parts = {"points": _rows(fill["points"], points, 3), "triangles": _rows(fill["triangles"], triangles, 3)}
+        parts |= {name: _rows(fill[name], triangles) for name in ("tints", "seen") if name in fill}
+        for piece, row in zip(elements, zip(*parts.values())):
+            if row[1]:
+                piece["fill"] = dict(zip(parts, row))
     return elements
 
 
@@ -880,14 +888,6 @@ def _slices_of(columns):
     properties = {name: columns[name] for name in ("index", "w", "label", "label_size", "focus", "drawn")}
     properties |= {name: [row.tolist() for row in _rows(columns[name], threes)] for name in ("position", "label_at")}
     slices = [dict(zip(properties, row)) | own for *row, own in zip(*properties.values(), _elements_of(columns))]
-    if "fill" in columns:
-        fill = columns["fill"]
-        points, triangles = fill["counts"]["points"], fill["counts"]["triangles"]
-        parts = {"points": _rows(fill["points"], points, 3), "triangles": _rows(fill["triangles"], triangles, 3)}
-        parts |= {name: _rows(fill[name], triangles) for name in ("tints", "seen") if name in fill}
-        for piece, row in zip(slices, zip(*parts.values())):
-            if row[1]:
-                piece["fill"] = dict(zip(parts, row))
     if "surface" in columns:
         for piece, surface in zip(slices, _surfaces_of(columns["surface"])):
             if len(surface["triangles"]):

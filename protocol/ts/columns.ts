@@ -2,7 +2,7 @@
 // of the first slice, then those of the second, and so on. The vertices, edges and faces of the projection's parts (see
 // ObjectProjection) are in columns, too.
 
-import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
+import type { Elements, Fill, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
 
 /** A value for each kind of element of a slice. */
@@ -29,6 +29,13 @@ interface ElementColumns {
     tints?: Integers;
     seen?: PerElementKind<Integers>;
     balls?: { scale: Float32Array; opacity: Float32Array };
+    fill?: {
+        counts: Record<"points" | "triangles", Integers>;
+        points: Float32Array;
+        triangles: Integers;
+        tints: Integers;
+        seen?: Integers;
+    };
 }
 
 /** The member `slices` of a message in a binary encoding (protocol/README.md, "Binary encodings"). */
@@ -41,13 +48,6 @@ export interface SliceColumns extends ElementColumns {
     label_size: Float64Array;
     focus: boolean[];
     drawn: boolean[];
-    fill?: {
-        counts: Record<"points" | "triangles", Integers>;
-        points: Float32Array;
-        triangles: Integers;
-        tints: Integers;
-        seen?: Integers;
-    };
     surface?: {
         counts: Record<"points" | "triangles", Integers>;
         /** The color of the surfaces of each slice, 0xRRGGBB. */
@@ -130,6 +130,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
     const [ends, corners, of] = [wide(columns.edges), wide(columns.corners), wideOfEach(columns.of)];
     const tints = columns.tints && wide(columns.tints);
     const seen = columns.seen && wideOfEach(columns.seen);
+    const filled = columns.fill && fillsOf(columns.fill, wide);
     let corner = 0;
     const takeFaces = ([first, last]: IndexRange): Slice["faces"] => {
         const begin = allocate(last - first + 1);
@@ -151,6 +152,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
             const { scale, opacity } = columns.balls;
             elements.balls = { scale: scale.subarray(...range), opacity: opacity.subarray(...range) };
         }
+        if (filled?.[i]!.triangles.length) elements.fill = filled[i];
         return elements;
     });
 }
@@ -161,7 +163,6 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
  */
 export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
     const elements = elementsOf(columns, allocate);
-    const filled = columns.fill && fillsOf(columns.fill, widener(allocate));
     const surfaces = columns.surface && surfacesOf(columns.surface, widener(allocate));
     const fogs = columns.fog && fogsOf(columns.fog);
     return columns.index.map((index, i) => {
@@ -176,7 +177,6 @@ export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAlloca
             drawn: columns.drawn[i]!,
             ...elements[i]!,
         };
-        if (filled?.[i]!.triangles.length) slice.fill = filled[i];
         if (surfaces?.[i]!.triangles.length) slice.surface = surfaces[i];
         if (fogs?.[i]!.values.length) slice.fog = fogs[i];
         return slice;
@@ -188,7 +188,7 @@ export function partsOf(columns: PartColumns, allocate: IntegerAllocator): Objec
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }
 
-function fillsOf(fill: NonNullable<SliceColumns["fill"]>, wide: (list: Integers) => Uint32Array): NonNullable<Slice["fill"]>[] {
+function fillsOf(fill: NonNullable<ElementColumns["fill"]>, wide: (list: Integers) => Uint32Array): Fill[] {
     const points = ranges(fill.counts.points, fill.points.length / 3);
     const triangles = ranges(fill.counts.triangles, fill.tints.length);
     const [corners, tints, seen] = [wide(fill.triangles), wide(fill.tints), fill.seen && wide(fill.seen)];

@@ -328,10 +328,10 @@ interface JsonElements {
     tints?: number[];
     seen?: Record<"vertices" | "edges" | "faces", number[]>;
     balls?: { scale: number[]; opacity: number[] };
+    fill?: { points: number[][]; triangles: number[][]; tints: number[]; seen?: number[] };
 }
 
-interface JsonSlice extends Omit<Slice, keyof Elements | "fill" | "surface" | "fog">, JsonElements {
-    fill?: { points: number[][]; triangles: number[][]; tints: number[]; seen?: number[] };
+interface JsonSlice extends Omit<Slice, keyof Elements | "surface" | "fog">, JsonElements {
     surface?: {
         color?: number;
         points: number[][];
@@ -372,7 +372,7 @@ function flattened(message: Message): Message {
 }
 
 function elementsFromJson<T extends JsonElements>(all: T): Omit<T, keyof JsonElements> & Elements {
-    const { vertices, edges, faces, of, tints, seen, balls, ...rest } = all;
+    const { vertices, edges, faces, of, tints, seen, balls, fill, ...rest } = all;
     return {
         ...rest,
         vertices: floats(vertices),
@@ -382,12 +382,6 @@ function elementsFromJson<T extends JsonElements>(all: T): Omit<T, keyof JsonEle
         ...(tints && { tints: indices(tints) }),
         ...(seen && { seen: indicesPerKind(seen) }),
         ...(balls && { balls: { scale: floats(balls.scale), opacity: floats(balls.opacity) } }),
-    };
-}
-
-function sliceFromJson({ fill, surface, fog, ...slice }: JsonSlice): Slice {
-    return {
-        ...elementsFromJson(slice),
         ...(fill && {
             fill: {
                 points: floats(fill.points),
@@ -396,6 +390,12 @@ function sliceFromJson({ fill, surface, fog, ...slice }: JsonSlice): Slice {
                 ...(fill.seen && { seen: indices(fill.seen) }),
             },
         }),
+    };
+}
+
+function sliceFromJson({ surface, fog, ...slice }: JsonSlice): Slice {
+    return {
+        ...elementsFromJson(slice),
         ...(surface && { surface: surfaceFromJson(surface) }),
         ...(fog && { fog: { ...fog, walls: floats(fog.walls), values: Uint8Array.from(fog.values.flat()) } }),
     };

@@ -100,9 +100,11 @@ export interface SceneDescription {
 }
 
 /**
- * The faces of a slice, which may cross each other, as triangles. `points` has x, y, z of each point, `triangles` three
+ * The faces of a slice or of the projected object as triangles. `points` has x, y, z of each point, `triangles` three
  * indices of points for each triangle. For each triangle, `tints` has the index of the cell that determines the
- * triangle's color, and `seen` has the triangle's visibility, a number as in Elements.
+ * triangle's color, and `seen` has the triangle's visibility, a number as in Elements. The triangles of a face form
+ * convex polygons: those of a polygon follow one another and have the same first point, and each one begins its second
+ * side at the third point of the one before.
  */
 export interface Fill {
     points: Float32Array;
@@ -178,6 +180,11 @@ export interface Elements {
      * and the opacity of the ball. Absent if all these numbers are 1.
      */
     balls?: { scale: Float32Array; opacity: Float32Array };
+    /**
+     * The triangles to draw instead of `faces`: present in slices, which then need a depth buffer, if faces may cross
+     * each other; and in the whole object of the projection if a 2-face is not convex.
+     */
+    fill?: Fill;
 }
 
 export interface Slice extends Elements {
@@ -187,8 +194,6 @@ export interface Slice extends Elements {
      */
     index: number;
     w: number;
-    /** The triangles to draw, with a depth buffer, instead of `faces`; present only if faces may cross each other. */
-    fill?: Fill;
     /** The surfaces of a field; absent for other objects, or if the hyperplane meets no surface. */
     surface?: Surface;
     /** The fog of a field; absent for other objects, or if the slice has no fog. */

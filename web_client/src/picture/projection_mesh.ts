@@ -4,7 +4,7 @@
 
 import { BufferGeometry } from "three";
 
-import type { ObjectProjection, Slices } from "@oval4d/protocol";
+import type { Elements, Fill, ObjectProjection, Slices } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
@@ -23,6 +23,19 @@ const kMiddle = 0;
 const kCenter = 1;
 const kFarEnd = 2;
 const kNearEnd = 3;
+
+type Part = ObjectProjection["parts"][number];
+
+/** The convex polygons that show the faces of a part. */
+interface Polygons {
+    /** x, y, z of each point. */
+    points: Float32Array;
+    /** As in Elements.faces, with indices in `points`. */
+    faces: Elements["faces"];
+    /** For each polygon, the cell that determines its color, and its visibility. */
+    tints: Uint32Array;
+    seen: Uint32Array | undefined;
+}
 
 export class ProjectionMesh {
     readonly solid = new BufferGeometry();
@@ -52,7 +65,8 @@ export class ProjectionMesh {
         const { parts, position } = projection;
         this.position = position;
         this.barRadius = Math.max(...parts.map((part) => part.bar));
-        this.resizeBuffers(parts);
+        const polygons = parts.map(polygonsOf);
+        this.resizeBuffers(parts, polygons);
         this.used = this.count = 0;
         let solids = 0;
         const opacities = [0, scene.faded, 1];
@@ -62,11 +76,12 @@ export class ProjectionMesh {
                 else if (i > 0 || opacity < 1) this.addTranslucentShape(4, depthKind);
                 else for (const corner of kQuadTriangles) this.solidIndex.array[solids++] = this.used - 4 + corner;
             };
-            const point = (v: number): [number, number, number] => [
-                position[0] + projection.scale * part.vertices[3 * v]!,
-                position[1] + projection.scale * part.vertices[3 * v + 1]!,
-                position[2] + projection.scale * part.vertices[3 * v + 2]!,
+            const place = (points: Float32Array, p: number): [number, number, number] => [
+                position[0] + projection.scale * points[3 * p]!,
+                position[1] + projection.scale * points[3 * p + 1]!,
+                position[2] + projection.scale * points[3 * p + 2]!,
             ];
+            const point = (v: number): [number, number, number] => place(part.vertices, v);
             for (let v = 0; part.ball > 0 && v < part.vertices.length / 3; ++v) {
                 const opacity = opacities[part.seen?.vertices[v] ?? 2]! * (part.balls?.opacity[v] ?? 1);
                 const color = highlighted.vertices.has(part.of.vertices[v]!) ? scene.colors.highlight : part.ball_color;
@@ -91,7 +106,7 @@ export class ProjectionMesh {
                 addQuad(opacity, i > 0 ? kNearEnd : kFarEnd);
             }
             const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
-            if (part.opacity > 0) this.addFaces(part, point, color, opacities);
+            if (part.opacity > 0) this.addPolygons(part, polygons[i]!, place, color, opacities);
         });
         this.solidIndex.used = solids;
         this.solidIndex.markChanged();
@@ -143,21 +158,20 @@ export class ProjectionMesh {
         this.translucent.dispose();
     }
 
-    private addFaces(
-        part: ObjectProjection["parts"][number],
-        point: (v: number) => [number, number, number],
+    private addPolygons(
+        part: Part,
+        { points, faces: { begin, corners }, tints, seen }: Polygons,
+        place: (points: Float32Array, p: number) => [number, number, number],
         colorOf: (cell: number) => number,
         opacities: readonly number[],
     ): void {
-        const { begin, corners } = part.faces;
-        const tints = part.tints ?? part.of.faces;
         for (let f = 0; f + 1 < begin.length; ++f) {
-            const opacity = part.opacity * opacities[part.seen?.faces[f] ?? 2]!;
+            const opacity = part.opacity * opacities[seen?.[f] ?? 2]!;
             if (opacity === 0) continue;
-            const [x, y, z] = areaVector(part.vertices, corners, [begin[f]!, begin[f + 1]!]);
+            const [x, y, z] = areaVector(points, corners, [begin[f]!, begin[f + 1]!]);
             const length = Math.hypot(x, y, z) || 1;
             for (let c = begin[f]!; c < begin[f + 1]!; ++c, ++this.used) {
-                this.shapes.setVector("at", this.used, ...point(corners[c]!));
+                this.shapes.setVector("at", this.used, ...place(points, corners[c]!));
                 this.shapes.setVector("to", this.used, x / length, y / length, z / length);
                 this.shapes.setShape(this.used, kFace);
                 this.shapes.setColor(this.used, colorOf(tints[f]!), opacity);
@@ -173,12 +187,12 @@ export class ProjectionMesh {
         this.depthKind[this.count++] = depthKind;
     }
 
-    private resizeBuffers(parts: ObjectProjection["parts"]): void {
+    private resizeBuffers(parts: Part[], polygons: Polygons[]): void {
         let [quads, faces, corners] = [0, 0, 0];
-        for (const part of parts) {
-            quads += part.vertices.length / 3 + part.edges.length / 2;
-            faces += part.faces.begin.length - 1;
-            corners += part.faces.corners.length;
+        for (const part of parts) quads += part.vertices.length / 3 + part.edges.length / 2;
+        for (const { faces: own } of polygons) {
+            faces += own.begin.length - 1;
+            corners += own.corners.length;
         }
         for (const name of ["first", "size", "order", "scratch"] as const) {
             this[name] = ensureCapacity(this[name], quads + faces);
@@ -194,4 +208,31 @@ export class ProjectionMesh {
         this.solid.setIndex(this.solidIndex.attribute);
         this.translucent.setIndex(this.translucentIndex.attribute);
     }
+}
+
+/** The polygons to draw: the faces of a part or, if these need not be convex, the convex polygons that fill them. */
+function polygonsOf({ vertices, faces, of, tints, seen, fill }: Part): Polygons {
+    return fill ? polygonsOfFill(fill) : { points: vertices, faces, tints: tints ?? of.faces, seen: seen?.faces };
+}
+
+/** Joins the triangles of each convex polygon of a fill (see Fill). */
+function polygonsOfFill({ points, triangles, tints, seen }: Fill): Polygons {
+    const begin = [0];
+    const corners: number[] = [];
+    const first: number[] = []; // the first triangle of each polygon
+    for (let t = 0, end = 0; t < tints.length; t = end) {
+        first.push(t);
+        corners.push(triangles[3 * t]!, triangles[3 * t + 1]!, triangles[3 * t + 2]!);
+        for (end = t + 1; end < tints.length; ++end) {
+            if (triangles[3 * end] !== triangles[3 * t] || triangles[3 * end + 1] !== triangles[3 * end - 1]) break;
+            corners.push(triangles[3 * end + 2]!);
+        }
+        begin.push(corners.length);
+    }
+    return {
+        points,
+        faces: { begin: Uint32Array.from(begin), corners: Uint32Array.from(corners) },
+        tints: Uint32Array.from(first, (t) => tints[t]!),
+        seen: seen && Uint32Array.from(first, (t) => seen[t]!),
+    };
 }
