@@ -1,6 +1,7 @@
 #include "scene/composer.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <utility>
@@ -105,19 +106,19 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     nameSection(object, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
-    if (out.projectionPlacement.shown) projectObject(object, orientation, focus, out);
+    findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
+    out.fill.clear();
+    std::size_t fillSteps = fillSteps_;
+    if (out.needsDepthBuffer && !isField && look.parts.faces)
+        fillSteps = filler_.fill(slices, info.circumradius, out.fill, fillSteps);
+    out.fillCells.clear();
+    for (const slicing::FilledFaces::Face& face : out.fill.faces)
+        out.fillCells.push_back(slicing::coloringCell(object, out.visibilities, face.source));
+    if (out.projectionPlacement.shown) projectObject(object, orientation, focus, fillSteps, out);
     if (out.matrix.shown) {
         cutSectionMatrix(object, orientation, focus, out);
         traceContours(object, orientation, quality, out);
     }
-
-    findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
-    out.fill.clear();
-    if (out.needsDepthBuffer && !isField && look.parts.faces)
-        filler_.fill(slices, info.circumradius, out.fill, fillSteps_);
-    out.fillCells.clear();
-    for (const slicing::FilledFaces::Face& face : out.fill.faces)
-        out.fillCells.push_back(slicing::coloringCell(object, out.visibilities, face.source));
     if (out.showsDensity()) measureDensity(orientation, out);
     if (out.showsHistogram()) measureFieldHistograms(object, orientation, out);
 }
@@ -180,7 +181,9 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
     laidOutIn_ = &out;
 }
 
-void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
+// `fillSteps`: see slicing::FaceFiller::fill().
+void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus,
+                             std::size_t fillSteps, Scene& out) {
     // The radii of the bars of sections, as multiples of the radius of the bars of the object: for the section of the
     // focus slice, and for the other sections.
     constexpr double kSection = 1.2, kThinSection = 0.4;
@@ -199,6 +202,12 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
     // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.
     for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
+    projection.fill.clear();
+    if (!slicing::hasConvexFaces(object))
+        filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
+    projection.fillCells.clear();
+    for (const slicing::FilledFaces::Face& face : projection.fill.faces)
+        projection.fillCells.push_back(projection.faceCells[face.firstLoop]);
 
     projection.scale = out.projectionPlacement.objectRadius / out.circumradius;
     const double ball = out.projectionPlacement.ballRadius, bar = out.projectionPlacement.barRadius;

@@ -28,8 +28,8 @@ namespace oval4d::scene {
 /// composer.
 class Composer {
   public:
-    /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::FaceFiller::fill().
-    /// By default, there is no limit.
+    /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::FaceFiller::fill()
+    /// for the slices, and what they leave for the projection of the object. By default, there is no limit.
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
@@ -74,7 +74,8 @@ class Composer {
     };
 
     void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
-    void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
+    void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus,
+                       std::size_t fillSteps, Scene& out);
     void cutSectionMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void traceContours(const slicing::Object& object, const geometry::Rotation& orientation, slicing::Quality quality,
                        Scene& out);

@@ -3,6 +3,7 @@
 // Therefore a picture that a page draws and a picture that the server draws can be overlaid exactly.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,6 +41,12 @@ struct ObjectProjection {
     std::vector<std::uint32_t> faceCells;   ///< for each face of `elements`, the cell that determines its color
     std::vector<ProjectionPartLook> parts;  ///< for each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
+    /// The filled faces of part 0, whose pieces are drawn instead of its polygons; empty if these are convex.
+    slicing::FilledFaces fill;
+    std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines its color
+
+    /// Returns whether the pieces of `fill` are drawn instead of the polygons of this part.
+    bool isFilled(std::size_t part) const { return !fill.empty() && fill.faceBegin[part] < fill.faceBegin[part + 1]; }
 };
 
 /// The matrix of planar sections, which the matrix view shows beside the focus slice.

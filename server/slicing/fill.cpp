@@ -21,18 +21,20 @@ double FaceFiller::LoopSide::at(double y) const {
     return low.x + slope * (y - low.y);
 }
 
-void FaceFiller::fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps) {
+std::size_t FaceFiller::fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps,
+                             std::size_t count) {
     stepsLeft_ = steps;
     epsilon_ = 1e-10 * circumradius;
     out.clear();
     for (std::size_t slice = 0; slice + 1 < slices.faceBegin.size(); ++slice) {
-        const std::uint32_t last = slices.faceBegin[slice + 1];
-        for (std::uint32_t begin = slices.faceBegin[slice], end = begin; begin < last; begin = end) {
+        const std::uint32_t first = slices.faceBegin[slice], last = slice < count ? slices.faceBegin[slice + 1] : first;
+        for (std::uint32_t begin = first, end = begin; begin < last; begin = end) {
             while (end < last && slices.faceSource[end] == slices.faceSource[begin]) ++end;
             fillFace(slices, slice, begin, end, out);
         }
         out.faceBegin.push_back(static_cast<std::uint32_t>(out.faces.size()));
     }
+    return stepsLeft_;
 }
 
 void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,

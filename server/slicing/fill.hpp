@@ -1,5 +1,6 @@
 #pragma once
-// Filled faces of slices, decomposed into convex polygons. Nonconvex slices are drawn and exported in this form.
+// Filled faces of slices, decomposed into convex polygons. Nonconvex slices, and projections of objects whose 2-faces
+// are not convex, are drawn and exported in this form.
 
 #include <array>
 #include <compare>
@@ -45,14 +46,16 @@ class FaceFiller {
   public:
     static constexpr std::size_t kNoLimit = ~std::size_t{0};
 
-    /// Fills the faces of all slices. `circumradius` is that of the sliced polytope. Overwrites `out` and reuses its
-    /// memory.
+    /// Fills the faces of the first `count` slices, or of all slices if there are fewer. The other slices have no faces
+    /// in `out`. `circumradius` is that of the sliced polytope. Overwrites `out` and reuses its memory. Returns how
+    /// many of `steps` are left.
     ///
     /// `steps` limits the time for all faces together: a face whose loops have n sides that cross at k points takes at
     /// most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each of its loops
     /// becomes the triangles between the sides of the loop and the mean of its corners. These triangles cover exactly
     /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are.
-    void fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps = kNoLimit);
+    std::size_t fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps = kNoLimit,
+                     std::size_t count = kNoLimit);
 
   private:
     // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the face's plane.

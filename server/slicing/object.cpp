@@ -119,6 +119,12 @@ std::array<std::size_t, 4> elementCounts(const Object& object) {
                          object);
 }
 
+bool hasConvexFaces(const Object& object) {
+    return visitElements(Overloaded{[](const CellComplex& complex) { return complex.convexFaces; },
+                                    [](const PointCloud& /*cloud*/) { return true; }},
+                         object);
+}
+
 const fields::Field* fieldIn(const Object& object) {
     const auto* field = std::get_if<FieldPtr>(&object);
     return field == nullptr ? nullptr : field->get();

@@ -55,6 +55,9 @@ const geometry::ObjectInfo& infoOf(const Object& object);
 /// Returns the numbers of vertices (or points), edges, 2-faces and cells.
 std::array<std::size_t, 4> elementCounts(const Object& object);
 
+/// Returns whether every 2-face is a convex polygon. Returns true for a point cloud.
+bool hasConvexFaces(const Object& object);
+
 /// Returns the object transformed to the coordinates of the frame of reference `frame`. If `frame` is the default
 /// frame, returns the object itself. Otherwise, returns a new object; its serial number is `serial` or, in the overload
 /// without this parameter, a new number. A transformed field shares the functions of the original field. Takes time and

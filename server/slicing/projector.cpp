@@ -81,7 +81,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const auto edges = static_cast<std::uint32_t>(p.edges.size());
         const auto faces = static_cast<std::uint32_t>(p.faces.size());
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
-        const bool culled = options.culled && cells > 0, drawn = options.cells && cells > 0 && p.convexFaces;
+        const bool culled = options.culled && cells > 0, drawn = options.cells && cells > 0;
         if (culled || drawn) findFacingCells(object, orientation, projection);
         const CellSelection selection{culled ? &cellIsFacing_ : nullptr};
         numberElements(p, selection, number_, edgeNumber_);

@@ -33,7 +33,7 @@ class Projector {
     struct Options {
         ProjectionToHyperplane projection;
         /// Whether to write the 2-faces of the object, which bound the projected cells. Writes no 2-faces if the object
-        /// has no cells, or if one of its 2-faces is not convex.
+        /// has no cells. The loop of a 2-face that is not convex may cross itself; FaceFiller fills it.
         bool cells = false;
         /// Whether to leave out the elements that the 4-D eye cannot see. An element is visible if the eye sees the
         /// outer side of at least one cell that contains the element. Leaves out nothing if the object has no cells.

@@ -88,29 +88,29 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.endObject();
 }
 
-// The triangles that clients draw in place of faces that may cross each other (see Scene::fill). Indices in a triangle
-// count from the first point of the triangle's slice.
+// The triangles that clients draw in place of faces that may cross each other or themselves (see Scene::fill and
+// ObjectProjection::fill). Indices in a triangle count from the first point of the triangle's slice or part.
 struct FillTriangles {
     std::vector<glm::dvec3> points;
     std::vector<IndexTriple> triangles;
     std::vector<std::uint32_t> colorCells, visibilities;
 };
 
-// Adds the triangles of one slice, except those of hidden faces.
-void addFill(const Scene& scene, std::size_t slice, FillTriangles& fill) {
-    const slicing::FilledFaces& from = scene.fill;
+// Adds the triangles of one slice or part, except those of hidden faces. `colorCells` has the cell that determines the
+// color of each face.
+void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>& colorCells,
+             const slicing::Visibilities& visibilities, std::size_t slice, FillTriangles& fill) {
     const std::size_t begin = fill.points.size();
     for (std::uint32_t f = from.faceBegin[slice]; f < from.faceBegin[slice + 1]; ++f) {
-        const slicing::Visibility visibility = scene.visibilities.face(from.faces[f].source);
+        const slicing::Visibility visibility = visibilities.face(from.faces[f].source);
         if (visibility == slicing::Visibility::hidden) continue;
-        const std::uint32_t colorCell = scene.fillCells[f];
         for (std::uint32_t k = from.pieceBegin[f]; k < from.pieceBegin[f + 1]; ++k) {
             const auto first = static_cast<std::uint32_t>(fill.points.size() - begin);
             const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
             fill.points.insert(fill.points.end(), corners.begin(), corners.end());
             for (std::uint32_t c = 2; c < corners.size(); ++c) {
                 fill.triangles.push_back({first, first + c - 1, first + c});
-                fill.colorCells.push_back(colorCell);
+                fill.colorCells.push_back(colorCells[f]);
                 fill.visibilities.push_back(static_cast<std::uint32_t>(visibility));
             }
         }
@@ -118,7 +118,7 @@ void addFill(const Scene& scene, std::size_t slice, FillTriangles& fill) {
 }
 
 template <typename W>
-void writeFill(W& w, const FillTriangles& fill, const slicing::Visibilities& visibilities) {
+void writeTriangles(W& w, const FillTriangles& fill, const slicing::Visibilities& visibilities) {
     w.key("points");
     w.vectors(std::span<const glm::dvec3>(fill.points));
     w.key("triangles");
@@ -129,6 +129,18 @@ void writeFill(W& w, const FillTriangles& fill, const slicing::Visibilities& vis
         w.key("seen");
         w.numbers(fill.visibilities);
     }
+}
+
+// Writes the triangles of one slice or part, unless it has no filled faces.
+void writeFill(JsonWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
+               const slicing::Visibilities& visibilities, std::size_t i) {
+    if (faces.empty() || faces.faceBegin[i] == faces.faceBegin[i + 1]) return;
+    FillTriangles fill;
+    addFill(faces, colorCells, visibilities, i, fill);
+    w.key("fill");
+    w.beginObject();
+    writeTriangles(w, fill, visibilities);
+    w.endObject();
 }
 
 void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
@@ -169,14 +181,7 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
     w.beginObject();
     w.appendMembersOf(placement);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities, i);
-    if (!scene.fill.empty() && scene.fill.faceBegin[i] != scene.fill.faceBegin[i + 1]) {
-        FillTriangles fill;
-        addFill(scene, i, fill);
-        w.key("fill");
-        w.beginObject();
-        writeFill(w, fill, scene.visibilities);
-        w.endObject();
-    }
+    writeFill(w, scene.fill, scene.fillCells, scene.visibilities, i);
     surfaces.write(w, scene, i);
     fogs.write(w, scene, i);
     w.endObject();
@@ -272,29 +277,33 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
     writeVisibilities(w, visibilities, of);
 }
 
+void SliceListWriter::writeFills(BinaryWriter& w, const slicing::FilledFaces& faces,
+                                 const std::vector<std::uint32_t>& colorCells,
+                                 const slicing::Visibilities& visibilities) {
+    if (faces.empty()) return;
+    FillTriangles fill;
+    std::vector<std::uint32_t> points{0}, triangles{0};
+    for (std::size_t i = 0; i + 1 < faces.faceBegin.size(); ++i) {
+        addFill(faces, colorCells, visibilities, i, fill);
+        points.push_back(static_cast<std::uint32_t>(fill.points.size()));
+        triangles.push_back(static_cast<std::uint32_t>(fill.triangles.size()));
+    }
+    w.key("fill");
+    w.beginObject();
+    w.key("counts");
+    w.beginObject();
+    writeRangeLengths(w, "points", points);
+    writeRangeLengths(w, "triangles", triangles);
+    w.endObject();
+    writeTriangles(w, fill, visibilities);
+    w.endObject();
+}
+
 void SliceListWriter::writeAllSlices(BinaryWriter& w, std::string_view placements, const Scene& scene) {
-    const std::size_t count = scene.placements.size();
     w.beginObject();
     w.appendMembersOf(placements);
     writeElements(w, *scene.slices, scene.faceCells, scene.visibilities);
-    if (!scene.fill.empty()) {
-        FillTriangles fill;
-        std::vector<std::uint32_t> points{0}, triangles{0};
-        for (std::size_t i = 0; i < count; ++i) {
-            addFill(scene, i, fill);
-            points.push_back(static_cast<std::uint32_t>(fill.points.size()));
-            triangles.push_back(static_cast<std::uint32_t>(fill.triangles.size()));
-        }
-        w.key("fill");
-        w.beginObject();
-        w.key("counts");
-        w.beginObject();
-        writeRangeLengths(w, "points", points);
-        writeRangeLengths(w, "triangles", triangles);
-        w.endObject();
-        writeFill(w, fill, scene.visibilities);
-        w.endObject();
-    }
+    writeFills(w, scene.fill, scene.fillCells, scene.visibilities);
     surfaces_.write(w, scene);
     fogs_.write(w, scene);
     w.endObject();
@@ -307,6 +316,7 @@ void SliceListWriter::writeProjection(JsonWriter& w, const Scene& scene) {
         w.beginObject();
         writePart(w, projection.parts[i]);
         wire::writeElements(w, projection.elements, projection.faceCells, scene.visibilities, i);
+        writeFill(w, projection.fill, projection.fillCells, scene.visibilities, i);
         w.endObject();
     }
     w.endArray();
@@ -324,6 +334,7 @@ void SliceListWriter::writeProjection(BinaryWriter& w, const Scene& scene) {
     }
     w.endArray();
     writeElements(w, projection.elements, projection.faceCells, scene.visibilities);
+    writeFills(w, projection.fill, projection.fillCells, scene.visibilities);
     w.endObject();
 }
 

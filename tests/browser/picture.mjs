@@ -103,6 +103,11 @@ const views = [
         settings: { polytope: "small stellated 120-cell", projection: "perspective" },
         ...{ mean: 2.4, far: 0.02 },
     },
+    {
+        name: "the cells of a star in the projection",
+        settings: { polytope: "5/2,5-duoprism", projection: "perspective", shown: { cells: true } },
+        ...{ mean: 2.4, far: 0.02 },
+    },
     { name: "a perspective projection", settings: { polytope: "24-cell", projection: "perspective" } },
     { name: "thick balls and bars", settings: { polytope: "24-cell", projection: "perspective", thickness: 2 } },
     { name: "clearer faces", settings: { polytope: "24-cell", projection: "perspective", opacity: 0.5 } },

@@ -96,6 +96,45 @@ class Columns {
     Column vertices_, edges_, faces_;
 };
 
+/// The columns of the triangles that fill faces.
+class FillColumns {
+  public:
+    /// `columns` may be without a fill.
+    explicit FillColumns(const json& columns)
+        : present_(columns.contains("fill")),
+          fill_(present_ ? columns.at("fill") : kNoFill),
+          faint_(fill_.contains("seen")),
+          pointCounts_(fill_.at("counts").at("points")),
+          triangleCounts_(fill_.at("counts").at("triangles")),
+          points_(fill_.at("points")),
+          triangles_(fill_.at("triangles")),
+          tints_(fill_.at("tints")),
+          seen_(faint_ ? fill_.at("seen") : kNoFill.at("tints")) {}
+
+    /// Adds the fill of the next slice or part to `row` if it has triangles.
+    void readInto(json& row) {
+        if (!present_) return;
+        const std::size_t p = pointCounts_.next(), t = triangleCounts_.next();
+        json own;
+        own["points"] = points_.rows(p, 3);
+        own["triangles"] = triangles_.rows(t, 3);
+        own["tints"] = tints_.next(t);
+        if (faint_) own["seen"] = seen_.next(t);
+        if (t > 0) row["fill"] = std::move(own);
+    }
+
+  private:
+    static inline const json kNoFill{{"counts", {{"points", json::array()}, {"triangles", json::array()}}},
+                                     {"points", json::array()},
+                                     {"triangles", json::array()},
+                                     {"tints", json::array()}};
+
+    bool present_;
+    const json& fill_;
+    bool faint_;
+    Column pointCounts_, triangleCounts_, points_, triangles_, tints_, seen_;
+};
+
 /// The columns that describe the elements of slices, or of the parts of a projection.
 class ElementColumns {
   public:
@@ -111,7 +150,8 @@ class ElementColumns {
           corners_(columns.at("corners")),
           tints_(tinted_ ? columns.at("tints") : kNone),
           of_(columns.at("of")),
-          seen_(faint_ ? columns.at("seen") : kNowhere) {}
+          seen_(faint_ ? columns.at("seen") : kNowhere),
+          fill_(columns) {}
 
     /// Adds the elements of the next slice or part to `row`.
     void readInto(json& row) {
@@ -124,6 +164,7 @@ class ElementColumns {
         if (faint_) row["seen"] = seen_.next(v, e, f);
         if (json own = tints_.next(tinted_ ? f : 0); tinted_ && own != row["of"]["faces"])
             row["tints"] = std::move(own);
+        fill_.readInto(row);
     }
 
   private:
@@ -133,6 +174,7 @@ class ElementColumns {
     bool tinted_, faint_;
     Column vertexCounts_, edgeCounts_, faceCounts_, vertices_, edges_, sides_, corners_, tints_;
     Columns of_, seen_;
+    FillColumns fill_;
 };
 
 json partsOf(const json& columns) {
@@ -143,20 +185,11 @@ json partsOf(const json& columns) {
 }
 
 json rowsOf(const json& columns) {
-    const json none = json::array();
-    const bool filled = columns.contains("fill");
-    const json noFill{
-        {"counts", {{"points", none}, {"triangles", none}}}, {"points", none}, {"triangles", none}, {"tints", none}};
-    const json& fill = filled ? columns.at("fill") : noFill;
-    const bool faintFill = fill.contains("seen");
     Column w(columns.at("w")), labelSize(columns.at("label_size")), position(columns.at("position"));
     Column labelAt(columns.at("label_at"));
     Column index(columns.at("index")), label(columns.at("label")), focus(columns.at("focus")),
         drawn(columns.at("drawn"));
     ElementColumns elements(columns);
-    Column points(fill.at("points")), triangles(fill.at("triangles")), fillTints(fill.at("tints"));
-    Column fillSeen(faintFill ? fill.at("seen") : none);
-    Column pointCounts(fill.at("counts").at("points")), triangleCounts(fill.at("counts").at("triangles"));
     json rows = json::array();
     for (std::size_t i = 0; i < columns.at("index").size(); ++i) {
         json row{{"index", index.next()}, {"label", label.next()},          {"focus", focus.next()},
@@ -164,15 +197,6 @@ json rowsOf(const json& columns) {
         row["position"] = position.next(3);
         row["label_at"] = labelAt.next(3);
         elements.readInto(row);
-        if (filled) {
-            const std::size_t p = pointCounts.next(), t = triangleCounts.next();
-            json own;
-            own["points"] = points.rows(p, 3);
-            own["triangles"] = triangles.rows(t, 3);
-            own["tints"] = fillTints.next(t);
-            if (faintFill) own["seen"] = fillSeen.next(t);
-            if (t > 0) row["fill"] = std::move(own);
-        }
         rows.push_back(std::move(row));
     }
     return rows;
@@ -203,14 +227,18 @@ json fromBinary(const json& decoded) {
 json fromJson(const std::string& text) {
     json message = fuzz::requireJson(text);
     if (message.contains("coordinates")) roundToFloats(message["coordinates"]);
+    const auto roundElements = [](json& piece) {
+        roundToFloats(piece["vertices"]);
+        if (!piece.contains("fill")) return;
+        roundToFloats(piece["fill"]["points"]);
+        if (piece["fill"]["triangles"].empty()) piece.erase("fill");
+    };
     if (message.contains("projection")) {
-        for (json& part : message["projection"]["parts"]) roundToFloats(part["vertices"]);
+        for (json& part : message["projection"]["parts"]) roundElements(part);
     }
     for (json& slice : message["slices"]) {
-        for (const char* name : {"position", "label_at", "vertices"}) roundToFloats(slice[name]);
-        if (!slice.contains("fill")) continue;
-        roundToFloats(slice["fill"]["points"]);
-        if (slice["fill"]["triangles"].empty()) slice.erase("fill");
+        for (const char* name : {"position", "label_at"}) roundToFloats(slice[name]);
+        roundElements(slice);
     }
     return message;
 }

@@ -88,6 +88,35 @@ async def test_frames_and_stored_sessions_have_it(server):
         assert png.pixels(await client.request_frame(**SIZE)) == plain
 
 
+def area(*points):
+    """The area that a loop of points encloses; regions count as often as the loop winds around them."""
+    sides = [[b - a for a, b in zip(points[0], point)] for point in points[1:]]
+    crosses = [(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+               for a, b in zip(sides, sides[1:])]
+    return math.hypot(*map(sum, zip(*crosses))) / 2
+
+
+async def test_pentagrams_are_filled(server):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="{5/2,5,3}", projection="orthogonal")
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.4, 0.3])
+        without = png.pixels(await client.request_frame(**SIZE))
+        await client.request("set", shown={"cells": True})
+        assert png.pixels(await client.request_frame(**SIZE)) != without
+        whole, section = (await projection_of(client))["parts"]
+        assert len(whole["faces"]) == 720 and "fill" not in section
+        points = whole["fill"]["points"]
+        filled = sum(area(*(points[i] for i in triangle)) for triangle in whole["fill"]["triangles"])
+        enclosed = sum(area(*(whole["vertices"][v] for v in loop)) for loop in whole["faces"])
+        # The loop of a pentagram winds twice around its core; the core is filled once. Projections keep the ratio.
+        golden = (1 + math.sqrt(5)) / 2
+        assert filled == pytest.approx(2 / golden**2 * enclosed, rel=1e-4)
+        await client.request("set", shown={"back": False})
+        seen = (await projection_of(client))["parts"][0]
+        assert 0 < len(seen["faces"]) < 720
+        assert set(seen["fill"]["tints"]) == set(seen["tints"])
+
+
 async def test_a_cloud_has_points_only(server):
     text, _ = torus_points(50)
     async with Client(server, stream="none") as client:

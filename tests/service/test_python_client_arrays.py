@@ -58,6 +58,7 @@ def assert_approximately_equal(got, expected):
 
 
 FIELD = "formula x^2 + y^2 - z^2 < w"
+STAR = "polytope small stellated 120-cell"  # its projection has a `fill`
 
 
 @pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
@@ -68,6 +69,7 @@ FIELD = "formula x^2 + y^2 - z^2 < w"
     ["polytope truncated tesseract", "hide 1", "rotate xw 0.2"],      # hidden cells: `seen`
     ["polytope grand 600-cell", "set slices=3", "rotate xw 0.2"],     # crossing faces: `fill`
     ["polytope truncated tesseract", "hide 1", "project perspective", "set cells=on sections=on"],
+    [STAR, "rotate xw,yz 0.3 0.4", "set faces=off slices=3", "project perspective", "set cells=on"],
     ["polytope 5-cell", "focus 100"],                                 # no slice
     [FIELD, "rotate xw 0.3", "set levels=1,0.5"],                     # surfaces, with caps
     [FIELD, "rotate xw 0.3", "color growth"],
@@ -86,6 +88,8 @@ def test_all_encodings_have_the_same_slices(server, lines, encoding):
     kinds = {kind for piece in text["slices"] for kind in ("tints", "seen", "fill", "surface") if kind in piece}
     assert kinds == {"polytope 8-cell": {"tints"}, "polytope truncated tesseract": {"seen"},
                      "polytope grand 600-cell": {"fill"}, FIELD: {"surface"}}.get(lines[0], set())
+    parts = text["projection"]["parts"] if "projection" in text else []
+    assert ["fill" in part for part in parts] == ([True, False] if lines[0] == STAR else [False] * len(parts))
 
 
 @pytest.mark.parametrize("encoding", BINARY_ENCODINGS)

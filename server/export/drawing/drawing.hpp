@@ -36,7 +36,7 @@ struct Polyline {
     double width = 1;
     scene::Color color = 0;
 };
-/// The interior of a polygon.
+/// A polygon that may cross itself, filled by the nonzero winding rule.
 struct FilledPolygon {
     std::vector<glm::dvec2> corners;
     scene::Color color = 0;

@@ -75,6 +75,7 @@ class ProjectionDrawer {
         for (std::uint32_t f = set.faceBegin[part]; look.faceOpacity > 0 && f < set.faceBegin[part + 1]; ++f) {
             const double seen = slicing::opacityOf(scene_.visibilities.face(set.faceSource[f]));
             if (seen == 0) continue;
+            // The polygon may be a star. It is filled as ObjectProjection::fill is, but has no seams between pieces.
             FilledPolygon polygon{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity * seen};
             double depth = 0;
             for (std::uint32_t c = set.cornerBegin[f]; c < set.cornerBegin[f + 1]; ++c) {

@@ -226,7 +226,7 @@ class PovWriter {
             addFaces(set_, slice, part, scene_.faceOpacity,
                      [this](std::uint32_t f) { return scene_.coloringCellOfFace(f); });
         }
-        if (!scene_.fill.empty()) addPieces(slice, part);
+        if (!scene_.fill.empty()) addPieces(scene_.fill, scene_.fillCells, slice, part, scene_.faceOpacity);
         if (!scene_.surfaces.empty()) addSurfaces(slice, part);
         addBalls(set_, slice, part);
         addBars(set_, slice, part);
@@ -243,8 +243,12 @@ class PovWriter {
                                     look.barRadius,
                                     look.ballColor,
                                     look.barColor};
-            addFaces(projection.elements, i, part, look.faceOpacity,
-                     [&](std::uint32_t f) { return projection.faceCells[f]; });
+            if (projection.isFilled(i)) {
+                addPieces(projection.fill, projection.fillCells, i, part, look.faceOpacity);
+            } else {
+                addFaces(projection.elements, i, part, look.faceOpacity,
+                         [&](std::uint32_t f) { return projection.faceCells[f]; });
+            }
             addBalls(projection.elements, i, part);
             addBars(projection.elements, i, part);
             checkBudget();
@@ -271,15 +275,16 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    /// Adds the convex pieces into which faces that may cross each other are divided.
-    void addPieces(std::size_t slice, const PovPlacement& part) {
-        const slicing::FilledFaces& fill = scene_.fill;
+    /// Adds the convex pieces into which the faces of a slice of `fill` are divided. `cells` has the cell whose color
+    /// each face has; `opacity` is the opacity of fully visible faces.
+    void addPieces(const slicing::FilledFaces& fill, const std::vector<std::uint32_t>& cells, std::size_t slice,
+                   const PovPlacement& part, double opacity) {
         PovMesh mesh;
         mesh.isLitFromBehind = true;
         for (std::uint32_t f = fill.faceBegin[slice]; f < fill.faceBegin[slice + 1]; ++f) {
-            const double own = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(fill.faces[f].source));
+            const double own = opacity * slicing::opacityOf(scene_.visibilities.face(fill.faces[f].source));
             if (own == 0) continue;
-            const std::uint32_t texture = textures_.numberOf(scene_.cellColors[scene_.fillCells[f]], own, kMatte);
+            const std::uint32_t texture = textures_.numberOf(scene_.cellColors[cells[f]], own, kMatte);
             for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
                 const auto first = static_cast<std::uint32_t>(mesh.points.size());
                 for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)

@@ -1,6 +1,7 @@
 #include "render/slices/projection_shapes.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <tuple>
 
@@ -19,6 +20,8 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     const glm::dmat3 turn = glm::dmat3(toView) * projection.scale;
     points_.clear();
     for (const glm::dvec3& vertex : elements.vertices) points_.emplace_back(turn * vertex + origin);
+    fillPoints_.clear();
+    for (const glm::dvec3& corner : projection.fill.corners) fillPoints_.emplace_back(turn * corner + origin);
     DepthRange depths{std::numeric_limits<float>::max(), 0};
     for (const glm::vec3& point : points_) depths = {std::min(depths.from, -point.z), std::max(depths.to, -point.z)};
     float thickest = 0;
@@ -44,13 +47,15 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
 }
 
 void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint32_t part) {
-    const slicing::SliceSet& elements = scene.projection.elements;
-    const scene::ProjectionPartLook& look = scene.projection.parts[part];
+    const scene::ObjectProjection& projection = scene.projection;
+    const slicing::SliceSet& elements = projection.elements;
+    const scene::ProjectionPartLook& look = projection.parts[part];
     const auto add = [&](const SortedShape& item, Visibility visibility) {
         if (visibility == Visibility::hidden) return;
         // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. Faces must be
         // visible behind these bars; the bars are therefore in the translucent layer.
-        const bool solid = item.kind != ShapeKind::face && part == 0 && visibility == Visibility::full;
+        const bool isSkeleton = item.kind == ShapeKind::ball || item.kind == ShapeKind::bar;
+        const bool solid = isSkeleton && part == 0 && visibility == Visibility::full;
         (solid ? solid_ : translucent_).push_back(item);
     };
     const std::uint32_t first = elements.vertexBegin[part];
@@ -67,7 +72,18 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
             add({-(part == 0 ? far : near), ShapeKind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
         }
     }
-    if (look.faceOpacity > 0) {
+    if (look.faceOpacity > 0 && projection.isFilled(part)) {
+        const slicing::FilledFaces& fill = projection.fill;
+        for (std::uint32_t f = fill.faceBegin[part]; f < fill.faceBegin[part + 1]; ++f) {
+            const Visibility visibility = scene.visibilities.face(fill.faces[f].source);
+            for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
+                float sum = 0;
+                const std::uint32_t begin = fill.cornerBegin[k], end = fill.cornerBegin[k + 1];
+                for (std::uint32_t c = begin; c < end; ++c) sum -= fillPoints_[c].z;
+                add({sum / static_cast<float>(end - begin), ShapeKind::piece, part, k}, visibility);
+            }
+        }
+    } else if (look.faceOpacity > 0) {
         for (std::uint32_t f = elements.faceBegin[part]; f < elements.faceBegin[part + 1]; ++f) {
             float sum = 0;
             const std::uint32_t begin = elements.cornerBegin[f], end = elements.cornerBegin[f + 1];
@@ -97,20 +113,34 @@ void ProjectionShapeCollector::addShape(const scene::Scene& scene, const SortedS
         out.addBarFromFarEnd(points[forth ? a : b], points[forth ? b : a], static_cast<float>(part.barRadius),
                              lit ? scene.style().highlight : part.barColor,
                              opacity(scene.visibilities.edge(elements.edgeSource[item.number])));
-    } else {
+    } else if (item.kind == ShapeKind::face) {
         corners_.clear();
         for (std::uint32_t c = elements.cornerBegin[item.number]; c < elements.cornerBegin[item.number + 1]; ++c)
             corners_.push_back(points[elements.corners[c]]);
-        glm::vec3 area(0);
-        for (std::size_t i = 2; i < corners_.size(); ++i)
-            area += glm::cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
-        const float length = glm::length(area);
-        out.addFace(
-            corners_, length > 0 ? area / length : glm::vec3(0, 0, 1),
+        addPolygon(
             scene.cellColors[scene.projection.faceCells[item.number]],
             static_cast<float>(part.faceOpacity) * opacity(scene.visibilities.face(elements.faceSource[item.number])),
-            false);
+            out);
+    } else {
+        const slicing::FilledFaces& fill = scene.projection.fill;
+        corners_.assign(fillPoints_.begin() + fill.cornerBegin[item.number],
+                        fillPoints_.begin() + fill.cornerBegin[item.number + 1]);
+        // The face of the piece is the last one whose pieces do not begin after this one.
+        const auto next = std::ranges::upper_bound(fill.pieceBegin, item.number);
+        const auto face = static_cast<std::size_t>(next - fill.pieceBegin.begin()) - 1;
+        addPolygon(scene.cellColors[scene.projection.fillCells[face]],
+                   static_cast<float>(part.faceOpacity) * opacity(scene.visibilities.face(fill.faces[face].source)),
+                   out);
     }
+}
+
+// Adds the convex polygon with the corners corners_.
+void ProjectionShapeCollector::addPolygon(scene::Color color, float opacity, ShapeBatch& out) const {
+    glm::vec3 area(0);
+    for (std::size_t i = 2; i < corners_.size(); ++i)
+        area += glm::cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
+    const float length = glm::length(area);
+    out.addFace(corners_, length > 0 ? area / length : glm::vec3(0, 0, 1), color, opacity, false);
 }
 
 }  // namespace oval4d::render

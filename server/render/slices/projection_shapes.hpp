@@ -28,17 +28,21 @@ class ProjectionShapeCollector {
     void collect(const scene::Scene& scene, Layers& out);
 
   private:
-    enum class ShapeKind : std::uint8_t { ball, bar, face };
+    enum class ShapeKind : std::uint8_t { ball, bar, face, piece };
     struct SortedShape {
         float depth;  // the distance from the eye along the view axis
         ShapeKind kind;
-        std::uint32_t part, number;  // number: the index of a vertex, edge or face in ObjectProjection::elements
+        // number: the index of a vertex, edge or face in ObjectProjection::elements, or of a piece in
+        // ObjectProjection::fill
+        std::uint32_t part, number;
     };
 
     void collectPart(const scene::Scene& scene, std::uint32_t part);
     void addShape(const scene::Scene& scene, const SortedShape& item, ShapeBatch& out);
+    void addPolygon(scene::Color color, float opacity, ShapeBatch& out) const;
 
-    std::vector<glm::vec3> points_, corners_;  // in view coordinates
+    // In view coordinates: the vertices of the projection, the corners of its fill, and those of the current polygon.
+    std::vector<glm::vec3> points_, fillPoints_, corners_;
     std::vector<SortedShape> solid_, translucent_;
 };
 

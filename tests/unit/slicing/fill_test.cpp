@@ -133,6 +133,23 @@ TEST(FaceFiller, IsRoughIfThereAreTooFewSteps) {
     EXPECT_LT(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7));
 }
 
+TEST(FaceFiller, FillsTheFirstSlicesAndReturnsTheStepsThatAreLeft) {
+    SliceSet slices = flat({starPolygon(5, 2)}, {1, 0, 0}, {0, 1, 0});
+    slices.append(flat({starPolygon(7, 3)}, {1, 0, 0}, {0, 1, 0}));
+    FilledFaces one, both;
+    const std::size_t steps = 10'000;
+    const std::size_t afterOne = FaceFiller().fill(slices, 1, one, steps, 1);
+    const std::size_t afterBoth = FaceFiller().fill(slices, 1, both, steps, 2);
+    EXPECT_EQ(one.faceBegin, (std::vector<std::uint32_t>{0, 1, 1}));
+    EXPECT_EQ(both.faceBegin, (std::vector<std::uint32_t>{0, 1, 2}));
+    ASSERT_EQ(one.faces.size(), 1U);
+    EXPECT_EQ(one.faces[0].winding, 2);
+    EXPECT_LT(afterOne, steps);
+    EXPECT_LT(afterBoth, afterOne);
+    FilledFaces rough;
+    EXPECT_EQ(FaceFiller().fill(slices, 1, rough, 9), 9U) << "a face that is filled roughly takes no steps";
+}
+
 TEST(FaceFiller, LeavesAHoleBetweenOppositeLoops) {
     std::vector<glm::dvec2> inner{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};
     const std::vector<glm::dvec2> outer{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};

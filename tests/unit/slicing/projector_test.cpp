@@ -1,5 +1,6 @@
 // Projections of whole objects and of their slices, and the hyperplanes of cells.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
@@ -188,10 +189,17 @@ TEST(Projector, ShowsAllTwoFacesWithoutCulling) {
     }
 }
 
-TEST(Projector, LeavesOutTwoFacesThatCrossThemselves) {
+TEST(Projector, WritesTheLoopsOfTwoFacesThatCrossThemselves) {
     const Polytope& p = named("small stellated 120-cell");  // its 2-faces are pentagrams
     const auto [slices, parts, cells] = projected(objectOf(p), {}, {.projection = {0.2}, .cells = true}, spanning(p));
-    EXPECT_TRUE(parts.faceSource.empty() && cells.empty());
+    ASSERT_EQ(parts.faceSource.size(), p.faces.size());
+    EXPECT_EQ(cells.size(), p.faces.size());
+    for (std::size_t f = 0; f < p.faces.size(); ++f) {
+        EXPECT_EQ(parts.faceSource[f], p.cells.size() + f);
+        const std::vector<std::uint32_t> loop(parts.corners.begin() + parts.cornerBegin[f],
+                                              parts.corners.begin() + parts.cornerBegin[f + 1]);
+        EXPECT_TRUE(std::ranges::equal(loop, p.faces[f]));
+    }
     EXPECT_EQ(parts.edges.size(), p.edges.size());
 }
 

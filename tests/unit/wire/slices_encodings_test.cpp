@@ -135,6 +135,39 @@ TEST(SlicesMessage, AllEncodingsSayTheSame) {
     }
 }
 
+TEST(SlicesMessage, HasTheTrianglesOfAProjectedStar) {
+    const Picture picture = pictureOf({"polytope small stellated 120-cell", "set slices=5", "rotate xw,yz 0.7 1.1",
+                                       "rotate yw 0.3", "project orthogonal", "set cells=on"});
+    const std::size_t faces = picture.polytope->faces.size();
+    const json parts = fitting(messageOf(picture, Encoding::json)).at("projection").at("parts");
+    ASSERT_EQ(parts.size(), 2U);
+    EXPECT_FALSE(parts[1].contains("fill")) << "the faces of the section are not drawn";
+    const json& whole = parts[0];
+    ASSERT_EQ(whole.at("faces").size(), faces);
+    const json& fill = whole.at("fill");
+    ASSERT_EQ(fill.at("triangles").size(), 5 * faces) << "a pentagram that is filled roughly has five triangles";
+    ASSERT_EQ(fill.at("points").size(), 15 * faces);
+    ASSERT_EQ(fill.at("tints").size(), 5 * faces);
+    for (std::size_t t = 0; t < 5 * faces; ++t) {
+        EXPECT_EQ(fill.at("tints")[t], whole.at("tints")[t / 5]);
+        EXPECT_EQ(fill.at("triangles")[t], json({3 * t, 3 * t + 1, 3 * t + 2}));
+    }
+    for (const Encoding encoding : binaryEncodings()) {
+        const json columns = decodedMessageOf(picture, encoding).at("projection").at("parts").at("fill");
+        const auto count = static_cast<std::uint32_t>(faces);
+        EXPECT_EQ(integersOf(columns.at("counts").at("points")), (std::vector<std::uint32_t>{15 * count, 0}));
+        EXPECT_EQ(integersOf(columns.at("counts").at("triangles")), (std::vector<std::uint32_t>{5 * count, 0}));
+        EXPECT_EQ(json(integersOf(columns.at("tints"))), fill.at("tints"));
+        EXPECT_EQ(columns.at("points").get_binary().size(), 15 * faces * 3 * sizeof(float));
+        Reader triangles(integersOf(columns.at("triangles")));
+        EXPECT_EQ(triangles.rows(5 * faces, 3), fill.at("triangles"));
+    }
+    const Picture convex = pictureOf({"polytope 24-cell", "project orthogonal", "set cells=on"});
+    const json ofConvex = fitting(messageOf(convex, Encoding::json)).at("projection").at("parts").at(0);
+    EXPECT_EQ(ofConvex.at("faces").size(), 96U);
+    EXPECT_FALSE(ofConvex.contains("fill"));
+}
+
 TEST(SlicesMessage, GivesIdsBackAsTheyWere) {
     const Picture picture = pictureOf({});
     for (const double whole : {0.0, 1.0, 23.0, 24.0, 1e6, 123456789012.0, 0x1p53, -1.0, -1e6, -0x1p53}) {

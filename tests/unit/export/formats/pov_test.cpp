@@ -151,6 +151,19 @@ TEST(Pov, hasTheProjectionIfThePictureShowsIt) {
     EXPECT_EQ(vectorsAfter(pov.text.substr(at), "\ncylinder { ").size(), 32U + 12);
 }
 
+TEST(Pov, fillsTheStarsOfTheProjection) {
+    scene::Look look;
+    look.parts.faces = false;
+    look.parts.projectionFaces = true;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    const PovOfPolytope pov("small stellated 120-cell", {0, 1, 1}, look);
+    const std::size_t corners = pov.scene.projection.fill.corners.size();
+    // A pentagram is divided into at least three convex polygons.
+    EXPECT_GT(corners, 9 * pov.scene.projection.fill.faces.size());
+    EXPECT_EQ(occurrences(pov.text, "\nmesh2 {"), 1U);
+    EXPECT_EQ(occurrences(pov.text, "vertex_vectors { " + std::to_string(corners) + ","), 1U);
+}
+
 TEST(Pov, letsTheLightPassTwiceThroughFadedBallsAndBars) {
     scene::Look look;
     look.cellTypes.faded = {0};

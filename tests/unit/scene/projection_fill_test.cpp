@@ -1,0 +1,206 @@
+// The filled 2-faces of the projection of the whole object: their areas, and which of them there are.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <variant>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "polytopes/import/import.hpp"
+#include "polytopes/off.hpp"
+#include "scene/composer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace {
+
+using namespace oval4d;
+using scene::ProjectionKind;
+using scene::Scene;
+using support::named;
+
+/// Returns the scene of a polytope, without its slices, that shows the projection with its cells. `steps` limits the
+/// filling of faces.
+Scene sceneWithProjectedCells(const polytopes::Polytope& p, const geometry::Rotation& turn, scene::Look look,
+                              ProjectionKind kind = ProjectionKind::orthogonal,
+                              std::size_t steps = slicing::FaceFiller::kNoLimit) {
+    look.projection.kind = kind;
+    look.parts.projectionFaces = true;
+    slicing::SliceSet slices;
+    slicing::CellComplexSlicer().slice(p, turn, {0, 1, 1}, slices);
+    scene::Composer composer;
+    composer.limitFaceFilling(steps);
+    Scene s;
+    composer.compose(support::objectOf(p), turn, slices, 0, look, {}, s);
+    s.slices = &slicing::kNoSlices;
+    return s;
+}
+
+/// Returns the total area of the pieces of a face.
+double filledAreaOf(const slicing::FilledFaces& fill, std::size_t face) {
+    double sum = 0;
+    for (auto k = fill.pieceBegin[face]; k < fill.pieceBegin[face + 1]; ++k) {
+        const glm::dvec3& first = fill.corners[fill.cornerBegin[k]];
+        glm::dvec3 twice(0);
+        for (auto c = fill.cornerBegin[k] + 2; c < fill.cornerBegin[k + 1]; ++c)
+            twice += glm::cross(fill.corners[c - 1] - first, fill.corners[c] - first);
+        sum += glm::length(twice) / 2;
+    }
+    return sum;
+}
+
+/// Returns the area that a projected loop encloses, which counts as often as the loop winds around it.
+double enclosedAreaOf(const slicing::SliceSet& elements, std::uint32_t loop) {
+    const auto corner = [&](std::uint32_t c) { return elements.vertices[elements.corners[c]]; };
+    const glm::dvec3 first = corner(elements.cornerBegin[loop]);
+    glm::dvec3 twice(0);
+    for (auto c = elements.cornerBegin[loop] + 2; c < elements.cornerBegin[loop + 1]; ++c)
+        twice += glm::cross(corner(c - 1) - first, corner(c) - first);
+    return glm::length(twice) / 2;
+}
+
+constexpr double kAreaOfL = 3;
+
+/// Returns the product of an L in the xy plane and a square in the zw plane, as read from a file.
+polytopes::Polytope productOfLAndSquare() {
+    const support::Polygon l{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+    const support::Polygon square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const polytopes::Polytope made = support::product(l, square);
+    auto read = polytopes::importPolytope(polytopes::FileFormat::off4, polytopes::write4Off(made, made.vertices), "L",
+                                          polytopes::ImportLimits());
+    return std::get<polytopes::ImportedPolytope>(std::move(read)).polytope;
+}
+
+/// Expects that the four L of productOfLAndSquare() are filled, each with the area that `areaOf` returns for the w of
+/// its first vertex before the rotation.
+template <typename AreaOf>
+void expectAreasOfL(const polytopes::Polytope& p, const Scene& s, AreaOf areaOf) {
+    const slicing::FilledFaces& fill = s.projection.fill;
+    int found = 0;
+    for (std::size_t f = 0; f < fill.faces.size(); ++f) {
+        const auto loop = p.faces[fill.faces[f].source - p.cells.size()];
+        if (loop.size() != 6) continue;
+        ++found;
+        EXPECT_EQ(fill.faces[f].winding, 1);
+        EXPECT_NEAR(filledAreaOf(fill, f), areaOf(p.vertices[loop[0]].w), 1e-8);
+    }
+    EXPECT_EQ(found, 4);
+}
+
+TEST(ProjectionFill, OfANonconvexFaceFromAFileHasExactlyItsArea) {
+    const polytopes::Polytope p = productOfLAndSquare();
+    ASSERT_FALSE(p.convexFaces);
+    expectAreasOfL(p, sceneWithProjectedCells(p, {}, {}), [](double) { return kAreaOfL; });
+    // A rotation that fixes w turns the projection as a whole.
+    geometry::Turn turn;
+    turn[geometry::Plane::xy] = 0.7;
+    turn[geometry::Plane::xz] = -1.1;
+    turn[geometry::Plane::yz] = 0.4;
+    expectAreasOfL(p, sceneWithProjectedCells(p, geometry::Rotation(turn), {}), [](double) { return kAreaOfL; });
+    // In the projection, a rotation in xw shortens x.
+    constexpr double kAngle = 0.6;
+    const geometry::Rotation inXw(geometry::Turn{geometry::Plane::xw, kAngle});
+    expectAreasOfL(p, sceneWithProjectedCells(p, inXw, {}), [](double) { return kAreaOfL * std::cos(kAngle); });
+    // In perspective, what lies in a hyperplane w = c is magnified.
+    const Scene s = sceneWithProjectedCells(p, {}, {}, ProjectionKind::perspective);
+    const double eye = s.look.projection.eye * p.circumradius;
+    expectAreasOfL(p, s, [&](double w) { return kAreaOfL * std::pow(eye / (eye - w), 2); });
+}
+
+// Of a pentagram with the circumradius 1, the loop encloses the area 5/2 sin 144°, of which the core counts twice. The
+// points inside are ten triangles between the center, a tip and an inner corner at the distance φ⁻²; their area is
+// 5 φ⁻² sin 36°. A projection is an affine map, which does not change the quotient of the two areas, 2 φ⁻².
+TEST(ProjectionFill, OfAPentagramContainsItsCoreOnceInAnyOrientation) {
+    using std::numbers::phi;
+    const double quotient = 2 / (phi * phi);
+    std::mt19937 random(11);
+    for (const char* name :
+         {"small stellated 120-cell", "great stellated 120-cell", "great grand stellated 120-cell"}) {
+        SCOPED_TRACE(name);
+        const polytopes::Polytope& p = named(name);
+        const Scene s = sceneWithProjectedCells(p, support::randomRotation(random), {});
+        const slicing::FilledFaces& fill = s.projection.fill;
+        ASSERT_EQ(fill.faces.size(), p.faces.size());
+        for (std::size_t f = 0; f < fill.faces.size(); ++f) {
+            EXPECT_EQ(fill.faces[f].winding, 2);
+            const double enclosed = enclosedAreaOf(s.projection.elements, fill.faces[f].firstLoop);
+            ASSERT_NEAR(filledAreaOf(fill, f), quotient * enclosed, 1e-8 * p.circumradius * p.circumradius);
+        }
+    }
+}
+
+TEST(ProjectionFill, LeavesOutWhatTheEyeCannotSee) {
+    const polytopes::Polytope& p = named("small stellated 120-cell");
+    std::mt19937 random(12);
+    const geometry::Rotation turn = support::randomRotation(random);
+    scene::Look look;
+    look.parts.back = false;
+    look.coloring = scene::Coloring::light;
+    const Scene s = sceneWithProjectedCells(p, turn, look, ProjectionKind::perspective);
+    const scene::ObjectProjection& projection = s.projection;
+    ASSERT_GT(projection.elements.faceCount(0), 0U);
+    EXPECT_LT(projection.elements.faceCount(0), p.faces.size());
+    ASSERT_EQ(projection.fill.faces.size(), projection.elements.faceCount(0));
+    ASSERT_EQ(projection.fillCells.size(), projection.fill.faces.size());
+    EXPECT_TRUE(projection.isFilled(0));
+    EXPECT_FALSE(projection.isFilled(1)) << "the section of the focus hyperplane";
+    for (std::size_t f = 0; f < projection.fill.faces.size(); ++f) {
+        const slicing::FilledFaces::Face& face = projection.fill.faces[f];
+        EXPECT_EQ(face.source, projection.elements.faceSource[f]);
+        const auto& cells = p.faceCells[face.source - p.cells.size()];
+        EXPECT_TRUE(projection.fillCells[f] == cells[0] || projection.fillCells[f] == cells[1]);
+    }
+}
+
+TEST(ProjectionFill, IsEmptyIfAllFacesAreConvexOrHidden) {
+    for (const char* name : {"24-cell", "icosahedral 120-cell"}) {
+        const Scene s = sceneWithProjectedCells(named(name), {}, {});
+        EXPECT_EQ(s.projection.elements.faceCount(0), named(name).faces.size()) << name;
+        EXPECT_TRUE(s.projection.fill.empty()) << name;
+        EXPECT_FALSE(s.projection.isFilled(0)) << name;
+    }
+    // The same scene, first with and then without cells.
+    const polytopes::Polytope& p = named("small stellated 120-cell");
+    slicing::SliceSet slices;
+    slicing::CellComplexSlicer().slice(p, {}, {0, 1, 1}, slices);
+    scene::Composer composer;
+    Scene s;
+    scene::Look look;
+    look.projection.kind = ProjectionKind::perspective;
+    for (const bool cells : {true, false}) {
+        look.parts.projectionFaces = cells;
+        composer.compose(support::objectOf(p), {}, slices, 0, look, {}, s);
+        EXPECT_EQ(s.projection.fill.empty(), !cells);
+        EXPECT_EQ(s.projection.fillCells.empty(), !cells);
+    }
+}
+
+TEST(ProjectionFill, IsRoughBeyondTheLimitWhichItSharesWithTheSlices) {
+    const polytopes::Polytope& p = named("small stellated 120-cell");
+    std::mt19937 random(13);
+    const geometry::Rotation turn = support::randomRotation(random);
+    const auto roughFaces = [](const Scene& s) {
+        return std::ranges::count(s.projection.fill.faces, 0, &slicing::FilledFaces::Face::winding);
+    };
+    const Scene rough = sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, 0);
+    EXPECT_EQ(roughFaces(rough), static_cast<std::ptrdiff_t>(p.faces.size()));
+    EXPECT_EQ(rough.projection.fill.cornerBegin.size() - 1, 5 * p.faces.size()) << "a triangle for each side";
+    // As many steps as the projection takes are enough for it if the slices have no faces to fill, but not otherwise.
+    slicing::FilledFaces fill;
+    const std::size_t limit = 100'000'000;
+    const std::size_t steps =
+        limit - slicing::FaceFiller().fill(rough.projection.elements, p.circumradius, fill, limit, 1);
+    EXPECT_GT(steps, 0U);
+    scene::Look withoutFaces;
+    withoutFaces.parts.faces = false;
+    EXPECT_EQ(roughFaces(sceneWithProjectedCells(p, turn, withoutFaces, ProjectionKind::orthogonal, steps)), 0);
+    EXPECT_GT(roughFaces(sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, steps)), 0);
+}
+
+}  // namespace
