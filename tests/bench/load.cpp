@@ -1,5 +1,5 @@
-// Measures a running server under load: the latency from key to picture, many sessions, a flood of keys, a client that
-// never reads. Prints a line of JSON for each measurement.
+// Measures a running server under load: the latencies from a key to its picture and from a point to the element there,
+// many sessions, a flood of keys, a client that never reads. Prints a line of JSON for each measurement.
 //   oval4d --port 8080 --max-requests 1000000 --session-expiry 2 &  bench_load [port] [seconds]
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <boost/asio/detached.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -91,6 +92,29 @@ asio::awaitable<void> pressing(CoroutineGroup& group, Endpoint server, std::stri
     co_await client.close();
 }
 
+/// Returns a number from 0 to `size` − 1. For i = 0, 1, 2, … and an irrational `step`, the numbers are spread evenly.
+int spread(int i, double step, int size) { return static_cast<int>(size * std::fmod(i * step, 1.0)); }
+
+/// A client of a session with frames that asks what its picture shows at many points, one after another. The object
+/// turns before every tenth point, so that the server cannot answer all of them from what it has kept.
+asio::awaitable<void> pointing(CoroutineGroup& group, Endpoint server, std::string polytope, int points,
+                               Latencies& latencies) {
+    constexpr int kWidth = 1280, kHeight = 720;  // the size of frames unless `hello` states another one
+    // M. Roberts, "The unreasonable effectiveness of quasirandom sequences": these steps spread points in a square.
+    constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
+    Client client(group.io, server);
+    co_await client.open(helloFor("frames"), true);
+    co_await client.send(setPolytope(polytope));
+    co_await client.picture(1);
+    for (int i = 0; i < points; ++i) {
+        if (i % 10 == 0) co_await client.key('y');
+        const auto asked = Clock::now();
+        co_await client.pointAt(spread(i, kStepX, kWidth), spread(i, kStepY, kHeight));
+        latencies.push_back(since(asked));
+    }
+    co_await client.close();
+}
+
 /// One of many clients with ten keys per second. Latencies count from the scheduled time of a key, even if a late
 /// picture delays the key.
 asio::awaitable<void> typing(CoroutineGroup& group, Endpoint server, int number, double seconds, Latencies& latencies) {
@@ -155,6 +179,15 @@ void pressKeys(Endpoint server, const std::string& what, const std::string& hell
     group.spawn(pressing(group, server, hello, polytope, seconds, latencies));
     group.run();
     row(what, latencies);
+}
+
+void pointAtPicture(Endpoint server, const std::string& polytope) {
+    constexpr int kPoints = 500;
+    CoroutineGroup group;
+    Latencies latencies;
+    group.spawn(pointing(group, server, polytope, kPoints, latencies));
+    group.run();
+    row("pointing at frames, " + polytope, latencies);
 }
 
 void manySessions(Endpoint server, int count, double seconds) {
@@ -235,6 +268,7 @@ int main(int argc, char** argv) {
             pressKeys(server, "key to slices as JSON, " + name, helloFor("geometry"), name, seconds);
             pressKeys(server, "key to slices as CBOR, " + name, cbor, name, seconds);
         }
+        for (const char* polytope : {"120-cell", "600-cell"}) pointAtPicture(server, polytope);
         for (const char* polytope : {"5-cell", "600-cell"}) allAtOnce(server, polytope, 4, seconds);
         manySessions(server, 200, seconds);
         besideOneThatNeverReads(server, seconds);

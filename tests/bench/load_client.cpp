@@ -69,6 +69,12 @@ asio::awaitable<void> Client::key(char which) {
     co_await picture(next);
 }
 
+asio::awaitable<void> Client::pointAt(int x, int y) {
+    co_await send(R"({"type":"get","what":"at","x":)" + std::to_string(x) + R"(,"y":)" + std::to_string(y) + "}");
+    const std::string_view answer = co_await read();
+    if (!answer.starts_with(R"({"type":"at")")) throw std::runtime_error(std::string(answer.substr(0, 200)));
+}
+
 asio::awaitable<void> Client::close() {
     co_await stream_.async_close(beast::websocket::close_code::normal, use_awaitable);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// A WebSocket client for load tests. It waits for the picture that follows each key press, and counts pictures and
-// bytes.
+// A WebSocket client for load tests. It waits for the picture that follows each key press and for the answer to each
+// question, and counts pictures and bytes.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
@@ -19,7 +19,7 @@ namespace load {
 using Clock = std::chrono::steady_clock;
 using Endpoint = boost::asio::ip::tcp::endpoint;
 
-/// For each key press, the time in seconds until its picture arrived.
+/// For each key press, the time in seconds until its picture arrived; or for each question, until its answer arrived.
 using Latencies = std::vector<double>;
 
 class Client {
@@ -35,6 +35,9 @@ class Client {
     boost::asio::awaitable<void> picture(std::uint64_t wanted);
     /// Presses a key and waits for its picture.
     boost::asio::awaitable<void> key(char which);
+    /// Asks what the picture shows at the point (x, y), in pixels from the upper left corner, and waits for the answer.
+    /// All pictures must have been read.
+    boost::asio::awaitable<void> pointAt(int x, int y);
     boost::asio::awaitable<void> close();
 
     std::uint64_t revision() const { return revision_; }

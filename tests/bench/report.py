@@ -27,6 +27,9 @@ REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
 WHOLE = ("8-cell", "24-cell", "120-cell", "600-cell")
+WHOLE_VARIANTS = {"slices alone": {}, "with the projection": {"projection": "perspective"},
+                  "with a highlighted cell": {"highlight": "cell:1"},
+                  "with both": {"projection": "perspective", "highlight": "cell:1"}}
 STARS = ("small stellated 120-cell", "great stellated 120-cell", "great grand stellated 120-cell")
 TURNS = 5         # for frames
 QUICK_TURNS = 11  # for operations of less than a millisecond
@@ -136,7 +139,7 @@ class Turns:
         return [turn.get((name, way)) for turn in self.vtk]
 
 
-def targets(turns, loaded):
+def targets(turns, loaded, wholes):
     """Prints each performance target with oval4d's figure, the other program's, and the ratio."""
     rows = []
 
@@ -179,6 +182,12 @@ def targets(turns, loaded):
     at_most("1000 idle sessions", 100, loaded["1000 idle sessions"]["more"], " MB")
     many = loaded["200 sessions at 10 keys/s, slices of the 5-cell"]
     at_most("200 sessions at 10 keys/s, 99th percentile", 50, many["p99"], " ms")
+    for name in ("120-cell", "600-cell"):
+        at_most(f"element at a point of a frame over a socket, {name}, median", 10,
+                loaded[f"pointing at frames, {name}"]["median"], " ms")
+    for name in ("24-cell", "120-cell", "600-cell"):
+        at_most(f"frame with the projection and a highlight, {name}, relative to one without", 1.15,
+                whole_ratio(wholes[name], "with both"), "")
     for what in ("frame", "state to json", "state to cbor"):
         worst = max(turn[name]["allocations"][what] for turn in turns.frames for name in REGULAR)
         at_most(f"allocations, {what}", 0, math.floor(worst), "")
@@ -246,21 +255,26 @@ def polytopes():
     print(f"\nbuild ∝ elements^{exponent(built):.2f}")
 
 
-def whole():
+def whole_turns():
+    """Returns for each polytope of WHOLE a list with one entry per turn: the milliseconds of a frame in each of
+    WHOLE_VARIANTS, which are measured one after the other."""
+    return {polytope: [{what: pictures(polytope, frames=20, **settings)["ms"]["frame"]
+                        for what, settings in WHOLE_VARIANTS.items()} for _ in range(TURNS)] for polytope in WHOLE}
+
+
+def whole_ratio(turns, what):
+    """Returns the median of the ratios, in each turn, of a frame in the variant `what` to one with slices alone."""
+    return statistics.median(turn[what] / turn["slices alone"] for turn in turns)
+
+
+def whole(wholes):
     """Prints how much the projection of the whole object and a highlighted element add to a frame."""
     print("\n## The whole object: milliseconds from a state to its frame, 21 slices, 1280 × 720\n\n"
-          "Medians of five turns; in each turn, all variants are measured one after the other.")
-    variants = {"slices alone": {}, "with the projection": {"projection": "perspective"},
-                "with a highlighted cell": {"highlight": "cell:1"},
-                "with both": {"projection": "perspective", "highlight": "cell:1"}}
-    rows = []
-    for polytope in WHOLE:
-        turns = [{what: pictures(polytope, frames=20, **settings)["ms"]["frame"] for what, settings in variants.items()}
-                 for _ in range(5)]
-        plain = statistics.median(turn["slices alone"] for turn in turns)
-        rows.append([polytope, plain, *(statistics.median(turn[what] / turn["slices alone"] for turn in turns)
-                                        for what in list(variants)[1:])])
-    table(["", "slices alone, ms", *(f"{what}, relative" for what in list(variants)[1:])], rows)
+          f"Medians of {TURNS} turns; in each turn, all variants are measured one after the other.")
+    added = list(WHOLE_VARIANTS)[1:]
+    table(["", "slices alone, ms", *(f"{what}, relative" for what in added)],
+          [[polytope, statistics.median(turn["slices alone"] for turn in turns),
+            *(whole_ratio(turns, what) for what in added)] for polytope, turns in wholes.items()])
 
 
 # The functions of vtk_field.py. Between arrays and formulas, only the source of the values differs.
@@ -375,8 +389,9 @@ def two_cores():
 
 def under_load(loaded):
     """Prints the latencies and the memory of a running server."""
-    print("\n## Load: a server and its clients on one machine\n\nMilliseconds from a key to its picture.")
-    table(["", "pictures", "median", "99th percentile", "worst"],
+    print("\n## Load: a server and its clients on one machine\n\nMilliseconds from a key to its picture or, for "
+          "pointing, from a point to the answer that names the element there.")
+    table(["", "pictures or answers", "median", "99th percentile", "worst"],
           [[what, row["pictures"], row["median"], row["p99"], row["worst"]]
            for what, row in loaded.items() if "median" in row])
     table(["", "frames a second"],
@@ -399,10 +414,11 @@ def main():
     print(f"# How fast oval4d is\n\n{os.cpu_count()} cores.")
     turns = Turns() if {"targets", "parts"} & set(wanted) else None
     loaded = load() if {"targets", "load"} & set(wanted) else None
+    wholes = whole_turns() if {"targets", "whole"} & set(wanted) else None
     for name in wanted:
-        {"targets": lambda: targets(turns, loaded), "parts": lambda: parts(turns), "growth": growth,
-         "polytopes": polytopes, "whole": whole, "fields": fields, "export": exports, "drawing": two_cores,
-         "load": lambda: under_load(loaded)}[name]()
+        {"targets": lambda: targets(turns, loaded, wholes), "parts": lambda: parts(turns), "growth": growth,
+         "polytopes": polytopes, "whole": lambda: whole(wholes), "fields": fields, "export": exports,
+         "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
 
 
 if __name__ == "__main__":
