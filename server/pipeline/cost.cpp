@@ -86,11 +86,15 @@ EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport
 }
 
 EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality) {
-    const double n = elementTotal(state.object);
     const double cubes = slicing::cubesAcross(quality);
     const double field = surfaceSeconds(state, state.slices.count, cubes, quality) +
                          fogSeconds(state, state.slices.count, 2 * cubes, 0, quality);
-    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n) + field);
+    return pointCost(state) + EstimatedSeconds(field);
+}
+
+EstimatedSeconds pointCost(const session::State& state) {
+    const double n = elementTotal(state.object);
+    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n));
 }
 
 EstimatedSeconds focusSectionCost(const session::State& state) {

@@ -20,6 +20,9 @@ EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport
 /// Returns the estimated time of Pipeline::slice() and Pipeline::writeSlices() together.
 EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality);
 
+/// Returns the estimated time of Pipeline::describePoint().
+EstimatedSeconds pointCost(const session::State& state);
+
 /// Returns the estimated time of Pipeline::nameFocusSection().
 EstimatedSeconds focusSectionCost(const session::State& state);
 

@@ -47,16 +47,25 @@ void Pipeline::writeSlices(const session::State& state, const slicing::SliceSet&
         measureSeconds([&] { workspace_.slicesWriter.write(workspace_.scene, revision, id, encoding, out, quality); });
 }
 
-std::string Pipeline::describePoint(const session::State& state, const slicing::SliceSet& slices,
-                                    std::uint64_t revision, std::optional<double> id, scene::Viewport viewport,
-                                    glm::dvec2 point) {
+std::string Pipeline::describePoint(const session::State& state, std::uint64_t revision, std::optional<double> id,
+                                    scene::Viewport viewport, glm::dvec2 point) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
-    // pickElement() does not use the triangles that fill faces, nor the contours.
-    workspace_.composer.limitFaceFilling(0);
-    workspace_.composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport,
-                                workspace_.scene, slicing::Quality::draft);
+    workspace_.composer.compose(state.object, state.orientation, sliceToPointAt(state), state.slices.focus, state.look,
+                                viewport, workspace_.scene, slicing::Quality::full, scene::ScenePurpose::pointing);
     return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),
                            scene::matrixPointAt(workspace_.scene, point), workspace_.scene, state.object, revision, id);
+}
+
+const slicing::SliceSet& Pipeline::sliceToPointAt(const session::State& state) {
+    auto& [input, slices] = workspace_.toPointAt;
+    SlicesToPointAt::Input wanted{slicing::infoOf(state.object).serial, state.orientation, state.hyperplanes()};
+    if (input != wanted) {
+        input.reset();  // in case of an exception
+        slicing::checkSliceEdges(state.object, state.orientation, wanted.planes, limits_.sliceEdges);
+        workspace_.slicer.sliceWithoutSurfaces(state.object, state.orientation, wanted.planes, slices);
+        input = std::move(wanted);
+    }
+    return slices;
 }
 
 void Pipeline::drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,

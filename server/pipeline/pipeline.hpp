@@ -62,10 +62,11 @@ class Pipeline {
                      slicing::Quality quality = slicing::Quality::full);
 
     /// Returns the `at` message, which says what the picture shows at `point`, in pixels from the upper left corner
-    /// (see scene::pickElement()). `slices`: the result of slice() for this state. `revision` and `id`: see
-    /// writeSlices().
-    std::string describePoint(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
-                              std::optional<double> id, scene::Viewport viewport, glm::dvec2 point);
+    /// (see scene::pickElement()). `revision` and `id`: see writeSlices(). Slices the object, unless the last call has
+    /// cut the same slices; does not evaluate the function of a field. Throws slicing::TooManySliceEdges as slice()
+    /// does.
+    std::string describePoint(const session::State& state, std::uint64_t revision, std::optional<double> id,
+                              scene::Viewport viewport, glm::dvec2 point);
 
     /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
     /// chunk. Overwrites `out`. Calls `drawn`, if given, when the picture is drawn but not yet encoded. Throws
@@ -86,17 +87,33 @@ class Pipeline {
     const PictureTimes& times() const { return times_; }
 
   private:
+    // The slices of the last describePoint(), without the surfaces and the fog of a field, and all that determines
+    // them.
+    struct SlicesToPointAt {
+        struct Input {
+            std::uint64_t object = 0;  // the serial number
+            geometry::Rotation orientation;
+            geometry::Hyperplanes planes;
+            bool operator==(const Input&) const = default;
+        };
+        std::optional<Input> input;  // empty if `slices` is not valid
+        slicing::SliceSet slices;
+    };
+
     // Memory that the next call reuses.
     struct Workspace {
         explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
         slicing::Slicer slicer;
         slicing::SurfaceDetail detail;
+        SlicesToPointAt toPointAt;
         FocusSectionNamer sectionNamer;
         scene::Composer composer;
         scene::Scene scene;
         wire::SlicesMessageWriter slicesWriter;
         image::PngEncoder encoder;
     };
+
+    const slicing::SliceSet& sliceToPointAt(const session::State& state);
 
     const std::unique_ptr<raster::Rasterizer> rasterizer_;
     parallel::ForkJoin* const forkJoin_;

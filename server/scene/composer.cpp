@@ -81,7 +81,9 @@ void Composer::layOutAndChooseDetail(const Object& object, const geometry::Hyper
 }
 
 void Composer::compose(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int focus,
-                       const Look& look, Viewport viewport, Scene& out, slicing::Quality quality) {
+                       const Look& look, Viewport viewport, Scene& out, slicing::Quality quality,
+                       ScenePurpose purpose) {
+    const bool draws = purpose == ScenePurpose::drawing;
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     setObjectLookAndViewport(object, look, viewport, out);
     const bool objectChanged = std::exchange(objectChanged_, false);
@@ -108,8 +110,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.scale = out.sliceRadius / info.circumradius;
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    std::size_t fillSteps = fillSteps_;
-    if (out.needsDepthBuffer && !isField && look.parts.faces)
+    std::size_t fillSteps = draws ? fillSteps_ : 0;  // a projection that is not drawn is filled roughly
+    if (draws && out.needsDepthBuffer && !isField && look.parts.faces)
         fillSteps = filler_.fill(slices, info.circumradius, out.fill, fillSteps);
     out.fillCells.clear();
     for (const slicing::FilledFaces::Face& face : out.fill.faces)
@@ -117,10 +119,10 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, fillSteps, out);
     if (out.matrix.shown) {
         cutSectionMatrix(object, orientation, focus, out);
-        traceContours(object, orientation, quality, out);
+        if (draws) traceContours(object, orientation, quality, out);
     }
-    if (out.showsDensity()) measureDensity(orientation, out);
-    if (out.showsHistogram()) measureFieldHistograms(object, orientation, out);
+    if (draws && out.showsDensity()) measureDensity(orientation, out);
+    if (draws && out.showsHistogram()) measureFieldHistograms(object, orientation, out);
 }
 
 // Finds the slice elements that show the highlighted element. Gives a highlighted cell the highlight color.

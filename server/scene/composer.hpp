@@ -23,6 +23,13 @@
 
 namespace oval4d::scene {
 
+/// What a scene is composed for.
+enum class ScenePurpose : std::uint8_t {
+    drawing,   ///< to be drawn or written
+    pointing,  ///< only for pickElement() and matrixPointAt(), which need no filled faces, contours, tones or
+               ///< histograms
+};
+
 /// Composes scenes. Reuses its working memory, and caches data that stay the same from one scene to the next. All calls
 /// must pass the same Scene object, because it holds part of the cached data. Only one thread at a time may use a
 /// composer.
@@ -34,11 +41,12 @@ class Composer {
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
     /// index n of the focus slice (see SlicePlacement::index). `quality` is the quality of the contours of a field in
-    /// the matrix. Overwrites `out` and reuses its memory. `out` keeps a pointer to `slices`; `slices` must outlive
-    /// `out`.
+    /// the matrix. If `purpose` is ScenePurpose::pointing, the parts that this purpose does not need are not valid in
+    /// `out`, and `slices` may lack the surfaces and the fog of a field. Overwrites `out` and reuses its memory. `out`
+    /// keeps a pointer to `slices`; `slices` must outlive `out`.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
                  int focus, const Look& look, Viewport viewport, Scene& out,
-                 slicing::Quality quality = slicing::Quality::full);
+                 slicing::Quality quality = slicing::Quality::full, ScenePurpose purpose = ScenePurpose::drawing);
 
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
     /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,

@@ -209,7 +209,7 @@ asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> pe
     try {
         OutgoingMessage picture = co_await runOnPool<OutgoingMessage>(
             services_.pictureWorkers, requestedJob(key, id, point), streams_->jobQueuesOf(peer->client()).pictures,
-            pictureCost(session_.current, key, slicing::Quality::full));
+            point ? pipeline::pointCost(session_.current) : pictureCost(session_.current, key, slicing::Quality::full));
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
     } catch (const parallel::QueueFull&) {
@@ -227,12 +227,10 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob
     const SnapshotPtr known = streams_->currentFullSnapshot();
     return [known, state = session_.current, askedRevision = revision(), changed = streams_->lastChangeTime(), key, id,
             point, &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+        if (point) return textMessage(pipeline.describePoint(state, askedRevision, id, key.viewport, *point));
         const SnapshotPtr snapshot =
             suffices(known, key) ? known
                                  : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);
-        if (point)
-            return textMessage(
-                pipeline.describePoint(state, snapshot->slices, askedRevision, id, key.viewport, *point));
         OutgoingMessage picture = makePicture(pipeline, *snapshot, key, id);
         metrics.observe(pipeline.times());
         return picture;
