@@ -150,8 +150,11 @@ class Picker {
               const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
         points_.clear();
-        for (std::uint32_t v = v0; v < set.vertexBegin[i + 1]; ++v)
+        pixels_.clear();
+        for (std::uint32_t v = v0; v < set.vertexBegin[i + 1]; ++v) {
             points_.emplace_back(view_ * glm::dvec4(position + scale * set.vertices[v], 1));
+            pixels_.push_back(pixelOf(points_.back()));
+        }
         const auto isHidden = [](Visibility visibility) { return visibility == Visibility::hidden; };
         const auto add = [&](double depth, const Element& element) {
             if (depth >= nearest_ || depth < scene_.camera.near) return;
@@ -163,14 +166,15 @@ class Picker {
             if (isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
             const glm::dvec3& center = points_[v - v0];
             const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
-            if (isWithin(glm::distance(pixelOf(center), pixel_), sizes.ball * own, -center.z))
+            if (isWithin(glm::distance(pixels_[v - v0], pixel_), sizes.ball * own, -center.z))
                 add(-center.z - sizes.ball * own,
                     elementOf(set.vertexSource[v], ElementKind::edge, counts_[1], ElementKind::vertex));
         }
         for (std::uint32_t e = e0; sizes.bar > 0 && e < set.edgeBegin[i + 1]; ++e) {
             if (isHidden(scene_.visibilities.edge(set.edgeSource[e]))) continue;
-            const glm::dvec3 &a = points_[set.edges[e][0]], &b = points_[set.edges[e][1]];
-            const glm::dvec2 from = pixelOf(a), along = pixelOf(b) - from;
+            const auto& [start, end] = set.edges[e];
+            const glm::dvec3 &a = points_[start], &b = points_[end];
+            const glm::dvec2 from = pixels_[start], along = pixels_[end] - from;
             const double length = glm::dot(along, along);
             const double t = length > 0 ? std::clamp(glm::dot(pixel_ - from, along) / length, 0.0, 1.0) : 0;
             const double depth = -(a.z + t * (b.z - a.z));
@@ -206,11 +210,11 @@ class Picker {
         for (std::uint32_t loop = firstLoop; loop < endLoop; ++loop) {
             const std::uint32_t begin = set.cornerBegin[loop], end = set.cornerBegin[loop + 1];
             for (std::uint32_t c = begin; c < end; ++c) {
-                const glm::dvec3& p = points_[set.corners[c]];
-                const glm::dvec3& q = points_[set.corners[c + 1 < end ? c + 1 : begin]];
+                const std::uint32_t corner = set.corners[c], next = set.corners[c + 1 < end ? c + 1 : begin];
+                const glm::dvec3 &p = points_[corner], &q = points_[next];
                 area += glm::cross(p, q);
                 if (p.z >= 0 || q.z >= 0) return std::nullopt;
-                const glm::dvec2 a = pixelOf(p) - pixel_, b = pixelOf(q) - pixel_;
+                const glm::dvec2 a = pixels_[corner] - pixel_, b = pixels_[next] - pixel_;
                 const double cross = a.x * b.y - a.y * b.x;
                 if (a.y <= 0 && b.y > 0 && cross > 0) ++winding;
                 if (a.y > 0 && b.y <= 0 && cross < 0) --winding;
@@ -229,7 +233,10 @@ class Picker {
     glm::dvec2 size_, pixel_;  // pixels are measured from the lower left corner
     double focalLength_ = 0;
     glm::dvec3 ray_;
+    // Per vertex of the slice or part that pick() looks at: its view coordinates and its pixel. The pixel is
+    // meaningless for a vertex that is not in front of the eye.
     std::vector<glm::dvec3> points_;
+    std::vector<glm::dvec2> pixels_;
     double nearest_ = std::numeric_limits<double>::max();  // the depth of picked_
     std::optional<PickedElement> picked_;
 };
