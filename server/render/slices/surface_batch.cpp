@@ -108,6 +108,20 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         }
         return number_[point];
     };
+    // The triangles of a cap in one wall share vertices. Their normals are equal except for rounding, which changes the
+    // light less than one step of a color; where walls meet, each wall gets vertices of its own.
+    if (level.caps) capNumber_.assign(surface.points.size(), kNone);
+    const auto capVertex = [&](std::uint32_t point, const glm::vec3& flat) {
+        constexpr float kSame = 5e-4F;
+        std::uint32_t& number = capNumber_[point];
+        const bool isKnown = number != kNone && glm::length(vertices_[number].normal - flat) < kSame;
+        if (!isKnown) {
+            number = static_cast<std::uint32_t>(vertices_.size());
+            vertices_.push_back(
+                {projection_.clipXyw(points_[point]), flat, colorOf(scene, slice, level, true, point, alpha)});
+        }
+        return number;
+    };
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
         if (surface.levelIndex(t) != level.index || (surface.isCap(t) && !level.caps)) continue;
         const auto& [a, b, c] = surface.triangles[t];
@@ -121,11 +135,7 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         std::vector<std::uint32_t>& indices = isBack ? out : facing_;
         if (surface.isCap(t)) {
             const glm::vec3 flat = glm::normalize(isBack ? -normal : normal);
-            for (const std::uint32_t point : {a, b, c}) {
-                indices.push_back(static_cast<std::uint32_t>(vertices_.size()));
-                vertices_.push_back(
-                    {projection_.clipXyw(points_[point]), flat, colorOf(scene, slice, level, true, point, alpha)});
-            }
+            for (const std::uint32_t point : {a, b, c}) indices.push_back(capVertex(point, flat));
         } else {
             for (const std::uint32_t point : {a, b, c}) indices.push_back(vertex(point));
         }

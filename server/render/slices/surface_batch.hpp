@@ -72,6 +72,8 @@ class SurfaceBatch {
     std::vector<std::size_t> translucentEnds_;
     std::vector<glm::vec3> points_, normals_;  // those of the current slice, in view coordinates
     std::vector<std::uint32_t> number_;        // per point of the slice: its index in vertices_, or kNone
+    // Per point of the slice: the index in vertices_ of the vertex of a cap that was last made at this point, or kNone.
+    std::vector<std::uint32_t> capNumber_;
     std::vector<SurfaceVertex> vertices_;
     // Three indices of vertices per triangle. facing_ has the triangles of the current level that face the eye.
     std::vector<std::uint32_t> opaqueIndices_, translucentIndices_, facing_, fringes_;
