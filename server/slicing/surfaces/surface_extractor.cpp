@@ -580,67 +580,72 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
 }
 
 // Moves each point of the current level onto the level set and the walls in its constraint mask (see constraints_), and
-// appends the points to `out`.
+// appends the points to `out`. The points of a batch make all their steps before those of the next batch, because the
+// samples of an array that one step reads are then still in the cache when the next step reads them again.
 void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section,
                                              SliceSurface& out) {
     constexpr int kRimSteps = 2;  // Newton steps of points on rims, whose first positions may be far off
     starts_ = positions_;
-    moving_.clear();
-    for (std::uint32_t i = 0; i < positions_.size(); ++i) {
-        if ((constraints_[i] & kOnLevel) != 0) {
-            moving_.push_back(i);
-        } else {
-            moveBy(constrainedStep(section, i), i);
-        }
-    }
-    approachLevel(function, section);
-    // Points that have left the domain through a wall belong to the rim: this wall becomes one of their constraints.
-    for (const std::uint32_t i : moving_) {
-        for (std::size_t wall = 0; wall < section.walls.size(); ++wall) {
-            const auto& [normal, offset] = section.walls[wall];
-            if (glm::dot(normal, positions_[i]) - offset > kOnWall * step_)
-                constraints_[i] |= static_cast<std::uint16_t>(1U << wall);
-        }
-    }
-    std::erase_if(moving_, [&](std::uint32_t i) { return (constraints_[i] & kWalls) == 0; });
-    for (int i = 1; i < kRimSteps; ++i) approachLevel(function, section);
-
+    std::size_t next = out.points.size();  // the index in `out` of the next point
+    const std::size_t end = next + positions_.size();
+    out.points.resize(end);
+    out.normals.resize(end);
+    out.growth.resize(end);
+    out.values.resize(end);
     Evaluation at;
     for (std::size_t begin = 0; begin < positions_.size(); begin += FunctionPoints::kCapacity) {
         const std::size_t size = std::min(FunctionPoints::kCapacity, positions_.size() - begin);
+        moving_.clear();
+        for (std::size_t k = begin; k < begin + size; ++k) {
+            const auto i = static_cast<std::uint32_t>(k);
+            if ((constraints_[i] & kOnLevel) != 0) {
+                moving_.push_back(i);
+            } else {
+                moveBy(constrainedStep(section, i), i);
+            }
+        }
+        approachLevel(function, section, at);
+        // Points that have left the domain through a wall belong to the rim: this wall becomes one of their
+        // constraints.
+        for (const std::uint32_t i : moving_) {
+            for (std::size_t wall = 0; wall < section.walls.size(); ++wall) {
+                const auto& [normal, offset] = section.walls[wall];
+                if (glm::dot(normal, positions_[i]) - offset > kOnWall * step_)
+                    constraints_[i] |= static_cast<std::uint16_t>(1U << wall);
+            }
+        }
+        std::erase_if(moving_, [&](std::uint32_t i) { return (constraints_[i] & kWalls) == 0; });
+        for (int i = 1; i < kRimSteps; ++i) approachLevel(function, section, at);
+
         for (std::size_t i = 0; i < size; ++i) at.points.setPoint(i, section, positions_[begin + i]);
         at.evaluate(function, size);
-        for (std::size_t i = 0; i < size; ++i) {
+        for (std::size_t i = 0; i < size; ++i, ++next) {
             const glm::dvec3 slope = at.slope(section, i);
             const double length = glm::length(slope);
             const bool valid = length > 0 && std::isfinite(length);
-            out.points.emplace_back(positions_[begin + i]);
-            out.normals.emplace_back(valid ? slope * (sign_ / length) : glm::dvec3(0, 0, 1));
-            out.growth.push_back(valid ? static_cast<float>(-sign_ * glm::dot(at.gradient(i), section.normal) / length)
-                                       : kInfinity);
-            out.values.push_back(at.values[i]);
+            out.points[next] = glm::vec3(positions_[begin + i]);
+            out.normals[next] = glm::vec3(valid ? slope * (sign_ / length) : glm::dvec3(0, 0, 1));
+            out.growth[next] =
+                valid ? static_cast<float>(-sign_ * glm::dot(at.gradient(i), section.normal) / length) : kInfinity;
+            out.values[next] = at.values[i];
         }
     }
 }
 
-// Makes one step of Newton's method for the points `moving_`, toward the level set and the walls in their constraint
-// masks.
-void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section) {
-    Evaluation at;
-    for (std::size_t begin = 0; begin < moving_.size(); begin += FunctionPoints::kCapacity) {
-        const std::span<const std::uint32_t> batch =
-            std::span(std::as_const(moving_))
-                .subspan(begin, std::min(FunctionPoints::kCapacity, moving_.size() - begin));
-        for (std::size_t i = 0; i < batch.size(); ++i) at.points.setPoint(i, section, positions_[batch[i]]);
-        at.evaluate(function, batch.size());
-        for (std::size_t i = 0; i < batch.size(); ++i) {
-            ConstrainedStep step = constrainedStep(section, batch[i]);
-            const glm::dvec3 slope = at.slope(section, i);
-            const double length = glm::length(slope);
-            if (length > 0 && std::isfinite(length) && std::isfinite(at.values[i]))
-                step.add(slope / length, (at.values[i] - level_) / length);
-            moveBy(step, batch[i]);
-        }
+// Makes one step of Newton's method for the points `moving_`, of which there are at most FunctionPoints::kCapacity,
+// toward the level set and the walls in their constraint masks. Overwrites `at`.
+void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section,
+                                     Evaluation& at) {
+    if (moving_.empty()) return;
+    for (std::size_t i = 0; i < moving_.size(); ++i) at.points.setPoint(i, section, positions_[moving_[i]]);
+    at.evaluate(function, moving_.size());
+    for (std::size_t i = 0; i < moving_.size(); ++i) {
+        ConstrainedStep step = constrainedStep(section, moving_[i]);
+        const glm::dvec3 slope = at.slope(section, i);
+        const double length = glm::length(slope);
+        if (length > 0 && std::isfinite(length) && std::isfinite(at.values[i]))
+            step.add(slope / length, (at.values[i] - level_) / length);
+        moveBy(step, moving_[i]);
     }
 }
 

@@ -114,7 +114,7 @@ class SurfaceExtractor {
     LatticeEdgeCrossing crossing(const FieldSection& section, std::uint8_t walls, const CubeCorner& inner,
                                  float atInner, const CubeCorner& outer, float atOuter) const;
     void movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section, SliceSurface& out);
-    void approachLevel(const fields::ScalarFunction& function, const FieldSection& section);
+    void approachLevel(const fields::ScalarFunction& function, const FieldSection& section, Evaluation& at);
     ConstrainedStep constrainedStep(const FieldSection& section, std::uint32_t point) const;
     void moveBy(const ConstrainedStep& step, std::uint32_t point);
     void addTriangles(std::size_t level, SliceSurface& out);
@@ -159,7 +159,7 @@ class SurfaceExtractor {
     std::vector<CrossedCube> cubes_;     // the cubes through which the surface of the current level passes
     // Per point of the current level: its position, and its position before it was moved.
     std::vector<glm::dvec3> positions_, starts_;
-    std::vector<std::uint32_t> moving_;  // the points that are being moved onto the level set
+    std::vector<std::uint32_t> moving_;  // the points of a batch that are being moved onto the level set
     // The triangles of the caps of the current level. In the result, they follow the other triangles of this level.
     std::vector<std::array<std::uint32_t, 3>> caps_;
     std::vector<std::uint16_t> constraints_;  // per point of the current level: a constraint mask
