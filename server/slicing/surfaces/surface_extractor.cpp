@@ -601,7 +601,7 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
             if ((constraints_[i] & kOnLevel) != 0) {
                 moving_.push_back(i);
             } else {
-                moveBy(constrainedStep(section, i), i);
+                moveBy(constrainedStep(section, i).solve(), i);
             }
         }
         approachLevel(function, section, at);
@@ -640,12 +640,18 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
     for (std::size_t i = 0; i < moving_.size(); ++i) at.points.setPoint(i, section, positions_[moving_[i]]);
     at.evaluate(function, moving_.size());
     for (std::size_t i = 0; i < moving_.size(); ++i) {
-        ConstrainedStep step = constrainedStep(section, moving_[i]);
+        const std::uint32_t point = moving_[i];
         const glm::dvec3 slope = at.slope(section, i);
-        const double length = glm::length(slope);
-        if (length > 0 && std::isfinite(length) && std::isfinite(at.values[i]))
-            step.add(slope / length, (at.values[i] - level_) / length);
-        moveBy(step, moving_[i]);
+        const double square = glm::dot(slope, slope), excess = at.values[i] - level_;
+        const bool valid = square > 0 && std::isfinite(square) && std::isfinite(excess);
+        if ((constraints_[point] & kWalls) == 0) {
+            // The step of most points, which ConstrainedStep would compute with several more divisions and roots.
+            if (valid) moveBy(slope * (-excess / square), point);
+            continue;
+        }
+        ConstrainedStep step = constrainedStep(section, point);
+        if (valid) step.add(slope / std::sqrt(square), excess / std::sqrt(square));
+        moveBy(step.solve(), point);
     }
 }
 
@@ -661,8 +667,8 @@ ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, s
 
 // Moves a point by a Newton step. If the point would be more than one lattice step from its start along an axis, moves
 // it back to its start instead, because the linear approximation does not hold so far away.
-void SurfaceExtractor::moveBy(const ConstrainedStep& step, std::uint32_t point) {
-    const glm::dvec3 next = positions_[point] + step.solve();
+void SurfaceExtractor::moveBy(const glm::dvec3& step, std::uint32_t point) {
+    const glm::dvec3 next = positions_[point] + step;
     const glm::dvec3 moved = glm::abs(next - starts_[point]);
     positions_[point] = std::max({moved.x, moved.y, moved.z}) <= step_ ? next : starts_[point];
 }

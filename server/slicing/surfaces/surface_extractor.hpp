@@ -116,7 +116,7 @@ class SurfaceExtractor {
     void movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section, SliceSurface& out);
     void approachLevel(const fields::ScalarFunction& function, const FieldSection& section, Evaluation& at);
     ConstrainedStep constrainedStep(const FieldSection& section, std::uint32_t point) const;
-    void moveBy(const ConstrainedStep& step, std::uint32_t point);
+    void moveBy(const glm::dvec3& step, std::uint32_t point);
     void addTriangles(std::size_t level, SliceSurface& out);
 
     std::uint32_t index(glm::ivec3 point) const {
