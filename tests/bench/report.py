@@ -336,7 +336,8 @@ def fields():
 
 def field_growth(settings):
     """Prints how the time of a picture grows if an array has twice as many samples along each axis, and if a picture is
-    twice as wide and high, so that its surfaces need four times as many points; and the memory."""
+    twice as wide and high, so that its surfaces need four times as many points; and the memory: that of the whole
+    program, and how much of it grows with the array."""
     small, large = 48, 96
     rows = []
     for field in FIELDS:
@@ -346,12 +347,15 @@ def field_growth(settings):
                 sampled(field, file, side)
             turns = [(pictures(files[small], frames=12, **settings), pictures(files[large], frames=12, **settings),
                       pictures(files[small], width=2560, height=1440, frames=12, **settings)) for _ in range(3)]
-            of_array = files[large].stat().st_size
+            of_array = {side: file.stat().st_size for side, file in files.items()}
         rows.append([field, *(statistics.median(turn[i]["ms"]["frame"] for turn in turns) for i in range(3)),
                      *(statistics.median(turn[i]["ms"]["frame"] / turn[0]["ms"]["frame"] for turn in turns) for i in (1, 2)),
-                     max(turn[1]["memory"] for turn in turns) / of_array])
+                     max(turn[1]["memory"] for turn in turns) / of_array[large],
+                     statistics.median(turn[1]["memory"] - turn[0]["memory"] for turn in turns)
+                     / (of_array[large] - of_array[small])])
     table([f"milliseconds from a state to its PNG, {small}⁴ samples", "1280 × 720", f"{large}⁴ samples", "2560 × 1440",
-           "ratio, samples", "ratio, pixels", f"memory of the program ÷ array of {large}⁴"], rows)
+           "ratio, samples", "ratio, pixels", f"memory of the program ÷ array of {large}⁴",
+           "growth of the memory ÷ growth of the array"], rows)
     print("\nTargets: ratios ≤ 5, memory ≤ 1.25.")
 
 
