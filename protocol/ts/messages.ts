@@ -401,6 +401,10 @@ export interface SetRequest {
      */
     revision?: number;
     /**
+     * Ignored. Allowed so that a state can be sent back as a set.
+     */
+    object_serial?: number;
+    /**
      * Whether the change belongs to the undo step of the previous command, as the parts of one gesture do.
      */
     continues?: boolean;
@@ -1094,6 +1098,10 @@ export interface State {
      * The number of changes of the session's state so far.
      */
     revision: number;
+    /**
+     * The serial number of the object that is shown, as it was built or loaded: states with equal numbers show the same object, only with other settings. Absent in pictures that belong to no session.
+     */
+    object_serial?: number;
     /**
      * Present if the surfaces of a field are coarser than usual, because it turns or changes quickly. A picture of the same revision without it follows once the field rests.
      */

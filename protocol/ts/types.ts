@@ -15,7 +15,10 @@ export interface Viewport {
 }
 
 /** The settings that a message `set` changes. Settings that it lacks keep their values. */
-export type Settings = Omit<SetRequest, "type" | "id" | "continues" | "revision" | "draft" | "moving" | "section">;
+export type Settings = Omit<
+    SetRequest,
+    "type" | "id" | "continues" | "revision" | "object_serial" | "draft" | "moving" | "section"
+>;
 /** Which parts of the picture are drawn. */
 export type Parts = State["shown"];
 /** How the viewer has moved the camera: the angles by which it was turned about its target, and the magnification. */

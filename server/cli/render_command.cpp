@@ -26,7 +26,7 @@ void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin,
                                 {.sliceEdges = std::numeric_limits<std::size_t>::max()});
     std::vector<std::uint8_t> png;
-    pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
+    pipeline.drawPng(state, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(state)), viewport,
                      slicing::Quality::full, png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }

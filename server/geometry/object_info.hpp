@@ -19,7 +19,7 @@ struct CellType {
 /// The properties that 4-D objects of all kinds (see slicing::Object) have.
 struct ObjectInfo {
     std::string name;
-    std::uint64_t serial = 0;    ///< unique among the objects in this process; the key of an object in caches
+    std::uint64_t serial = 0;    ///< unique among the objects of all processes; the key of an object in caches
     double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin; for a point cloud
                                  ///< without extent, see makePointCloud()
     glm::dvec4 originInFile{0};  ///< the point of the object's file that became the origin of the object, in the
@@ -31,7 +31,8 @@ struct ObjectInfo {
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };
 
-/// Returns a new value for ObjectInfo::serial: 1, 2, 3 … in this process. Thread-safe.
+/// Returns a new value for ObjectInfo::serial, from 1 to 2^53 − 1. The values in a process are successive integers from
+/// a random start, so that two processes have, almost certainly, no value in common. Thread-safe.
 std::uint64_t nextSerial();
 
 }  // namespace oval4d::geometry

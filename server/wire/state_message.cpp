@@ -166,14 +166,15 @@ void writeSettings(JsonWriter& w, const session::State& state) {
     continueIn({});
 }
 
-}  // namespace
-
-void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out, slicing::Quality quality, scene::Scheme viewer) {
+// Writes the message to `out`, without the serial number of the object if `serial` is empty.
+void writeState(std::string& out, const session::State& state, const slicing::SectionNamePair& section,
+                std::uint64_t revision, std::optional<std::uint64_t> serial, std::optional<double> id,
+                slicing::Quality quality, scene::Scheme viewer) {
     const scene::Scheme scheme = scene::schemeOn(state.look.background, viewer);
     JsonWriter w(out);
     beginMessage(w, "state", id);
     w.member("revision", revision);
+    if (serial) w.member("object_serial", *serial);
     if (quality == slicing::Quality::draft) w.member("draft", true);
     writeObject(w, state.object, scheme);
     if (const fields::Field* const field = slicing::fieldIn(state.object)) writeField(w, *field, state.look, scheme);
@@ -191,12 +192,27 @@ void stateMessage(const session::State& state, const slicing::SectionNamePair& s
     w.endObject();
 }
 
+constexpr std::size_t kTypicalBytes = 1024;
+
+}  // namespace
+
+void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
+                  std::optional<double> id, std::string& out, slicing::Quality quality, scene::Scheme viewer) {
+    writeState(out, state, section, revision, slicing::infoOf(state.source).serial, id, quality, viewer);
+}
+
 std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                          std::optional<double> id, slicing::Quality quality, scene::Scheme viewer) {
-    constexpr std::size_t kTypicalBytes = 1024;
     std::string out;
     out.reserve(kTypicalBytes);
     stateMessage(state, section, revision, id, out, quality, viewer);
+    return out;
+}
+
+std::string stateMessageOutsideSessions(const session::State& state, const slicing::SectionNamePair& section) {
+    std::string out;
+    out.reserve(kTypicalBytes);
+    writeState(out, state, section, 0, {}, {}, slicing::Quality::full, scene::Scheme::dark);
     return out;
 }
 

@@ -16,7 +16,7 @@ import { pngText } from "./node_modules/.oval4d/client.mjs";
 
 const kPythonClient = new URL("../../protocol/python", import.meta.url).pathname;
 
-const comparable = ({ id, revision, ...state }) => state;
+const comparable = ({ id, revision, object_serial, ...state }) => state;
 
 /** The state after `act`, starting from the same state for each comparison: the initial one, changed and rotated. */
 async function outcome(script, initial, { action, needs }, act) {

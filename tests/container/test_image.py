@@ -93,7 +93,7 @@ def test_the_server_in_the_image_draws_the_same_pictures(built_image):
             for key in "yrtk2":
                 await client.request("key", key=key)
             state = await client.request("get", what="state")
-            return {**state, "id": 0}, png.pixels(await client.request_frame())
+            return {**state, "id": 0, "object_serial": 0}, png.pixels(await client.request_frame())
 
     with contextlib.ExitStack() as stack:
         inside = stack.enter_context(

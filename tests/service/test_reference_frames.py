@@ -156,7 +156,7 @@ async def test_a_frame_survives_a_restart(tmp_path):
     with Server("--store", store) as server:
         async with Client(server, session=welcome["session"], token=welcome["token"]) as client:
             for one, other in zip(before, [await state_of(client), await slices_of(client)]):
-                assert {**one, "id": 0} == {**other, "id": 0}
+                assert {**one, "id": 0, "object_serial": 0} == {**other, "id": 0, "object_serial": 0}
             await client.request("undo")
             state = await state_of(client)
             assert (state["polytope"]["name"], state["follow"], state["pace"]) == ("field", [0.3, 0, 0], 1)

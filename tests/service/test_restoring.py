@@ -34,7 +34,8 @@ def put_state(server, welcome, body, path="state", token=None):
 
 def settings(state):
     """Returns the settings of a state, with the orientation rounded: a matrix and its rotation differ by about 1e-16."""
-    kept = {name: value for name, value in state.items() if name not in ("revision", "id", "type", "moving", "draft")}
+    others = ("revision", "object_serial", "id", "type", "moving", "draft")
+    kept = {name: value for name, value in state.items() if name not in others}
     return kept | {"orientation": numpy.round(state["orientation"], 12).tolist()}
 
 

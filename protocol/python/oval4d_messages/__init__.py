@@ -571,6 +571,9 @@ class State(_State, total=False):
     contains it in the iTXt chunk "oval4d"."""
     # The id of the request that this message answers; absent if it had none.
     id: float
+    # The serial number of the object that is shown, as it was built or loaded: states with equal numbers show the same
+    # object, only with other settings. Absent in pictures that belong to no session.
+    object_serial: int
     # Present if the surfaces of a field are coarser than usual, because it turns or changes quickly. A picture of the
     # same revision without it follows once the field rests.
     draft: Literal[True]
@@ -1045,6 +1048,8 @@ class SetRequest(_SetRequest, Settings, total=False):
     id: float
     # Ignored. Allowed so that a state can be sent back as a set.
     revision: int
+    # Ignored. Allowed so that a state can be sent back as a set.
+    object_serial: int
     # Ignored. Allowed so that a state can be sent back as a set.
     draft: bool
     # Ignored. Allowed so that a state can be sent back as a set.

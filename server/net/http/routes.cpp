@@ -98,7 +98,7 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
         auto held = client->byteAccount().reserve(image::byteCount(viewport.width, viewport.height));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(state, wire::stateMessage(state, pipeline.nameFocusSection(state), 0), viewport,
+        pipeline.drawPng(state, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(state)), viewport,
                          slicing::Quality::full, png);
         metrics.observe(pipeline.times());
         held->forceResize(png.capacity());

@@ -1,4 +1,5 @@
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -96,6 +97,21 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_FALSE(fitting(wire::stateMessage(session::initialState(), {}, 0)).contains("draft"));
     EXPECT_EQ(fitting(wire::stateMessage(session::initialState(), {}, 0, {}, slicing::Quality::draft)).at("draft"),
               true);
+}
+
+TEST(StateMessage, HasTheSerialNumberOfTheSourceInSessionsOnly) {
+    Session session;
+    const auto serial = [&] { return fitting(wire::stateMessage(session.current, {}, 1)).at("object_serial"); };
+    const json before = serial();
+    EXPECT_EQ(before, slicing::infoOf(session.current.source).serial);
+    EXPECT_LE(before.get<std::uint64_t>(), std::uint64_t{1} << 53U) << "as a 64-bit float";
+    ASSERT_TRUE(apply(session, session::CommandLine{"set pace=2"}));
+    EXPECT_NE(slicing::infoOf(session.current.object).serial, slicing::infoOf(session.current.source).serial);
+    EXPECT_EQ(serial(), before) << "the frame of reference does not change the object";
+
+    json message = fitting(wire::stateMessage(session.current, {}, 0));
+    message.erase("object_serial");
+    EXPECT_EQ(fitting(wire::stateMessageOutsideSessions(session.current, {})), message);
 }
 
 TEST(StateMessage, HasTheColorsThatTheViewerSees) {
