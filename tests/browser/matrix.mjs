@@ -1,7 +1,7 @@
 // The matrix of planar sections: the elements under the pointer in its panels, and the focus point that they move.
 import assert from "node:assert/strict";
 
-import { assertSame, columnsOf, faceIn, frames, labeled, litAt, middle, openTurned, rounded, shot } from "./support/pointing.mjs";
+import { assertSame, columnsOf, faceIn, frames, labeled, litAt, loadTesseract, middle, openTurned, rounded, shot } from "./support/pointing.mjs";
 import { idle, presented } from "./support/browser.mjs";
 import { kPanels, panelOf } from "./support/matrix.mjs";
 import { distance, pixelAt } from "./support/pixels.mjs";
@@ -224,6 +224,22 @@ for (const mode of ["geometry", "frames"]) {
         await close();
     });
 }
+
+test("matrix: in the server's pictures, too, the panels follow another object of the same name", async () => {
+    const { page, script, errors, size, picture, click, close } = await openMatrix();
+    await drawByServer(page);
+    for (const edge of [2, 4]) {
+        await loadTesseract(page, script, edge);
+        await idle(page);
+        const { matrix } = await picture();
+        const [y, z] = [0.2 * edge, 0.1 * edge];
+        await click(...panelOf(matrix, "zy", size).at(y, z)); // at the same pixel of both
+        const isUnderClick = ({ point }) => Math.abs(point[1] - y) < 0.05 * edge && Math.abs(point[2] - z) < 0.05 * edge;
+        await script.until(isUnderClick, `the point under the click, for edges of length ${edge}`);
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
 
 test("matrix: one finger moves the focus point, two fingers zoom", async () => {
     const { page, script, errors, size, picture, close } = await openMatrix({}, { hasTouch: true });

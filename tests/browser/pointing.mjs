@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented, spoken } from "./support/browser.mjs";
-import { assertSame, columnsOf, faceIn, frames, label, labeled, litAt, loopOf, middle, openTurned, rounded, shot } from "./support/pointing.mjs";
+import { assertSame, columnsOf, faceIn, frames, label, labeled, litAt, loadTesseract, loopOf, middle, openTurned } from "./support/pointing.mjs";
+import { rounded, shot } from "./support/pointing.mjs";
 import { project, rgb, worldPoints } from "./support/scene.mjs";
 
 /** The middles on the screen of the slices' edges around a cell, by slice. */
@@ -221,6 +222,18 @@ test("pointing: a cell is named with its kind, if there are several, and with it
     await moveTo(4, 4);
     await moveTo(...moving.at);
     await labeled(page, new RegExp(`^Cell ${moving.source} · (truncated cube|tetrahedron) · w `));
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("pointing: the volume follows another object of the same name and with as many elements", async () => {
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned();
+    await loadTesseract(page, script, 2);
+    const { at, source } = faceIn(await picture(), size, 1);
+    await moveTo(...at);
+    await labeled(page, new RegExp(`^Cell ${source} · .* · volume 8 · `));
+    await loadTesseract(page, script, 4);
+    await labeled(page, new RegExp(`^Cell ${source} · .* · volume 64 · `));
     assert.deepEqual(errors, []);
     await close();
 });

@@ -135,7 +135,13 @@ export class App {
         () => this.state,
         ({ element, number }) => this.client.request({ type: "measure", element, number }),
     );
-    private readonly pointing: Pointing = new Pointing(this.drawing, this.stage, this.pointedLabel, () => this.state);
+    private readonly pointing: Pointing = new Pointing(
+        this.drawing,
+        this.stage,
+        this.pointedLabel,
+        () => this.state,
+        (revision) => revision >= this.objectSince,
+    );
     private readonly framePointing: FramePointing = new FramePointing(
         this.drawing,
         this.stage,
@@ -209,6 +215,7 @@ export class App {
     private readonly colorControls = new ColorControls((change) => void this.send({ type: "set", ...change }));
     private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
     private state: State | undefined;
+    private objectSince = 0; // the revision of the first state in which the object of `state` was shown without a break
     private resizing: ReturnType<typeof setTimeout> | undefined;
     private hadTools = true; // whether the tools were open before full screen
 
@@ -328,6 +335,10 @@ export class App {
     }
 
     private update(state: State): void {
+        const before = this.state;
+        // The revisions of another session may start again, with the same object.
+        const isContinued = before && before.object_serial === state.object_serial && before.revision <= state.revision;
+        if (!isContinued) this.objectSince = state.revision;
         this.state = state;
         document.documentElement.dataset["ground"] = groundOf(state.background, this.colorScheme.current);
         this.orbit.adoptCamera(state);

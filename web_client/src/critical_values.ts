@@ -27,11 +27,8 @@ export class CriticalValues {
     range: [number, number] = [0, 0];
     // The w of the object's center in the coordinates of its file; in pictures, the center has w = 0.
     private originW = 0;
-    // Identifies the object, orientation and spacing of the known or requested values; "" if a request has failed.
+    // Identifies the object and the settings of the known or requested values; "" if a request has failed.
     private knownFor = "";
-    private kept = ""; // the settings of the last state that loading an object does not reset, as JSON
-    private revision = -1; // of the last state
-    private loadedAt = -1; // the last revision at which the object may have been loaded again
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time
     private timer: ReturnType<typeof setTimeout> | undefined;
@@ -42,18 +39,13 @@ export class CriticalValues {
     ) {}
 
     update(state: State): void {
-        const { polytope, pace, follow, boost, orientation, slices, field, levels, inside } = state;
-        const isLikelySame = this.mayBeLoadedAgain(state);
-        if (isLikelySame) this.loadedAt = state.revision;
-        const object = [polytope, pace, follow, boost, field, levels, inside, this.loadedAt];
-        // The spacing is included because a new object of the same name usually has another one.
-        const key = JSON.stringify([object, orientation, slices.spacing]);
+        const { object_serial, polytope, pace, follow, boost, orientation, slices, field, levels, inside } = state;
+        const key = JSON.stringify([object_serial, pace, follow, boost, orientation, levels, inside]);
         if (key === this.knownFor) return;
         this.knownFor = key;
         this.originW = polytope.center?.[3] ?? 0;
         this.restTime = field ? kFieldRestTime : kRestTime;
         this.scheduleRequest();
-        if (isLikelySame) return; // the known values stay until the answer
         this.isCurrent = this.isExact = false;
         if (field) {
             // Until the critical values are known, the range is that of the slices.
@@ -63,21 +55,6 @@ export class CriticalValues {
             this.isCurrent = true;
         }
         this.onChange();
-    }
-
-    /**
-     * Whether another object of the same name and with as many elements may have been loaded since the last state: only
-     * settings that loading resets have changed, and the focus, the offset and the highlight have been reset.
-     */
-    private mayBeLoadedAgain(state: State): boolean {
-        const { id, revision, draft, moving, section, turning, slices, point, hidden, faded, fog, ...others } = state;
-        const { highlight, ...kept } = others;
-        const { focus, offset, ...hyperplanes } = slices;
-        const before = this.kept;
-        this.kept = JSON.stringify([kept, hyperplanes]);
-        const isChanged = revision !== this.revision;
-        this.revision = revision;
-        return isChanged && this.kept === before && focus === 0 && offset === 0 && highlight === null;
     }
 
     /** Takes rounded values from the picture of the newest state, if the picture has the parallel coordinates. */

@@ -5,11 +5,12 @@ import type { State, Viewport } from "@oval4d/protocol";
 
 /**
  * A text that changes whenever the layout of a picture of this size may change: the state as JSON, without the members
- * that never move a part of the picture, such as the orientation. The function lists the members to leave out, not
- * those to keep, so that it misses no new setting.
+ * that never move a part of the picture, such as the orientation, and those that describe the object, which
+ * `object_serial` identifies. The function lists the members to leave out, not those to keep, so that it misses no new
+ * setting.
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;
-    const { camera, alpha, beta, step, highlight, color, background, ...layout } = settings;
+    const { camera, alpha, beta, step, highlight, color, background, polytope, field, ...layout } = settings;
     return JSON.stringify([layout, size]);
 }

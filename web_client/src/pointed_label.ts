@@ -78,9 +78,8 @@ export class PointedLabel {
     private identity(): string | undefined {
         const state = this.state();
         if (!this.shown || !state) return undefined;
-        const { name, vertices, edges, faces, cells } = state.polytope;
         const { element, number } = this.shown;
-        return JSON.stringify([element, number, name, vertices, edges, faces, cells, state.field?.box]);
+        return JSON.stringify([element, number, state.object_serial]);
     }
 
     private write(): void {

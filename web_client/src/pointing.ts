@@ -23,11 +23,13 @@ export class Pointing {
     private hitTester: HitTester | undefined; // the hit tester of the picture to which `sources` belongs
     private isTapped = false; // whether the label names what a finger has tapped
 
+    /** `mayShowObject` returns whether the picture of a revision may show the object of the state. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
         private readonly label: PointedLabel,
         private readonly state: () => State | undefined,
+        private readonly mayShowObject: (revision: number) => boolean,
     ) {
         followHover(drawing, (at) => this.moveTo(at));
     }
@@ -36,9 +38,10 @@ export class Pointing {
     elementAt(x: number, y: number, hitTester: HitTester): PointedElement | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
-        // The state may be newer than the picture, and of another object. Their numbers of elements then usually
-        // differ.
-        const { coordinates, scene } = hitTester.picture;
+        const { coordinates, revision, scene } = hitTester.picture;
+        if (!this.mayShowObject(revision)) return undefined;
+        // A picture that the page has requested may be newer than the state, and of another object. Their numbers of
+        // elements then usually differ.
         if (polytope?.cells !== scene.colors.cells.length) return undefined;
         if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
         const ratio = size.height / this.drawing.clientHeight;

@@ -27,6 +27,14 @@ export async function openTurned(settings = {}, options = {}) {
     };
 }
 
+/** Loads a tesseract with edges of this length, always under the same name; waits for its picture. */
+export async function loadTesseract(page, script, edge) {
+    const ends = [-edge / 2, edge / 2];
+    const points = ends.flatMap((x) => ends.flatMap((y) => ends.flatMap((z) => ends.map((w) => [x, y, z, w].join(" ")))));
+    const load = { type: "load", name: "mine", format: "points", data: points.join("\n") };
+    await presented(page, (await script.request(load)).revision);
+}
+
 export const label = (page) =>
     page.evaluate(() => {
         const { hidden, textContent } = document.getElementById("pointed");
