@@ -82,8 +82,8 @@ type GetAnswer<What> = What extends "frame"
 
 interface PendingRequest {
     /**
-     * What answers the request. A frame or a file arrives as a binary message without an id; after it, the message
-     * `done` has the id of the request.
+     * What answers the request. A frame or a file arrives as a binary message without an id; the message `done` with
+     * the id of the request follows.
      */
     wants: "frame" | "file" | "slices" | "message";
     /** Whether the answer may take long. The server answers later requests only after this one. */
@@ -333,8 +333,9 @@ export class Client {
     }
 
     /**
-     * Waits for the answer to a test. If the time limit expires and fewer than `unsentBytes` bytes are unsent, the
-     * connection is slow but works, and the client waits once more. Otherwise, it treats the connection as lost.
+     * Waits for the answer to a test. `unsentBytes` is the number of bytes that are unsent now. If fewer bytes are
+     * unsent when the time limit expires, the connection is slow but works, and the client waits once more. Otherwise,
+     * the client treats the connection as lost.
      */
     private awaitTestAnswer(unsentBytes: number): void {
         const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);
@@ -369,8 +370,8 @@ export class Client {
 
     /**
      * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
-     * pass on the headers of WebSocket requests. If the server requires another access token than before, stops
-     * connecting: the server would count each attempt, and soon refuse all clients at this IP address.
+     * pass on the headers of WebSocket requests. If the server answers kUnauthorized (its token is missing or wrong),
+     * stops connecting: the server would count each attempt, and soon refuse all clients at this IP address.
      */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();

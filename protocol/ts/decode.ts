@@ -90,7 +90,10 @@ abstract class BinaryReader {
 
 /** Reads MessagePack, whose numbers are big-endian, as the functions of DataView read them. */
 class MsgpackReader extends BinaryReader {
-    /** Reads the value at the current position. Its first byte is its format; small values and sizes are part of it. */
+    /**
+     * Reads the value at the current position. Its first byte states its format, and also contains small values and
+     * sizes.
+     */
     protected override value(): unknown {
         const format = this.view.getUint8(this.skip(1));
         if (format < 0x80) return format;
@@ -234,8 +237,8 @@ function readBjdata(bytes: Uint8Array): unknown {
 }
 
 /**
- * A kind of binary message: its first byte is in the range `firstByte`, and its second byte is `secondByte` if two bytes
- * tell the kind. `read` decodes slices; other kinds lack it.
+ * A kind of binary message. The first byte of such a message is in the range `firstByte`. If `secondByte` is present,
+ * the second byte of the message is `secondByte`. `read` decodes a slices message; it is absent for files and frames.
  */
 interface BinaryMessageKind {
     firstByte: [least: number, greatest: number];
@@ -257,9 +260,10 @@ export function decodeText(text: string): Message {
 }
 
 /**
- * Decodes a binary message: returns a slices message, or "file" or "frame", whose bytes are used as they are. If
- * `within` is given, the arrays of the message are valid until this arena is used for another message. Throws an Error
- * if no kind of message begins as the bytes do, or if the bytes are not a message of their kind.
+ * Decodes a binary message. Returns a slices message; for a file or a frame, whose bytes need no decoding, returns
+ * "file" or "frame". If `within` is given, arrays of the slices message may be in its memory; they are valid until
+ * `within` is used for another message. Throws an Error if no kind of message begins with the first bytes, or if the
+ * slices message is damaged.
  */
 export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file" | "frame" {
     const [first = -1, second] = bytes;
@@ -267,7 +271,7 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
     for (const [name, kind] of Object.entries(kBinaryKinds)) {
         const { firstByte, secondByte = second } = kind;
         if (first < firstByte[0] || first > firstByte[1] || second !== secondByte) continue;
-        // A kind that two bytes tell comes before one that the first of them tells.
+        // A kind with a `secondByte` takes precedence over a kind without one.
         if (!found || kind.secondByte !== undefined) found = [name, kind];
     }
     if (found) {
@@ -279,7 +283,7 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
 }
 
 function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, within?: Arena): Message {
-    // Enough for copies of arrays, and for 1-byte integers that are converted to 4-byte integers.
+    // Six times the size of the message is enough: arrays are copied, and 1-byte integers become 4-byte integers.
     within?.startMessage(6 * bytes.length);
     arena = within;
     try {

@@ -63,7 +63,7 @@ export interface SceneDescription {
      * The color of the fog for each value in Fog.values, 0xAARRGGBB; a plain array in JSON. Absent if there is no fog.
      */
     fog?: { table: Integers };
-    /** Of a field: the known units of the axes after the rotation; absent if there is none. */
+    /** For a field: the units of the axes after the rotation, as far as they are known; absent if none is known. */
     units?: AxisUnits;
     // The lengths of the next three members are fractions of the viewport's height.
 
@@ -164,11 +164,13 @@ export interface Elements {
     /** Face f has the vertices corners[begin[f]] … corners[begin[f + 1] − 1], counterclockwise as seen from outside. */
     faces: { begin: Uint32Array; corners: Uint32Array };
     /**
-     * What each element of a slice was cut from: for a vertex, the index of an edge of the 4-D polytope; for an edge,
-     * that of a 2-face; for a face, that of a cell. Elements of the polytope that lie in the hyperplane are not cut:
-     * vertex i of the polytope has the number i + the polytope's number of edges; edge i has i + the number of 2-faces;
-     * 2-face i has i + the number of cells. In the part of the projection that shows the whole object, all numbers are
-     * such sums.
+     * A number for each vertex, edge and face, which says from what element of the 4-D polytope it was cut:
+     * - a vertex: e if it was cut from edge e; (number of edges) + v if it is vertex v of the polytope itself;
+     * - an edge: f if it was cut from 2-face f; (number of 2-faces) + e if it is edge e of the polytope itself;
+     * - a face: c if it was cut from cell c; (number of cells) + f if it is 2-face f of the polytope itself.
+     *
+     * A slice contains elements of the polytope itself if they lie in its hyperplane. The part of the projection that
+     * shows the whole object contains only such elements.
      */
     of: { vertices: Uint32Array; edges: Uint32Array; faces: Uint32Array };
     /** The index of the cell that determines the color of each face; if absent, `of.faces` has these indices. */
@@ -212,9 +214,10 @@ export interface Slice extends Elements {
 }
 
 /**
- * Where the picture shows the highlighted element. `vertices` and `edges` have numbers: a vertex or an edge of a slice
- * or of the projection is highlighted if its number in `of.vertices` or `of.edges` (see Elements) is among them.
- * `own_vertices` has the indices, as in `coordinates`, of the element's own vertices.
+ * Where the picture shows the highlighted element. A vertex of a slice or of the projection is highlighted if its
+ * number in `of.vertices` (see Elements) is in `vertices`; an edge, if its number in `of.edges` is in `edges`.
+ * `own_vertices` has the element's own vertices: vertex v of the polytope has the coordinates 4v … 4v + 3 in
+ * Slices.coordinates.
  */
 export interface Highlight {
     vertices: ArrayLike<number> & Iterable<number>;
