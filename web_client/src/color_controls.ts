@@ -155,8 +155,8 @@ export class ColorControls {
     }
 
     /**
-     * Applies the visibilities that the user has chosen in the list. Kinds of cells beyond the end of the list keep
-     * theirs.
+     * Applies the visibilities that the user has chosen in the list. Kinds of cells that the list is too short to show
+     * keep their visibilities.
      */
     private applyChosenVisibilities(): void {
         const { hidden, faded } = this.state!;
@@ -176,8 +176,8 @@ function coloringSeen(state: State): Coloring {
 }
 
 /**
- * The legend of the color scale of the coloring `seen`. If this coloring has no scale, but the caps are colored by
- * value, the legend of the scale of values; otherwise undefined.
+ * The legend of the color scale of the coloring `seen`. If `seen` has no color scale, but the caps are colored by
+ * value: the legend of the scale of values. Undefined if the picture has no color scale.
  */
 function scaleOf(state: State, seen: Coloring): ScaleLegend | undefined {
     const { caps, field } = state;

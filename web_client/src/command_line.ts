@@ -129,8 +129,8 @@ export class CommandLine {
 
     /**
      * If there is only one completion, inserts it. If there are several, the first call inserts the beginning that they
-     * share, and lists them; each further call replaces this text by the next option of the list, or by the previous
-     * one if `step` is -1. Returns false if there is no completion.
+     * share, and lists them. Each further call replaces what the last call inserted by the next option of the list, or
+     * by the previous option if `step` is -1. Returns false if there is no completion.
      */
     private complete(step: number): boolean {
         const { cycle } = this;

@@ -42,9 +42,9 @@ export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${p
 export const kElementKinds = settings.properties.highlight.properties.element.enum;
 
 /**
- * The settings among the properties of an object in `set`, each with a list of its values. A setting in a nested object
- * has its own name on the command line, except that `slices.count` is called `slices`. `parent` is the name of the
- * object, if it is nested.
+ * The settings in the schema `properties`, each with a list of its values. `properties` are those of the message `set`
+ * or, if `parent` is given, of the object `parent` in it. On the command line, `slices.count` is called `slices`; every
+ * other setting in a nested object has its own name: `slices.spacing` is called `spacing`.
  */
 function settingsOf(properties: Record<string, SettingSchema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {

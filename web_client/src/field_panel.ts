@@ -56,16 +56,17 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
-    // The settings that load() sent last, and the revision in the answer; undefined once a state of this revision has
-    // arrived.
+    // The settings that load() sent last, and the revision in the server's answer; undefined once a state of this or a
+    // later revision has arrived.
     private sent: { settings: Settings; revision: number } | undefined;
     private state: State | undefined;
-    // The last load of a formula by this page: its revision, its time, and whether recordServerText() has seen its
-    // state.
+    // The last load of a formula by this page: its revision, its time as in performance.now(), and whether
+    // recordServerText() has seen a state with the loaded formula.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
     private shownText = ""; // formulaKeyOf() of the newest state
-    private ownText = ""; // formulaKeyOf() of the state whose formula this page loaded, or took from the server, last
-    // What the user typed, by the formulaKeyOf() of the state that it led to.
+    // formulaKeyOf() of the last state whose formula this page loaded itself, or adopted in showForeignFormula().
+    private ownText = "";
+    // What the user typed. The key is formulaKeyOf() of the first state after the typed field was loaded.
     private readonly typedFields = new Map<string, FormulaWithBox>();
 
     constructor(private readonly events: FieldPanelEvents) {
@@ -269,8 +270,8 @@ export class FieldPanel {
     }
 
     /**
-     * The settings to send with an edited formula, so that they stay the same: without them, a new object gets settings
-     * of its own. Empty if the object is not a formula that this panel has loaded or shown.
+     * The present settings to send with an edited formula. Otherwise the server would choose new settings, because an
+     * edited formula is a new object. Empty if the present object is not a formula that this panel has loaded or shown.
      */
     private keptSettings({ formula, box }: FormulaWithBox): Settings {
         const { loaded, state } = this;

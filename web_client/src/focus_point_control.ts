@@ -49,8 +49,8 @@ export class FocusPointControl {
     }
 
     /**
-     * Changes some coordinates of the focus point. Each pair has an axis, 0 to 3, and the new coordinate, as in the
-     * picture.
+     * Changes some coordinates of the focus point. Each pair has an axis, 0 to 3, and the new coordinate along it, in
+     * object units from the object's center.
      */
     move(coordinates: readonly (readonly [axis: number, value: number])[]): void {
         const point: Point4 = [...this.point];

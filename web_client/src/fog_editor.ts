@@ -106,8 +106,8 @@ export class FogEditor {
     }
 
     private async apply({ fog, drag }: { fog: FogControlPoint[]; drag?: number }): Promise<void> {
-        // Decided when a change is sent, not when it is made: a later change of a drag may replace the first one before
-        // the first one is sent.
+        // A change continues the undo step if a change of the same drag has been sent before. This is not known when
+        // the change is made, because `changes` drops a change that a newer one follows before it is sent.
         const continues = drag !== undefined && drag === this.sentDrag;
         try {
             const { revision } = await this.set({ fog, ...(continues && { continues }) });

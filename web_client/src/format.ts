@@ -45,8 +45,8 @@ export function formatFieldValue(value: number): string {
 }
 
 /**
- * A number with at most `decimals` decimals, without trailing zeros. If `decimals` is above kMaxPlainDecimals, small
- * numbers have an exponent.
+ * A number with at most `decimals` decimals, without trailing zeros. If `decimals` is above kMaxPlainDecimals, numbers
+ * below 1e-4 have an exponent.
  */
 function formatRounded(value: number, decimals: number): string {
     if (decimals <= kMaxPlainDecimals) return formatDecimal(value, decimals);
@@ -59,9 +59,9 @@ function formatRounded(value: number, decimals: number): string {
 }
 
 /**
- * Rounds a value to `digits` significant digits. A value that is larger than `size` keeps more digits: down to the
- * place of the last significant digit of `size`. For example, `size` is the difference between two values that must
- * stay distinguishable.
+ * Rounds a value to the decimal place of digit number `digits` of `size`. For example, with the size 0.5 and 3 digits,
+ * the place is that of the thousandths, and 1234.56789 becomes 1234.568. A value below `size` is rounded to `digits`
+ * significant digits. `size` is, for example, the difference between two values that must stay distinguishable.
  */
 export function roundedToDigitsOfSize(size: number, value: number, digits: number): number {
     const more = exponentOf(value) - exponentOf(size) || 0; // 0 if `size` is not finite
@@ -74,8 +74,8 @@ function exponentOf(value: number): number {
 }
 
 /**
- * A positive number with `decimals` decimals, more than kMaxPlainDecimals; with an exponent if it is below 1e-4, as in
- * server/scene/slice_label.cpp.
+ * The positive number `size` with `decimals` decimals, where `decimals` is above kMaxPlainDecimals. Numbers below 1e-4
+ * have an exponent, as in server/scene/slice_label.cpp.
  */
 function withExponentIfSmall(size: number, decimals: number): string {
     const exponent = exponentOf(size);

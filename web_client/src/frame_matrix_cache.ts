@@ -8,7 +8,7 @@ import type { Stage } from "./picture/stage";
 
 export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    // The layoutKey() for which the matrix is known or requested; "" if there is none. It is made without the settings
+    // The layoutKey() for which the matrix is known or requested; "" if there is none. This key leaves out the settings
     // of slices and surfaces, which do not move the matrix.
     private knownFor = "";
 

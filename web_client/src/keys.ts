@@ -37,9 +37,11 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 
 /**
  * The keystroke of an event; undefined while a text is composed, if a modifier other than Shift and Ctrl is held, and
- * for keys that are not in the table. A key that types a character of the table counts as this character, such as "("
- * and "-" on the digit keys of a French keyboard. Any other digit key counts as its digit, and a key that types a
- * letter of another script as the American key in its place.
+ * for keys that are not in the table. The first of these rules that applies gives the keystroke's key:
+ * - A key that types a character of the table counts as this character. On a French keyboard, digit keys type "(" and
+ *   "-".
+ * - A key of another script counts as the character that an American keyboard has in its place.
+ * - A digit key counts as its digit, whatever it types.
  */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
@@ -87,8 +89,8 @@ function isKeyGivenByName({ key }: KeyBinding): boolean {
 }
 
 /**
- * The character that the event types or, if it is not ASCII, the character of this key on an American keyboard; "\0" if
- * there is neither. Shift decides whether a letter is a capital, whether or not Caps Lock is on.
+ * The character that the event types. If it is not ASCII, the character of this key on an American keyboard; "\0" if
+ * the key has none. A letter is a capital if Shift is held; Caps Lock has no effect.
  */
 function typedCharacter(event: KeyboardEvent): string {
     const character = /^[ -~]$/.test(event.key) ? event.key : characterOfPlace(event);
@@ -96,8 +98,8 @@ function typedCharacter(event: KeyboardEvent): string {
 }
 
 /**
- * By KeyboardEvent.code: the punctuation that an American keyboard types, without and with Shift, with keys that type
- * letters in other scripts.
+ * The two characters that a punctuation key types on an American keyboard: without Shift, and with Shift. The name of
+ * the key is as in KeyboardEvent.code. Keyboards of other scripts have letters on these keys.
  */
 const kPunctuation: Record<string, string> = {
     BracketLeft: "[{",

@@ -13,8 +13,8 @@ export interface InitialView {
     /** The field of the query, which is loaded in a new session before the commands. */
     field?: FormulaWithBox;
     /**
-     * What is wrong with the link to a session, or with the box in the query. The server reports all other faults in
-     * the query.
+     * What is wrong with the link to a session, or with the query's `box`, or with `box` or `values` without `formula`.
+     * The server reports all other faults in the query.
      */
     faults: string[];
     /** Commands of the command line that produce the view that the query describes, except its field. */
@@ -48,8 +48,8 @@ export function readInitialView(): InitialView {
 }
 
 /**
- * The session of a shared link in the address bar, if there is one; remembers the session, and removes its token from
- * the address bar. `fault` says what is wrong with a link that has lost the name or the token of its session.
+ * The session of a shared link in the address bar, if there is one. Remembers the session, and removes the fragment
+ * with its token from the address bar. `fault` says whether the name or the token is missing in the link.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
     const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
@@ -128,9 +128,9 @@ function isIgnored(name: string): boolean {
 }
 
 /**
- * The parameters of a query, without those that protocol/address.json ignores. As in a form, "+" stands for a blank.
- * But between two operands, as in 0.1+pi/8, it is a plus sign, because a person may have typed it; before a unit, as in
- * 10+deg, it is a blank. The server reads the queries of the API in the same way.
+ * The parameters of a query, without those that protocol/address.json ignores. "+" stands for a blank, as in a form,
+ * and so it does before a unit: 10+deg. But between two operands, "+" is a plus sign, because a person may have typed
+ * it: 0.1+pi/8. The server reads the queries of the API in the same way.
  */
 function parametersOf(query: string): [name: string, value: string][] {
     const parts = repaired(query)
@@ -152,8 +152,9 @@ function parametersOf(query: string): [name: string, value: string][] {
 }
 
 /**
- * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without a formula. If
- * the box is not valid, the field has kUsualBox. `faults` says so, and which parameters lack their formula.
+ * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent if the query has no
+ * `formula`. If `box` is not valid, the field has kUsualBox. `faults` has a text if `box` is not valid, and one for
+ * each of `box` and `values` that the query has without `formula`.
  */
 function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
     const { formula, box, values } = Object.fromEntries(parametersOf(query));

@@ -20,7 +20,8 @@ export class OrbitControl {
     private sending = false;
     private unsent = false;
     private readonly lastChange = new OldStateDetector();
-    // The orbit before those moves that limited() could not limit yet, for lack of a hit tester.
+    // The orbit before the first move that limited() could not limit, because there was no hit tester; undefined if all
+    // moves have been limited.
     private lastLimited: Orbit | undefined;
     /** What the actions of the camera in the key table do. */
     private readonly actions: Record<string, () => void> = {
@@ -100,9 +101,9 @@ export class OrbitControl {
     }
 
     /**
-     * The orbit after a change, or after the largest part of it that keeps enough slices visible: the fraction
-     * kLeastVisible or, if fewer are visible before the change, as many as before. Without a hit tester, makes the
-     * whole change, which onHitTesterAvailable() limits later.
+     * The orbit after a change or, if it would leave too few slices visible, after a smaller change in the same
+     * direction. Too few means: fewer than the fraction kLeastVisible of the slices, and fewer than before the change.
+     * Without a hit tester, makes the whole change, which onHitTesterAvailable() limits later.
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };

@@ -59,8 +59,8 @@ export class PageSession {
     }
 
     /**
-     * Notes that the session is lost. The new session gets the view of `state`, the last state of the lost one, if it
-     * is known.
+     * Records that the session is lost. If `state`, the last state of the lost session, is known, the new session gets
+     * its view.
      */
     sessionLost(reason: string, state: State | undefined): void {
         this.lostState ??= state; // if a view has not been restored yet, `state` may be that of the new session
@@ -73,8 +73,9 @@ export class PageSession {
     }
 
     /**
-     * In a new session, restores the view of a lost session, or applies the initial view. In any other session, does
-     * nothing. Rejects if the connection breaks; must then be called again for the next connection.
+     * Restores the view of a lost session, if a session was lost; then applies the initial view, if it has not been
+     * applied yet. Tells the user what is wrong with these views. Rejects if the connection breaks; must then be called
+     * again for the next connection.
      */
     async restoreOrInitializeView(): Promise<void> {
         try {

@@ -123,8 +123,8 @@ function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
 }
 
 /**
- * A button that switches off and on that keys act without Ctrl: speech input may press single keys by mistake (WCAG
- * 2.1.4).
+ * A button that determines whether keys act without Ctrl. Users of speech input can switch this off, because speech
+ * input may press single keys by mistake (WCAG 2.1.4).
  */
 function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
     const made = button("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {

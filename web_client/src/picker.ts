@@ -29,9 +29,10 @@ export class PolytopePicker {
     private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
     /**
-     * `choose` shows the object with the name `name`: an array of the server's data folder if `isData` is true, else an
-     * object of the catalogue or one that the name describes. `choose` rejects with an Error whose message is shown. If
-     * the dialog is no longer open by then, `failedLater` is called with this error.
+     * `choose` shows the object with the name `name`: an array of the server's data folder if `isData` is true; else an
+     * object of the catalogue, or an object that the server builds from the name. If `choose` rejects while the dialog
+     * is open, the dialog shows the message of the Error; if the dialog has been closed, it passes the Error to
+     * `failedLater`.
      */
     constructor(
         private readonly choose: (name: string, isData: boolean) => Promise<unknown>,
@@ -81,8 +82,8 @@ export class PolytopePicker {
     }
 
     /**
-     * Searches for the text that the user has changed. After this, the result of an earlier choice no longer closes the
-     * dialog.
+     * Searches for the text in the search field, which has changed. If an object that was chosen before is still being
+     * loaded, its arrival no longer closes the dialog.
      */
     private searchAnew(): void {
         ++this.choiceNumber;

@@ -1,8 +1,9 @@
 // A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
 // Practices Guide. The button that had the focus last is the tab stop, even while a text field replaces the button.
 
-// Up and Down go to the nearest button above or below. In this distance, the vertical part is multiplied by this factor,
-// so that a button in the next row is nearer than one straight above or below in a row farther away.
+// The arrow keys Up and Down go to the nearest button above or below. The distance of a button is √(across² +
+// (kRowWeight · down)²). Therefore a button in the next row usually counts as nearer than one straight above or below
+// in a row farther away.
 const kRowWeight = 3;
 
 /** Makes an element with buttons a toolbar. Buttons may be added, removed and disabled later. */
@@ -39,8 +40,8 @@ export function makeToolbar(root: HTMLElement, label: string): void {
 }
 
 /**
- * The button that this text field replaces. It may never have had the focus: a click with the mouse opens the field
- * directly.
+ * The button that this text field replaces. The button may never have had the focus, because a click with the mouse
+ * opens the field directly.
  */
 function buttonOf(field: HTMLInputElement, root: HTMLElement): Element | undefined {
     if (field.type !== "text") return undefined;

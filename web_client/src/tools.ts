@@ -39,8 +39,8 @@ const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
- * For each action that switches something on and off, a function that returns whether it is on. The actions that switch
- * parts of the picture and views have the names of these.
+ * For each action that switches something on and off, a function that returns whether it is on. An action that switches
+ * a view or a part of the picture has the name of the view or part, such as "matrix" or "faces".
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,

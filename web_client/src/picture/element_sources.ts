@@ -159,8 +159,8 @@ export class ElementSources {
     }
 
     /**
-     * Adds the edge from which a vertex of a slice was cut. `source` is the source of this vertex; does nothing if it
-     * identifies a vertex of the polytope.
+     * Adds the edge from which a vertex of a slice was cut. `source` is the source of the vertex. Does nothing if the
+     * vertex is a vertex of the polytope itself.
      */
     private addCutEdge(source: number, sources: Set<number>): void {
         if (source < this.counts.edges) sources.add(this.counts.faces + source);
@@ -183,8 +183,8 @@ export class ElementSources {
     }
 
     /**
-     * Adds those 2-faces and edges of a cell that planar sections cut: where the edges of a section that show the cell
-     * end.
+     * Adds those 2-faces and edges of a cell that planar sections cut. A planar section cuts the cell in edges, and the
+     * points at which these edges end are cut from 2-faces or edges of the cell.
      */
     private addElementsInSectionsOf(cell: number, sources: Set<number>): void {
         for (const { edges, of } of this.picture.matrix?.sections ?? []) {

@@ -280,8 +280,8 @@ export class FogPainter {
 }
 
 /**
- * A framebuffer whose depths can be read. Balls and bars need more than 0 samples, because they are antialiased by
- * alpha to coverage.
+ * A framebuffer whose depths can be read. `samples` is the number of samples per pixel; 0 means no multisampling. Balls
+ * and bars need multisampling, because they are antialiased by alpha to coverage.
  */
 function makeTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
@@ -309,8 +309,9 @@ function valueTexelsOf({ values }: Fog): Uint8Array {
 }
 
 /**
- * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in the block, that is, if
- * a value from the least to the greatest one of its points is not transparent; else 0.
+ * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in the block, else 0. Fog
+ * may be visible if at least one value between the least and the greatest value at the points of the block is not
+ * transparent.
  */
 function blockVisibilityOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;

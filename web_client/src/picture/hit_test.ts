@@ -8,8 +8,7 @@ import type { ViewCamera } from "./view_camera";
 
 /**
  * What was hit in a slice, in the projection or in the matrix of planar sections. A point of a planar section has the
- * kind `points`. An edge of a planar section has the kind `faces`, because it is cut from a cell, as a face of a slice
- * is.
+ * kind `points`. An edge of a planar section has the kind `faces`: like a face of a slice, it is cut from a cell.
  */
 export interface Hit {
     kind: "vertices" | "edges" | "faces" | "points";
@@ -46,8 +45,9 @@ let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at the pixel (x, y) of the picture: the nearest element there of the nearest mesh that has one there;
- * undefined if no mesh has one. `ratio` is the number of pixels of the picture per CSS pixel.
+ * The element at the pixel (x, y) of the picture. Of the meshes with an element at the pixel, takes the mesh whose
+ * center is nearest to the eye, and returns the nearest element of this mesh at the pixel. Undefined if no element is
+ * at the pixel. `ratio` is the number of pixels of the picture per CSS pixel.
  */
 export function hitAt(picture: Slices, viewCamera: ViewCamera, x: number, y: number, ratio: number): Hit | undefined {
     const meshes = pickableMeshes(picture, viewCamera).sort((a, b) => a.distance - b.distance);
@@ -193,7 +193,7 @@ class MeshTest {
 
     /**
      * The depth, at the tested point, of the face with the loops firstLoop … endLoop − 1; Infinity if the face does not
-     * cover the point. It covers the points at which the winding number of its loops is not 0.
+     * cover the point. A face covers the points at which the winding number of its loops is not 0.
      */
     private depthOfFace(firstLoop: number, endLoop: number): number {
         const { begin, corners } = this.mesh.elements.faces;

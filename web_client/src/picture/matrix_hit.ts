@@ -8,9 +8,9 @@ import type { MatrixPanel } from "./matrix_panel";
 type Pixel = readonly [x: number, y: number];
 
 /**
- * The nearest of the section's points that are drawn at the pixel. If no point is drawn there, the nearest of the edges
- * that are; undefined if there is none, either. The pointer hits points and edges within `reach` pixels even if they
- * are drawn thinner.
+ * The section's point nearest to the pixel, if a point is drawn at the pixel or is within `reach` pixels of it. If
+ * there is no such point, the nearest edge that is drawn at the pixel or is within `reach` pixels of it. Undefined if
+ * there is no such edge.
  */
 export function hitInPanel(
     panel: MatrixPanel,

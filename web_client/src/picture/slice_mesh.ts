@@ -82,7 +82,7 @@ export class SliceMesh {
 
     /**
      * Orders all elements for this camera, from far to near. `projection` is the world position of the projection of
-     * the whole object: select() can then choose the slices behind it, or those in front of it.
+     * the whole object: select() can then choose the slices behind this position, or those in front of it.
      */
     sortForCamera(viewCamera: ViewCamera, projection: Vector = [0, 0, 0]): void {
         this.count = this.order.writeIndices(viewCamera, this.index.array, projection);
