@@ -30,8 +30,8 @@ class ExactSlicer {
                 const Budget& budget);
 
     /// Slices the body of one level by the hyperplane at `w`. Overwrites `out`. `others` is the number of triangles
-    /// that the export has made already and that count, too. Throws ExportRefused if a limit is exceeded or a stop is
-    /// requested.
+    /// that the export has made before; the limits apply to these and the new triangles together. Throws ExportRefused
+    /// if a limit is exceeded or a stop is requested.
     void slice(double w, double level, std::size_t others, slicing::ClosedSurface& out);
 
   private:

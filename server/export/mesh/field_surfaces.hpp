@@ -44,9 +44,9 @@ class FieldSurfaces {
     FieldSurfaces(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
                   bool exact, const Budget& budget);
 
-    /// Returns the surface of slice i. It is valid until the next call. The number of triangles of all slices so far
-    /// counts for the limits. Throws ExportRefused if a limit is exceeded or a stop is requested, and
-    /// std::runtime_error if the samples of the field are in a file that can no longer be read.
+    /// Returns the surface of slice i. The surface is valid until the next call. The limits on triangles and memory
+    /// apply to the surfaces of all slices so far together. Throws ExportRefused if a limit is exceeded or a stop is
+    /// requested, and std::runtime_error if the samples of the field are in a file that can no longer be read.
     FieldSliceSurface ofSlice(int i);
 
   private:

@@ -202,8 +202,8 @@ class HalfEdgeMesh {
     }
 
     // Collapses an edge into its origin, and returns true. Returns false and changes nothing if the ends of the edge
-    // have a common neighbor other than the third corners of the two triangles at the edge, or if the edge belongs to a
-    // tetrahedron.
+    // have a common neighbor other than the third corners of the two triangles at the edge, or if the surface at the
+    // edge is a tetrahedron, which would become flat.
     bool collapse(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
@@ -241,8 +241,8 @@ class HalfEdgeMesh {
     }
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
-    // Flips an edge: replaces it by an edge between the third corners of the two triangles at it. Changes nothing if an
-    // edge already joins these two corners, or if a new triangle would be degenerate.
+    // Flips an edge: replaces it by an edge between the third corners of the two triangles at the edge. Changes nothing
+    // if an edge already joins these two corners, or if the corners of a new triangle would lie on a line.
     void flip(std::uint32_t h) {
         const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];

@@ -33,8 +33,8 @@ class IncrementalHull {
     }
 
   private:
-    /// Returns six times the signed volume of the tetrahedron of triangle t and point p; positive if p is on the outer
-    /// side of t.
+    /// Returns ((b − a) × (c − a)) · (p − a) for a triangle t with the corners a, b and c: six times the volume of the
+    /// tetrahedron abcp, with a positive sign if p is on the outer side of t.
     std::int64_t sixVolume(const Triangle& t, std::uint32_t p) const {
         const GridPoint& o = points_[t[0]];
         const auto from = [&](std::uint32_t i) {

@@ -31,14 +31,15 @@ std::uint64_t keyOf(const glm::ivec3& point) {
 // of the field. `bits` has one bit per axis: 1 for x, 2 for y, 4 for z.
 glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
-// The six tetrahedra of a cube, positively oriented. Corners are numbered by the bits of offset(). The corners of each
-// tetrahedron lie on a path from corner 0 to corner 7 that takes one step along each axis; there is one tetrahedron for
-// each order of the axes.
+// The six tetrahedra of a cube. Corners are numbered by the bits of offset(). The corners of each tetrahedron lie on a
+// path from corner 0 to corner 7 that takes one step along each axis; there is one tetrahedron for each order of the
+// axes. The corners a, b, c, d of a tetrahedron are listed such that ((b − a) × (c − a)) · (d − a) > 0.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
-// For each set of inside corners of a tetrahedron (bit c stands for corner c): an even permutation of the corners that
-// puts the inside corners first or, if only one corner is outside, puts this corner first.
+// For each set of inside corners of a tetrahedron (bit c stands for corner c): a permutation of the corners that puts
+// the inside corners first or, if only one corner is outside, puts this corner first. All permutations are even, so
+// that the sign of the product above stays positive.
 constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
                                                           {0, 1, 2, 3},
                                                           {1, 0, 3, 2},

@@ -74,13 +74,17 @@ using CrossingFinder = std::function<EdgeCrossing(const glm::ivec3& inside, cons
 
 inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in RoundingGrid steps; see marchTetrahedra()
 
-/// Returns a mesh of the surface that separates inside points from outside points. The caller must ensure two
-/// conditions for each cube with an inside corner: the block of the cube's lowest corner exists (see
-/// SampledField::ensureBlock()), because other cubes are skipped; and `field` has the values that `crossing` reads for
-/// the edges of the cube. The points of the mesh are rounded to `grid`. The field's step must be at least
-/// kLeastFieldStep steps of `grid`: then no two crossings coincide after rounding, because crossings are kept away from
-/// the ends of their edges. From kGoodFieldStep on, crossings are far enough apart that the triangles keep their
-/// shapes. Throws ExportRefused if `budget` is exceeded.
+/// Returns a mesh of the surface that separates inside points from outside points. The points of the mesh are rounded
+/// to `grid`. Throws ExportRefused if `budget` is exceeded.
+///
+/// The caller must ensure for each cube with an inside corner:
+/// - The block of the cube's lowest corner exists (see SampledField::ensureBlock()). Cubes without this block are
+///   skipped.
+/// - `field` has the values that `crossing` reads for the edges of the cube.
+///
+/// The field's step must be at least kLeastFieldStep steps of `grid`. Then no two crossings coincide after rounding,
+/// because crossings are kept away from the ends of their edges. If the step is at least kGoodFieldStep steps of
+/// `grid`, rounding hardly changes the shapes of the triangles.
 Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 

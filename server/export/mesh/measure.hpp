@@ -9,8 +9,8 @@
 
 namespace oval4d::exports {
 
-/// The measurements of a slice, in the object's units. A region around which the faces of a star polytope wind n times
-/// counts n times, as is usual for star polytopes.
+/// The measurements of a slice, in the object's units. If the faces of a star polytope wind n times around a region,
+/// its volume is counted n times in `volume` and `centroid`, as is usual for star polytopes.
 struct SliceMeasurements {
     std::size_t faces = 0;     ///< the number of faces; all loops that were cut from one cell count as one face
     double volume = 0;         ///< 0 for a flat slice

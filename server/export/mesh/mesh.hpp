@@ -47,12 +47,12 @@ struct PlacedMesh {
 /// by their coordinates.
 class RoundingGrid {
   public:
-    /// Chooses the step: the smallest power of two that is at least size / 2^17 and extent / 2^23. `size` is the
+    /// Chooses the step: the smallest power of two that is at least both size / 2^17 and extent / 2^23. `size` is the
     /// diameter of the object's circumscribed sphere and `extent` the largest absolute coordinate in the file, both in
     /// millimeters.
     RoundingGrid(double size, double extent);
     /// Returns a grid for formats with 64-bit floats, which is much finer: its step is the smallest power of two that
-    /// is at least size / 2^40 and extent / 2^50.
+    /// is at least both size / 2^40 and extent / 2^50.
     static RoundingGrid forDoubles(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.

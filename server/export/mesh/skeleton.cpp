@@ -39,8 +39,8 @@ void addCapsule(const Capsule& capsule, SampledField& field) {
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
             const glm::dvec3 row = field.positionOf({0, j, k});
-            // The part of the capsule's axis that is near this line, where y and z differ by at most `reach` from those
-            // of the line. It is from `low` to `high`, as fractions of the axis.
+            // The part of the capsule's axis from the fraction `low` to the fraction `high` is near the line `row`: its
+            // y and z differ by at most `reach` from those of the line.
             double low = 0;
             double high = 1;
             for (const int axis : {1, 2}) {
