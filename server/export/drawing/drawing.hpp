@@ -16,7 +16,7 @@
 namespace oval4d::exports {
 
 // Lengths and positions are in units of the drawing (see Drawing::millimetersPerUnit()). Positions are measured from
-// its upper left corner, with y downward.
+// the upper left corner of the drawing, with y downward.
 
 /// The default of Drawing::size in millimeters: about the width of the text on a page of A4.
 inline constexpr double kDrawingSize = 170;

@@ -303,8 +303,8 @@ ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
     return axes;
 }
 
-/// Returns whether the focus point is drawn. Pictures show it in the matrix view; a drawing of the focus slice alone
-/// also shows it wherever the user has set it.
+/// Returns whether the focus point is drawn. Pictures show it in the matrix view. A drawing of the focus slice alone
+/// also shows it if the user has moved it away from the origin.
 bool showsFocusPoint(const scene::Look& look) {
     if (look.view == scene::View::matrix) return true;
     return !showsAllSlices(look.view) && look.focusPoint != glm::dvec3(0);
