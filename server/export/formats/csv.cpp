@@ -58,8 +58,8 @@ std::string csvText(const std::string& text) {
     return cell + '"';
 }
 
-/// Columns at the end of a table with the units of other columns, as far as they are known. They are the same in all
-/// rows.
+/// Columns at the end of a table with the units of other columns, as far as they are known. Each column has the same
+/// cell in all rows.
 struct UnitColumns {
     std::string names, cells;  ///< each begins with a comma unless it is empty
 

@@ -24,8 +24,9 @@ struct MeshesToWrite {
     std::span<const scene::Color> cellColors;  ///< the color of each cell
     const std::string& title;
     const Budget& budget;
-    /// Whether the coordinates are multiples of a step that only 64-bit floats can represent (see
-    /// RoundingGrid::forDoubles()). Only for formats with Format::keepsDoubles.
+    /// Whether the coordinates are multiples of a step that is too small for 32-bit floats (see
+    /// RoundingGrid::forDoubles()). If true, the writer must write 64-bit floats. Always false unless
+    /// Format::keepsDoubles is true.
     bool hasDoubles = false;
 
     /// Returns the color of a triangle of `solid`: the color of its cell, or the color of the solid if it has no cell.

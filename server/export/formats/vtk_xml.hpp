@@ -19,8 +19,9 @@ namespace oval4d::exports {
 std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements);
 
 /// Appends a DataArray element with `bytes` in Base64. `bytes` must be little-endian numbers of the type `type`, such
-/// as "Float32"; `components` is the number of numbers in a tuple. If it is known what the numbers measure, the element
-/// has its name as the name of the first component, and its unit as vtkDataArray::UNITS_LABEL.
+/// as "Float32"; `components` is the number of numbers in a tuple. `quantity` is what the numbers measure, as far as it
+/// is known. Its name becomes the name of the first component, and its unit the information key
+/// vtkDataArray::UNITS_LABEL.
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes, const fields::Quantity& quantity = {});
 

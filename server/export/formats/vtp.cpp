@@ -162,8 +162,8 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
     appendVtkArray(out, name, components, std::span<const Number>(numbers), quantity);
 }
 
-// `field` is null for other objects. `units` are the units of the axes. `asDoubles` says whether the coordinates of
-// points are written as 64-bit floats.
+// Returns the XML element Piece, which contains all of `data`. `field` is null if the object is not a field. `units`
+// are the units of the axes. `asDoubles` says whether the coordinates of points are written as 64-bit floats.
 std::string pieceElement(const PolyData& data, const fields::Field* field, const fields::PictureUnits& units,
                          bool asDoubles) {
     const auto countOf = [&](ListedElementKind elements) {

@@ -84,8 +84,8 @@ std::string vti(const SceneToWrite& source);
 /// slicing::SliceSurface) for each point, and `level` and `cap` for each triangle. The arrays `n` and `w` have, for
 /// each face, edge, point or triangle, the index n of the hyperplane of its slice, and the w of this hyperplane in the
 /// coordinates of the object's file. Infinite growth is written as NaN. The points are 32-bit floats or, if
-/// SceneToWrite::exact is true, 64-bit floats. Adds a warning about slices that have none of these elements. Throws
-/// ExportRefused if a limit is exceeded or a stop is requested.
+/// SceneToWrite::exact is true, 64-bit floats. Adds a warning about slices without any of these faces, edges, points or
+/// triangles. Throws ExportRefused if a limit is exceeded or a stop is requested.
 std::string vtp(const SceneToWrite& source);
 
 // --- Formats of drawings.
