@@ -29,8 +29,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// The width of the cubes in which a skeleton is meshed, as a multiple of the bar radius, is from kFineCube to
-// kCoarseCube. It is kFineCube unless this would give more than kTargetTriangles triangles, or cubes less than
+// A skeleton is meshed in cubes. As a multiple of the bar radius, they are kFineCube wide. They are wider, but at most
+// kCoarseCube, if cubes of the width kFineCube would give more than kTargetTriangles triangles, or would be less than
 // kGoodFieldStep grid steps wide.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
@@ -149,7 +149,7 @@ class Exporter {
     }
 
     /// Returns whether the hyperplane of slice i contains no point of the object or, for the bodies of a field, no
-    /// surface. The bodies of slice i must be the last ones that were made.
+    /// surface. For the bodies of a field, the last call of surfaceBodies() must have been for slice i.
     bool isEmpty(int i) const {
         if (hasSurfaces_) return lastSurfaceIsEmpty_;
         return slices_.vertexCount(i) == 0;
@@ -168,8 +168,8 @@ class Exporter {
         }
     }
 
-    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. For a 3-D printer,
-    /// returns only the body of the outermost level, which contains the others. Omits levels without a body.
+    /// Returns the bodies of one slice of a field, from the outermost level to the innermost. If hasOneLevel(), returns
+    /// only the body of the outermost level, which contains the others. Omits levels without a body.
     std::vector<PlacedMesh> surfaceBodies(int i) {
         const auto& levels = scene_.surfaces.levels;
         const FieldSliceSurface slice = surfaces_->ofSlice(i);
