@@ -34,9 +34,10 @@ export class ExportDialog {
     private readonly error = byId("export-error");
     private readonly submit = byId<HTMLButtonElement>("export-submit");
     private state: State | undefined;
-    // The user's choice, kept while "skeleton" is forced for an element without volume.
+    // The body that the user chose, "solid" or "skeleton", kept while the dialog forces "skeleton" for an element
+    // without volume.
     private bodyToRestore: string | undefined;
-    private isForElement = false; // whether the dialog was opened to export an element, for which it changes choices
+    private isForElement = false; // whether the dialog was opened to export an element, for which it has set choices
     private requestNumber = 0; // number of the current request; answers to earlier requests are ignored
 
     /** `size` returns the size of the picture on the page; `warn` shows the warnings about a saved file. */

@@ -5,7 +5,7 @@ import table from "../../protocol/export_formats.json";
 export type ExportOption = "of" | "body" | "size" | "label" | "exact" | "side" | "pixels" | "background";
 
 export interface Format {
-    /** The name in the protocol, and the file name extension. */
+    /** The name in the protocol, which is also the file name extension. */
     name: string;
     label: string;
     /** A line about the contents of the file and the programs that open it. */

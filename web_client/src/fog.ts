@@ -7,7 +7,8 @@ import { roundedToDigitsOfSize } from "./format";
 
 export const kMinFogControlPoints = 2;
 export const kMaxFogControlPoints = 8;
-// Values are rounded to this many significant digits of their differences, and opacities to this many of their own.
+// Values of points are rounded to this many significant digits of the difference between neighboring points, opacities
+// to this many significant digits.
 const kDigits = 4;
 
 /** The distribution of a field's values. */
@@ -25,7 +26,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     if (!histogram) return undefined;
     const { columns } = scene.coordinates;
     const rows = density.length / columns;
-    // The numbers in `density` are cube roots of how often a value occurs. The greatest value is in row 0.
+    // A number in `density` is the cube root of how often a value of the field occurs. Row 0 is the greatest value.
     const counts = Array.from({ length: rows }, (_, row) => {
         let sum = 0; // a loop, because this is done for each picture
         for (const tone of density.subarray((rows - 1 - row) * columns, (rows - row) * columns)) sum += tone ** 3;
@@ -35,7 +36,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-// A smaller difference of two tones does not count: turning the object changes tones by less, due to rounding.
+// Tones that differ by less than this count as equal: when the object turns, rounding errors change tones by less.
 const kVisible = 0.02;
 
 /** Whether two distributions look the same. */
@@ -44,7 +45,7 @@ export function looksLike(one: ValueDistribution, other: ValueDistribution): boo
     return one.tones.every((tone, i) => Math.abs(tone - (other.tones[i] ?? NaN)) < kVisible);
 }
 
-/** Fog for a body inside a level: dense where the values are farthest inside, thinner at the level, clear outside. */
+/** Fog for a body inside a level: dense at the value farthest inside, thinner at the level, and transparent outside. */
 export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogControlPoint[] {
     const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
     const edge = level > least && level < greatest ? level : (least + greatest) / 2;

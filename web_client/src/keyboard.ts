@@ -95,7 +95,7 @@ export class Keyboard {
         }
         const { first } = this;
         const begins = !stroke.ctrl && this.keys.some(({ key }) => key.length === 2 && key[0] === stroke.key);
-        if (begins && held) return; // it is not pressed a second time
+        if (begins && held) return; // holding the first key of a sequence is not a second press of it
         this.ended = first && !stroke.ctrl ? this.keys.find(({ key }) => key === first.key + stroke.key) : undefined;
         this.first = begins && !this.ended ? stroke : undefined;
         if (first && this.ended) this.send(first, false);

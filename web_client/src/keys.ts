@@ -63,7 +63,7 @@ export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding
     const binding = table.find((row) => row.code !== undefined && row.key === digit);
     if (!binding || ctrl) return undefined;
     if (binding.shift === "inverse") return { key: binding.key, shift, ctrl };
-    // Some keyboards type digits with Shift; it then does not count as held.
+    // On some keyboards, Shift is needed to type digits. For a typed digit, Shift therefore does not count as held.
     return !shift || typed === digit ? { key: binding.key, shift: false, ctrl } : undefined;
 }
 

@@ -50,8 +50,8 @@ export class PageSession {
     }
 
     /**
-     * Joins the session that belongs to the current entry of the browser's history. Must be called after Back or Forward
-     * has changed the entry without reloading the page.
+     * Joins the session of the current entry of the browser's history. Must be called after Back or Forward has changed
+     * the entry without reloading the page.
      */
     joinSessionOfHistoryEntry(): void {
         const credentials = sessionOfHistoryEntry();

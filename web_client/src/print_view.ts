@@ -9,7 +9,7 @@ export class PrintView {
     private readonly root = byId("print");
     private frame: ImageBitmap | undefined; // the picture on white, if the server draws the pictures
     private isPrepared = false;
-    // The element that had the focus before printing, which takes the focus from it.
+    // The element that had the focus before printing, which takes the focus away.
     private focused: HTMLElement | undefined;
 
     /** `title` returns the heading to print. `failed` is called if the server does not send the picture to print. */

@@ -29,7 +29,7 @@ export class SliceElements {
     corners = new Uint32Array(0);
     cornerEdges = new Uint32Array(0); // the edge from each corner to the next
     normals = new Float32Array(0); // x, y, z of each face, outward
-    // The edges, grouped by that of their two vertices which has the smaller index.
+    // The edges, grouped by the smaller of the indices of their two vertices.
     readonly edgesByVertex = new EdgeBuckets();
     private readonly spare: SliceRanges[] = []; // unused objects, kept for pictures with more slices
 

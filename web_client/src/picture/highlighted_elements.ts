@@ -27,7 +27,9 @@ export function allHighlighted({ highlight }: Slices, pointed: HighlightedElemen
     };
 }
 
-/** The color of the faces of this cell: that of the highlight, if the cell is under the pointer. */
+/**
+ * The color of the faces of a cell: the color of the highlight if the cell is under the pointer, else the cell's own.
+ */
 export function cellColor(cell: number, colors: SceneDescription["colors"], highlighted: HighlightedElements): number {
     return cell === highlighted.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);
 }
