@@ -87,7 +87,8 @@ void CoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int co
 }
 
 // Adds the lower and the upper end of a vertical edge at x (in viewport heights from the left). The edge shows the
-// center of this column of the texture; its lower and upper end show the center of the last and the first row.
+// center of column `column` of the texture: the lower end shows the center of the last row, the upper end that of the
+// first row.
 void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
     for (const bool above : {false, true}) {
