@@ -24,6 +24,7 @@ const kWideFog = [
 
 const views = [
     { name: "a closed surface", formula: kTiger },
+    { name: "on a light page", formula: kTiger, options: { colorScheme: "light" } },
     { name: "capped by the box", formula: "x^2 + y^2 - z^2 < w" },
     { name: "two levels", formula: "x^2 + y^2 + z^2 + w^2", settings: { levels: [0.5, 2] } },
     { name: "three levels with caps", formula: "x^2 + y^2 - z^2 + w^2", settings: { levels: [-0.5, 2, 0.5] } },
@@ -45,9 +46,9 @@ const views = [
     { name: "fog and a projection", formula: kTiger, settings: { fog: kFog, projection: "perspective", inside: "above" } },
     { name: "fog of a slice alone", formula: kTiger, settings: { fog: kFog, view: "single", camera: { azimuth: 0.5, zoom: 3 } } },
 ];
-for (const { name, formula, values, settings = {} } of views) {
+for (const { name, formula, values, settings = {}, options } of views) {
     test(`fields: geometry and frame agree: ${name}`, async () => {
-        const { page, script, errors, close } = await openWithScript();
+        const { page, script, errors, close } = await openWithScript(options);
         await script.request({ type: "load", name: "formula", format: "formula", data: formula, ...(values && { values }) });
         await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
         const { revision } = await script.request({ type: "set", ...settings });

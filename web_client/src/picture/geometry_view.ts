@@ -171,6 +171,7 @@ export class GeometryView {
         this.camera.matrixWorldInverse.copy(this.viewCamera.view);
         this.renderer.setClearColor(this.background.setHex(scene.colors.background));
         this.render();
+        this.makeOpaque();
         drawOverlay(this.pen, this.picture, this.viewCamera, size, leastText, this.highlighted!, this.counts);
     }
 
@@ -187,6 +188,18 @@ export class GeometryView {
         for (const canvas of [this.renderer.domElement, this.overlay]) pen.drawImage(canvas, 0, 0);
         this.pointed = pointed;
         this.update(picture, pictureOrbit, counts);
+    }
+
+    /**
+     * Sets the alpha of all pixels to 1. Alpha to coverage leaves other values in the canvas, which Firefox on Mesa uses
+     * when it composes the page, although the context has no alpha.
+     */
+    private makeOpaque(): void {
+        const gl = this.renderer.getContext();
+        this.renderer.state.buffers.color.setClear(0, 0, 0, 1, false);
+        gl.colorMask(false, false, false, true);
+        gl.clear(gl.COLOR_BUFFER_BIT);
+        gl.colorMask(true, true, true, true);
     }
 
     /**
