@@ -127,4 +127,4 @@ test("costs: the page is compressed, and loads nothing from other sites", async 
     assert.equal(ran, undefined);
     assert.match(errors.join(), /Content Security Policy/);
     await close();
-});
+}, { needs: "sizes of responses" });

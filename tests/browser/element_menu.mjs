@@ -4,6 +4,7 @@ import { test } from "./support/suite.mjs";
 
 import { presented } from "./support/browser.mjs";
 import { faceIn, openTurned } from "./support/pointing.mjs";
+import { touchOf } from "./support/touch.mjs";
 
 test("element menu: a right click or a long press opens it, and its items act on the element", async () => {
     const { page, script, size, picture, moveTo, errors, close } = await openTurned({}, { hasTouch: true });
@@ -49,9 +50,7 @@ test("element menu: a right click or a long press opens it, and its items act on
     await script.request({ type: "command", line: "show" });
     await presented(page, (await script.state()).revision);
 
-    const session = await page.context().newCDPSession(page);
-    const touch = (type, ...points) =>
-        session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y]) => ({ x, y })) });
+    const touch = await touchOf(page);
     const { x, y } = await page.locator("#drawing").boundingBox();
     await touch("touchStart", [x + at[0], y + at[1]]);
     await menu.waitFor();

@@ -108,7 +108,7 @@ test("keys: a digit is recognized by the physical key, so Shift with it is the i
         assertMatrix(back.orientation, start.orientation);
         await end();
     }
-});
+}, { needs: "keyboard layouts" });
 
 test("keys: parentheses typed with Shift and a digit move the focus to the next vertex", async () => {
     const { page, script, close: end } = await openWithScript();
@@ -122,7 +122,7 @@ test("keys: parentheses typed with Shift and a digit move the focus to the next 
         await script.until((one) => one.section.w < above.section.w, `a lower w, ${layout}`);
     }
     await end();
-});
+}, { needs: "keyboard layouts" });
 
 test("keys: brackets typed with AltGr, and letters typed on keyboards of another script, are recognized", async () => {
     const { page, script, close: end } = await openWithScript();

@@ -98,7 +98,7 @@ test("layout: the choices of every format fit into the export dialog", async () 
         }
     });
     await close();
-});
+}, { variant: true });
 
 test("layout: the panel of a field fits into every window", async () => {
     const { page, close } = await openPanel();
@@ -145,7 +145,7 @@ test("layout: a page that moves to a screen with smaller pixels draws its pictur
     });
     assert.ok(Math.abs((await angleOfDrag(page, script)) - angle) < 1e-9, "the drag orbits as far");
     await close();
-});
+}, { needs: "scale of the screen" });
 
 test("layout: drags orbit as far where the picture has fewer pixels than the screen", async () => {
     const angles = [];

@@ -7,6 +7,7 @@ import { kPanels, panelOf } from "./support/matrix.mjs";
 import { distance, pixelAt } from "./support/pixels.mjs";
 import { rgb } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
+import { touchOf } from "./support/touch.mjs";
 
 const kEdges = 96; // of the 24-cell
 const kFaces = 96;
@@ -245,12 +246,8 @@ test("matrix: one finger moves the focus point, two fingers zoom", async () => {
     const { page, script, errors, size, picture, close } = await openMatrix({}, { hasTouch: true });
     const { matrix } = await picture();
     const { x, y } = await page.locator("#drawing").boundingBox();
-    const session = await page.context().newCDPSession(page);
-    const touch = (type, ...points) =>
-        session.send("Input.dispatchTouchEvent", {
-            type,
-            touchPoints: points.map((at, id) => ({ x: x + at[0], y: y + at[1], id })),
-        });
+    const send = await touchOf(page);
+    const touch = (type, ...points) => send(type, ...points.map((at) => [x + at[0], y + at[1]]));
     const zx = panelOf(matrix, "zx", size);
     await touch("touchStart", zx.at(0, 0));
     for (let i = 1; i <= 8; ++i) await touch("touchMove", zx.at(0.1 * i, -0.05 * i));

@@ -1,6 +1,6 @@
 // The picture: the positions of the slices, and the agreement of both streams.
 import assert from "node:assert/strict";
-import { test } from "./support/suite.mjs";
+import { inFirefox, test } from "./support/suite.mjs";
 
 import { accurateBrowser, openPage, openWithScript, presented, shownValues } from "./support/browser.mjs";
 import { within } from "./support/hang_limit.mjs";
@@ -80,6 +80,10 @@ for (const [polytope, columns] of [
     });
 }
 
+const kViewsInFirefox = [
+    ...["the 600-cell", "from another side and nearer", "the single view", "bars alone", "a star", "a perspective projection"],
+    ...["an orthogonal projection with many bars behind one another", "a projection whose sections shine through its faces"],
+];
 const views = [
     { name: "the 5-cell in its initial state", settings: {} },
     { name: "the 600-cell", settings: { polytope: "600-cell" } },
@@ -132,7 +136,7 @@ for (const { name, settings, mean = 1, far = 0.005 } of views) {
         await assertStreamsAgree(page, { mean, far });
         assert.deepEqual(errors, []);
         await close();
-    });
+    }, { variant: !kViewsInFirefox.includes(name) });
 }
 
 /** The part of a picture that shows the matrix. */
@@ -142,6 +146,7 @@ function matrixOf({ width, height, data }, { left, bottom, step }) {
     return { width: side, height: side, data: Buffer.concat(Array.from({ length: side }, (_, i) => row(i))) };
 }
 
+const kMatricesInFirefox = ["a 24-cell", "a 2-face highlighted", "a point cloud", "a tall window"];
 const matrices = [
     { name: "a 24-cell", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15] } },
     { name: "denser faces", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15], opacity: 4 } },
@@ -159,6 +164,7 @@ const matrices = [
     { name: "a tall window", settings: { polytope: "8-cell" }, viewport: { width: 400, height: 1000 }, mean: 0.7 },
     { name: "the focus point beyond the panels", settings: { polytope: "16-cell", point: [5, 0, -5, 0] } },
 ];
+const kEdges = inFirefox ? 2 : 1; // Firefox draws the edges of shapes on 2-D canvases in another way
 for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of matrices) {
     test(`picture: geometry and frame agree: the matrix: ${name}`, async () => {
         const { page, script, errors, close } = await openWithScript({ browser: await accurateBrowser(), ...(viewport && { viewport }) });
@@ -176,10 +182,10 @@ for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of 
         assert.equal(viewport !== undefined, matrix.left < 0.1, "beside the slice, or below it in a tall window");
         await drawBy(page, "frames");
         const [own, served] = [geometry, await picture(page)].map((one) => matrixOf(one, matrix));
-        assertSimilar(own, served, { mean, far });
+        assertSimilar(own, served, { mean: kEdges * mean, far: kEdges * far });
         assert.deepEqual(errors, []);
         await close();
-    });
+    }, { variant: !kMatricesInFirefox.includes(name) });
 }
 
 /** Records the texts that the page draws on its canvases, and where, in pixels of the canvas. */

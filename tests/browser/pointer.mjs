@@ -7,15 +7,9 @@ import { drawBy } from "./support/drawing.mjs";
 import { compare, decode } from "./support/pixels.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
+import { touchOf } from "./support/touch.mjs";
 
 const shot = async (page) => decode(await page.locator("#drawing").screenshot());
-
-/** Sends touch events with a finger at each of the points. */
-async function touchOf(page) {
-    const session = await page.context().newCDPSession(page);
-    return (type, ...points) =>
-        session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
-}
 
 /** Drags with the mouse while `keys` are held. */
 async function dragWith(page, keys, from, to) {

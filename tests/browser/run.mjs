@@ -1,6 +1,6 @@
 // Runs the browser tests: `node run.mjs [options] [FILE.mjs …]`. Without files, all but those of the options:
 //   --latencies    instead, the tests that measure speed
-//   --firefox      instead, the tests in Firefox
+//   --firefox      runs the tests in Firefox instead of Chromium, but those files that test nothing of Firefox
 //   --only FILE    of these tests, only those whose names are the lines of FILE, one after the other in one process
 //   --junit FILE   writes the results as JUnit XML
 //   --processes N  runs N files at once
@@ -17,7 +17,8 @@ import { writeJunit } from "./support/junit.mjs";
 import { runJobs, runningTests } from "./support/pool.mjs";
 
 const kLatencies = "performance.mjs";
-const kFirefox = "firefox.mjs";
+// A client without a page, rules about the page's elements, and windows that only browsers of phones have.
+const kChromiumOnly = ["client.mjs", "axe.mjs", "phone.mjs"];
 const kLongest = ["fields.mjs", "picture.mjs", "axe.mjs", "field_panel.mjs", "slider.mjs", "accessibility.mjs"]; // these begin
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -36,10 +37,9 @@ const { values: options, positionals } = parseArgs({
 function chosenFiles() {
     if (positionals.length > 0) return positionals.map((path) => path.split("/").at(-1));
     if (options.latencies) return [kLatencies];
-    if (options.firefox) return [kFirefox];
-    const all = readdirSync(here).filter((name) => name.endsWith(".mjs"));
-    const others = all.filter((name) => !["run.mjs", kLatencies, kFirefox, ...kLongest].includes(name));
-    return [...kLongest, ...others];
+    const left = ["run.mjs", kLatencies, ...(options.firefox ? kChromiumOnly : [])];
+    const all = readdirSync(here).filter((name) => name.endsWith(".mjs") && !left.includes(name));
+    return all.sort((a, b) => kLongest.includes(b) - kLongest.includes(a));
 }
 
 /** Bundles the TypeScript client, its decoder, the reader of keys and the colors for printing for the tests. */
@@ -65,16 +65,19 @@ function bundleClient() {
 const results = [];
 
 function finished(result) {
-    const { name, seconds, failure } = result;
+    const { name, seconds, failure, skipped } = result;
     results.push(result);
-    if (failure === undefined) console.log(`ok ${seconds.toFixed(1)} s  ${name}`);
+    if (skipped !== undefined) console.log(`skipped  ${name}: ${skipped}`);
+    else if (failure === undefined) console.log(`ok ${seconds.toFixed(1)} s  ${name}`);
     else console.log(`FAILED ${seconds.toFixed(1)} s  ${name}\n${failure.replace(/^/gm, "    ")}`);
 }
 
 function finish() {
     if (options.junit) writeJunit(options.junit, results);
     const failed = results.filter(({ failure }) => failure !== undefined);
-    console.log(`${results.length - failed.length} passed, ${failed.length} failed`);
+    const skipped = results.filter((one) => one.skipped !== undefined);
+    const passed = results.length - failed.length - skipped.length;
+    console.log(`${passed} passed, ${failed.length} failed, ${skipped.length} skipped`);
     for (const { name } of failed) console.log(`  ${name}`);
     process.exit(failed.length === 0 && results.length > 0 ? 0 : 1);
 }
@@ -88,6 +91,7 @@ for (const signal of ["SIGINT", "SIGTERM"]) {
 }
 
 bundleClient();
+if (options.firefox) process.env.OVAL4D_BROWSER = "firefox";
 if (options.slowdown) process.env.OVAL4D_SLOWDOWN = options.slowdown;
 const files = chosenFiles();
 if (options.only) {

@@ -7,7 +7,7 @@ import { within } from "./support/hang_limit.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
 test("without WebGL: the server renders, and the page says why", async () => {
-    const browser = await startBrowser(["--disable-3d-apis"]);
+    const browser = await startBrowser(["--disable-3d-apis"], { "webgl.disabled": true });
     const { page, press, errors, close } = await openWithScript({ browser });
     assert.equal(await page.getAttribute("#drawing", "data-mode"), "frames");
     const own = page.locator("[data-page-tool=geometry]");

@@ -87,7 +87,7 @@ def container(_):
 
 
 def firefox(_):
-    return [page("firefox", "--firefox")]
+    return [page("firefox", "--firefox", "--processes", "2")]
 
 
 def fuzz(folder):
@@ -160,7 +160,7 @@ GATE = [
 DEEP = [
     Part("latencies", 300, latencies, ("release",)),
     Part("container", 400, container, ("release",)),
-    Part("firefox", 100, firefox, ("release",)),
+    Part("firefox", 300, firefox, ("release",)),
     Part("fuzz", 120, fuzz, ("asan-ubsan",), at_once=2),
     Part("sanitizers", 1200, sanitizers, ("asan-ubsan", "tsan")),
 ]

@@ -1,13 +1,14 @@
-// Starts headless Chromium; helpers for tests of the page.
+// Starts the browser, which is Chromium or Firefox; helpers for tests of the page.
 import { existsSync } from "node:fs";
 
 import { chromium } from "playwright-core";
 
+import { startFirefox } from "./firefox.mjs";
 import { kHangLimit, within } from "./hang_limit.mjs";
 import { passTime, stopTime } from "./page_time.mjs";
 import { joinSession } from "./script.mjs";
 import { startServer } from "./server.mjs";
-import { afterTest, atEnd, setBroken } from "./suite.mjs";
+import { afterTest, atEnd, inFirefox, setBroken } from "./suite.mjs";
 
 // One renderer process for all pages, because starting one takes a quarter of the time of opening a page.
 const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--renderer-process-limit=1"];
@@ -16,9 +17,11 @@ const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-
 const kBrowsers = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => existsSync(path));
 
-/** Starts a browser; it is closed after all tests. */
-export async function startBrowser(args = []) {
-    const browser = await chromium.launch({ executablePath, args: [...kArguments, ...args], timeout: kHangLimit });
+/** Starts a browser; it is closed after all tests. `args` are arguments of Chromium, `preferences` those of Firefox. */
+export async function startBrowser(args = [], preferences = {}) {
+    const browser = inFirefox
+        ? await startFirefox(preferences)
+        : await chromium.launch({ executablePath, args: [...kArguments, ...args], timeout: kHangLimit });
     let isClosed = false;
     const close = browser.close.bind(browser);
     browser.close = () => ((isClosed = true), close());
@@ -38,7 +41,7 @@ let accurate;
 
 /** A browser that composes pages as one with a graphics card does. */
 export function accurateBrowser() {
-    accurate ??= startBrowser();
+    accurate ??= inFirefox ? common().then(({ browser }) => browser) : startBrowser();
     return accurate;
 }
 

@@ -1,14 +1,15 @@
-// Starts Firefox over WebDriver BiDi; helpers for tests of the page in Firefox.
+// Starts Firefox, which Puppeteer drives over WebDriver BiDi, and gives it the part of Playwright's interface that the
+// tests use, so that they are the same in both browsers.
 import { spawn } from "node:child_process";
-import { existsSync, mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 
 import puppeteer from "puppeteer-core";
 
-import { common, ready, scriptFor } from "./browser.mjs";
-import { atEnd } from "./suite.mjs";
+import { Download, FirefoxPage } from "./firefox_page.mjs";
 import { kHangLimit, within } from "./hang_limit.mjs";
+import { atEnd } from "./suite.mjs";
 
 const kBrowsers = ["/usr/bin/firefox-esr", "/usr/bin/firefox"];
 const executablePath = process.env.OVAL4D_FIREFOX ?? kBrowsers.find((path) => existsSync(path));
@@ -18,7 +19,9 @@ async function startDisplay() {
     const server = spawn("Xvfb", ["-displayfd", "3", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], {
         stdio: ["ignore", "ignore", "ignore", "pipe"],
     });
-    atEnd(() => server.kill());
+    const kill = () => server.kill();
+    atEnd(kill);
+    process.on("exit", kill);
     const number = new Promise((resolve, reject) => {
         server.once("error", reject);
         server.once("exit", (code) => reject(new Error(`Xvfb ended with ${code}`)));
@@ -27,79 +30,200 @@ async function startDisplay() {
     return within(number, "Xvfb to start");
 }
 
-let shared;
+/** Starts Firefox with additional preferences. */
+export async function startFirefox(preferences = {}) {
+    const downloads = mkdtempSync(join(tmpdir(), "oval4d-firefox-"));
+    atEnd(() => rmSync(downloads, { recursive: true, force: true }));
+    const display = await startDisplay();
+    const browser = await puppeteer.launch({
+        ...{ timeout: kHangLimit, protocolTimeout: kHangLimit },
+        ...{ browser: "firefox", executablePath, headless: false, env: { ...process.env, DISPLAY: `:${display}` } },
+        args: ["--remote-allow-system-access"], // to set what the user prefers, and whether there is a touch screen
+        defaultViewport: null,
+        extraPrefsFirefox: {
+            "browser.download.folderList": 2,
+            "browser.download.dir": downloads,
+            "browser.download.alwaysOpenPanel": false,
+            "browser.download.viewableInternally.enabledTypes": "", // downloads are not shown in tabs
+            "pdfjs.disabled": true,
+            "dom.events.testing.asyncClipboard": true, // pages may read the clipboard without asking the user
+            "dom.w3c_touch_events.enabled": 1,
+            "ui.key.menuAccessKeyFocuses": false, // Alt alone does not open the menu of the browser
+            ...preferences,
+        },
+    });
+    const started = new FirefoxBrowser(browser, downloads);
+    await started.begin();
+    return started;
+}
 
-/** Firefox, which all tests share, and the folder to which it downloads. */
-function firefox() {
-    shared ??= (async () => {
-        const downloads = mkdtempSync(join(tmpdir(), "oval4d-firefox-"));
-        atEnd(() => rmSync(downloads, { recursive: true, force: true }));
-        const display = await startDisplay();
-        const browser = await puppeteer.launch({
-            ...{ timeout: kHangLimit, protocolTimeout: kHangLimit },
-            ...{ browser: "firefox", executablePath, headless: false, env: { ...process.env, DISPLAY: `:${display}` } },
-            defaultViewport: { width: 1000, height: 640 },
-            extraPrefsFirefox: {
-                "browser.download.folderList": 2,
-                "browser.download.dir": downloads,
-                "browser.download.alwaysOpenPanel": false,
-                "dom.events.testing.asyncClipboard": true, // pages may read the clipboard without asking the user
-                "layout.css.prefers-color-scheme.content-override": 0, // dark
-            },
+/** The properties of Firefox's BrowsingContext that what emulateMedia() of Playwright calls by these names sets. */
+const kMedia = {
+    media: ["mediumOverride", (value) => (value === "print" ? "print" : "")],
+    colorScheme: ["prefersColorSchemeOverride", (value) => value],
+    forcedColors: ["forcedColorsOverride", (value) => value],
+};
+
+const kFingers = 1; // a coarse pointer that cannot hover
+
+/** Preferences that the options of a context set for all pages, while it is open. */
+const kPreferences = {
+    colorScheme: (value) => ({ "layout.css.prefers-color-scheme.content-override": value === "light" ? 1 : 0 }),
+    hasTouch: (has) => has && { "ui.primaryPointerCapabilities": kFingers, "ui.allPointerCapabilities": kFingers },
+    reducedMotion: (value) => ({ "ui.prefersReducedMotion": Number(value === "reduce") }),
+};
+
+class FirefoxBrowser {
+    #browser;
+    #chrome; // the window of the browser's own user interface
+    #folder; // for temporary files
+    #contexts = new Set(); // the open ones
+    #pages = new Map(); // by the identifiers of their browsing contexts
+
+    constructor(browser, folder) {
+        this.#browser = browser;
+        this.#folder = folder;
+    }
+
+    /** Finds the browser's own window, and listens to what Puppeteer does not report. */
+    async begin() {
+        const { contexts } = await this.send("browsingContext.getTree", { "moz:scope": "chrome" });
+        this.#chrome = contexts[0].context;
+        const { connection } = this.#browser;
+        const events = ["browsingContext.downloadWillBegin", "browsingContext.downloadEnd"];
+        await this.send("session.subscribe", { events });
+        connection.on("browsingContext.downloadWillBegin", ({ context, suggestedFilename, url }) => {
+            const ended = new Promise((resolve, reject) => {
+                const listen = (end) => {
+                    if (end.url !== url) return; // each file has a URL of its own
+                    connection.off("browsingContext.downloadEnd", listen);
+                    if (end.status === "complete") resolve(end.filepath);
+                    else reject(new Error(`the download was ${end.status}`));
+                };
+                connection.on("browsingContext.downloadEnd", listen);
+            });
+            this.#pages.get(context)?.emit("download", new Download(suggestedFilename, ended));
         });
-        atEnd(() => browser.close());
-        return { browser, downloads };
-    })();
-    return shared;
+    }
+
+    /** Sends a command of WebDriver BiDi. */
+    async send(method, parameters) {
+        const { result } = await this.#browser.connection.send(method, parameters);
+        return result;
+    }
+
+    /** Evaluates an expression in the browser's own window. */
+    async evaluateInBrowser(expression) {
+        const target = { context: this.#chrome };
+        const answer = await this.send("script.evaluate", { expression, target, awaitPromise: true });
+        if (answer.type === "exception") throw new Error(answer.exceptionDetails.text);
+    }
+
+    /** Sets preferences, [name, number]. */
+    async prefer(preferences) {
+        const set = ([name, number]) => `Services.prefs.setIntPref(${JSON.stringify(name)}, ${number});`;
+        if (preferences.length > 0) await this.evaluateInBrowser(preferences.map(set).join(" "));
+    }
+
+    /** Takes the preferences of a context back, and sets those of the other contexts again. */
+    async closedContext(context) {
+        this.#contexts.delete(context);
+        const reset = ([name]) => `Services.prefs.clearUserPref(${JSON.stringify(name)});`;
+        if (context.preferences.length > 0) await this.evaluateInBrowser(context.preferences.map(reset).join(" "));
+        for (const other of this.#contexts) await this.prefer(other.preferences);
+    }
+
+    on(event, listener) {
+        this.#browser.on(event, listener);
+    }
+
+    async newContext(options = {}) {
+        const context = new FirefoxContext(this, await this.#browser.createBrowserContext(), options);
+        this.#contexts.add(context);
+        return context;
+    }
+
+    opened(page) {
+        this.#pages.set(page.id, page);
+    }
+
+    closed(page) {
+        this.#pages.delete(page.id);
+    }
+
+    /** Whether a new page needs a window of its own to be drawn: in a window, only the tab in front is. */
+    get isShowing() {
+        return this.#pages.size > 1;
+    }
+
+    /** Writes files, {name, buffer}, and returns their paths. */
+    async written(files) {
+        const folder = mkdtempSync(join(this.#folder, "chosen-"));
+        return files.map(({ name, buffer }) => {
+            const path = join(folder, name);
+            writeFileSync(path, buffer);
+            return path;
+        });
+    }
+
+    close() {
+        return this.#browser.close();
+    }
 }
 
-/** Opens the page in a new tab and waits for its first picture. The members are as in openWithScript. */
-export async function openInFirefox({ url, viewport } = {}) {
-    const { browser, downloads } = await firefox();
-    const page = await browser.newPage();
-    page.setDefaultTimeout(kHangLimit);
-    if (viewport) await page.setViewport(viewport);
-    const errors = [];
-    page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
-    page.on("pageerror", (error) => errors.push(error.message));
-    await page.goto(url ?? (await common()).url);
-    await presented(page, 0);
-    await ready(page);
-    const script = await scriptFor(page);
-    return {
-        ...{ page, errors, script, downloads },
-        /** Presses keys in Playwright's notation; resolves to the changed state once its picture has been presented. */
-        async press(...strokes) {
-            const { revision } = await script.state();
-            for (const stroke of strokes) await type(page, stroke);
-            const state = await script.until((one) => one.revision > revision, `a change by ${strokes.join(" ")}`);
-            await presented(page, state.revision);
-            return state;
-        },
-        async close() {
-            script.leave();
-            await page.close();
-        },
-    };
-}
+/**
+ * Pages with the same options and storage. Of Playwright's options, `permissions` need nothing here, because all pages may
+ * use the clipboard; `isMobile` has no meaning in a browser for computers, which is only as narrow as a phone then.
+ */
+class FirefoxContext {
+    #context;
+    #pages = new Set();
 
-/** Presses a key with modifiers, as in "Shift+Digit4". */
-export async function type(page, stroke) {
-    const [, held, key] = /^((?:\w+\+)*)(.+)$/.exec(stroke);
-    const modifiers = held.split("+").filter(Boolean);
-    for (const modifier of modifiers) await page.keyboard.down(modifier);
-    await page.keyboard.press(key === "Space" ? " " : key);
-    for (const modifier of modifiers.reverse()) await page.keyboard.up(modifier);
-}
+    constructor(browser, context, options) {
+        this.browser = browser;
+        this.options = options;
+        this.#context = context;
+    }
 
-/** Waits until the page has presented this revision or a newer one. */
-export async function presented(page, revision) {
-    await page.waitForFunction(
-        (least) => {
-            const { revision = -1, draft } = document.getElementById("drawing").dataset;
-            return Number(revision) >= least && draft === undefined;
-        },
-        {},
-        revision,
-    );
+    async newPage() {
+        const { viewport, deviceScaleFactor = 1 } = this.options;
+        const opened = await this.#context.newPage({ type: this.browser.isShowing ? "window" : "tab" });
+        const page = new FirefoxPage(opened, this, viewport);
+        this.browser.opened(page);
+        this.#pages.add(page);
+        if (viewport) await opened.setViewport({ ...viewport, deviceScaleFactor });
+        await this.browser.prefer(this.preferences);
+        return page;
+    }
+
+    /** The preferences that the options set, [name, number]. */
+    get preferences() {
+        const given = Object.entries(kPreferences).filter(([option]) => this.options[option] !== undefined);
+        return given.flatMap(([option, of]) => Object.entries(of(this.options[option]) || {}));
+    }
+
+    /** Sets what the page's media features say. Firefox forgets it when a page replaces one from another site. */
+    async emulateMedia(page, media) {
+        const path = "chrome://remote/content/shared/NavigableManager.sys.mjs";
+        for (const [name, value] of Object.entries(media)) {
+            const [property, valueOf] = kMedia[name];
+            await this.browser.evaluateInBrowser(`{
+                const { NavigableManager } = ChromeUtils.importESModule(${JSON.stringify(path)});
+                const context = NavigableManager.getBrowsingContextById(${JSON.stringify(page.id)});
+                context[${JSON.stringify(property)}] = ${JSON.stringify(valueOf(value))};
+            }`);
+        }
+    }
+
+    async closePage(page) {
+        this.#pages.delete(page);
+        this.browser.closed(page);
+        await page.closeTab();
+    }
+
+    async close() {
+        for (const page of this.#pages) this.browser.closed(page);
+        await this.browser.closedContext(this);
+        await this.#context.close();
+    }
 }

@@ -10,10 +10,11 @@ function escaped(text) {
     return text.replace(/\u001b\[[\d;]*m/g, "").replace(/[^\t\n\r -\ud7ff\ue000-\ufffd]/gu, "\ufffd").replace(/[&<>"\n]/g, (one) => kEscapes[one]);
 }
 
-/** Writes {name, file, seconds, failure} of all tests. */
+/** Writes {name, file, seconds, failure, skipped} of all tests. */
 export function writeJunit(path, results) {
-    const cases = results.map(({ name, file, seconds, failure }) => {
+    const cases = results.map(({ name, file, seconds, failure, skipped }) => {
         const attributes = `name="${escaped(name)}" classname="browser"${file ? ` file="${file}"` : ""} time="${seconds.toFixed(3)}"`;
+        if (skipped !== undefined) return `  <testcase ${attributes}><skipped message="${escaped(skipped)}"/></testcase>`;
         if (failure === undefined) return `  <testcase ${attributes}/>`;
         const [message] = failure.split("\n    at ");
         return `  <testcase ${attributes}>\n    <failure message="${escaped(message)}">${escaped(failure)}</failure>\n  </testcase>`;

@@ -12,8 +12,8 @@ const kWaitsOfTest = 20; // the most waits that a test chains; each of them ends
 export const runningTests = new Set();
 
 /**
- * Runs jobs, {files, only}, and resolves when all are done. `finished` is called with {name, file, seconds, failure} for
- * each test, where `file` is undefined for a job of several files.
+ * Runs jobs, {files, only}, and resolves when all are done. `finished` is called with {name, file, seconds, failure,
+ * skipped} for each test, where `file` is undefined for a job of several files, and `skipped` says why a test was not run.
  */
 export async function runJobs(jobs, { processes, finished }) {
     const waiting = [...jobs];
@@ -49,9 +49,9 @@ function runJob(worker, job, finished) {
             running = message.started;
             if (running !== undefined) runningTests.add(running);
             if (message.finished) {
-                const { finished: name, seconds, failure } = message;
+                const { finished: name, seconds, failure, skipped } = message;
                 done.push(name);
-                finished({ name, file, seconds, failure });
+                finished({ name, file, seconds, failure, skipped });
             } else if (message.done) {
                 clearTimeout(hanging);
                 resolve({ isCrashed: false });

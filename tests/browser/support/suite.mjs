@@ -1,16 +1,36 @@
 // Collects the tests of the files that a process imports, and what is to be closed after them.
 import { within } from "./hang_limit.mjs";
 
-const tests = new Map(); // functions by name
+/** Whether the tests run in Firefox instead of Chromium. */
+export const inFirefox = process.env.OVAL4D_BROWSER === "firefox";
+
+/** What tests cannot do in Firefox, which WebDriver BiDi controls: by what a test needs, why it is skipped there. */
+const kMissingInFirefox = {
+    "accessibility tree": "WebDriver BiDi does not tell the names and roles of elements",
+    "keyboard layouts": "WebDriver BiDi has only the keys of an American keyboard",
+    "sizes of responses": "WebDriver BiDi does not tell how large a response is on its way",
+    "scale of the screen": "WebDriver BiDi changes the scale of a page only together with its size",
+};
+
+const tests = new Map(); // {run, skipped} by name
 const closings = { test: [], process: [] };
 
-/** Adds a test. Its name is unique among all files, because it identifies the test in reports and in `--only`. */
-export function test(name, run) {
+/** Why the variants of tests are skipped in Firefox, where the tests would take too long otherwise. */
+const kVariant = "other tests show the same of the browser";
+
+/**
+ * Adds a test. Its name is unique among all files, because it identifies the test in reports and in `--only`. What it
+ * `needs` is a key of kMissingInFirefox. A `variant` tests other data than another test, and nothing more of the
+ * browser.
+ */
+export function test(name, run, { needs, variant = false } = {}) {
     if (tests.has(name)) throw new Error(`two tests are called “${name}”`);
-    tests.set(name, run);
+    if (needs && !kMissingInFirefox[needs]) throw new Error(`“${name}” needs “${needs}”, which is not in the table`);
+    const reason = needs ? kMissingInFirefox[needs] : variant ? kVariant : undefined;
+    tests.set(name, { run, skipped: inFirefox ? reason : undefined });
 }
 
-/** The tests that have been added since the last call. */
+/** The tests that have been added since the last call, [name, {run, skipped}]; `skipped` says why a test cannot run. */
 export function takeTests() {
     const taken = [...tests];
     tests.clear();

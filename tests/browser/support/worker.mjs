@@ -1,5 +1,6 @@
 // A process that runs tests one after the other. run.mjs sends which: files, and the names of tests to run or to skip. It
-// receives {started} and {finished} for each test and {done} at the end, or {broken} if no further test can pass.
+// receives {started} and {finished} for each test, {finished, skipped} for one that is not run in this browser, and {done}
+// at the end, or {broken} if no further test can pass.
 import { broken, closeAll, takeTests } from "./suite.mjs";
 
 let strayErrors = []; // of promises that nothing awaits
@@ -33,9 +34,11 @@ async function run({ files, only, skip = [] }) {
         const failure = await start.then(() => undefined, messageOf);
         if (failure !== undefined || only?.includes(name)) await report({ finished: name, seconds: 0, failure });
     }
-    for (const [name, test] of takeTests()) {
+    for (const [name, { run, skipped }] of takeTests()) {
         if (broken !== undefined) return report({ broken }); // another process runs the rest
-        if ((only?.includes(name) ?? true) && !skip.includes(name)) await runTest(name, test);
+        if (!(only?.includes(name) ?? true) || skip.includes(name)) continue;
+        if (skipped !== undefined) await report({ finished: name, seconds: 0, skipped });
+        else await runTest(name, run);
     }
     await report({ done: true });
 }

@@ -1,0 +1,13 @@
+// Fingers on a touch screen.
+import { inFirefox } from "./suite.mjs";
+
+/**
+ * Returns a function that sends a touch event, "touchStart", "touchMove" or "touchEnd", with a finger at each of the
+ * points. "touchEnd" has no points: all fingers leave the screen.
+ */
+export async function touchOf(page) {
+    if (inFirefox) return (type, ...points) => page.touch(type, ...points);
+    const session = await page.context().newCDPSession(page);
+    return (type, ...points) =>
+        session.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
+}
