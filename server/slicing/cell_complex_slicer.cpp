@@ -60,9 +60,9 @@ bool CellComplexSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet&
     return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
 }
 
-// Sets touching_ for the hyperplanes that touch the polytope from one side, and cuts the slices in them by the general
-// method (see cutGeneral()). Returns false if more than two hyperplanes touch the polytope from one side, within
-// kOnPlaneTolerance.
+// Sets touching_ for the hyperplanes that touch the polytope from one side: they contain vertices, but no vertices lie
+// on one of their sides. Cuts the slices in these hyperplanes by the general method (see cutGeneral()). Returns false
+// if there are more than two such hyperplanes.
 bool CellComplexSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -173,8 +173,8 @@ void CellComplexSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet&
 // Finds the slice edges: the complex's edges in hyperplanes, and the segments in which 2-faces cross hyperplanes.
 void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
-    // upTo_ is equal to below_ or one greater. Therefore half of below_ + upTo_ is below_ if rounded down, and upTo_ if
-    // rounded up, and one pass over the sums finds the extremes of both.
+    // upTo_[v] is below_[v] or below_[v] + 1. Therefore, for the sum s = below_[v] + upTo_[v], below_[v] is ⌊s / 2⌋ and
+    // upTo_[v] is ⌈s / 2⌉. So the least and the greatest sum give the extremes of both lists.
     rankSum_.resize(below_.size());
     for (std::size_t v = 0; v < below_.size(); ++v) rankSum_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
@@ -206,9 +206,10 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
     numberEdges(complex, out);
 }
 
-// The vertex loop of a convex 2-face ascends through a hyperplane once, and descends once. Returns false, and adds
-// nothing, if the loop ascends more than once. Rounding errors can have this effect if the 2-face nearly lies in a
-// hyperplane.
+// Adds the segments in which a convex 2-face crosses the levels just above the hyperplanes with the indices in
+// `above`. The vertex loop of a convex 2-face ascends through each level once, and descends once. Returns false, and
+// adds nothing, if the loop ascends more than once through a level. That can happen through rounding errors if the
+// 2-face nearly lies in a hyperplane.
 bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
@@ -471,8 +472,9 @@ void CellComplexSlicer::addLyingFace(const geometry::CellComplex& complex, std::
     }
 }
 
-// Returns whether a cell in a hyperplane lies on top of the complex, so that its outer side faces toward larger w.
-// This is the case if its 2-faces, oriented as in this cell, enclose a positive volume.
+// Returns whether a cell in a hyperplane lies on top of the complex, so that its outer side faces toward larger w. The
+// 2-faces of the cell, oriented as in this cell, are divided into triangles with the corners a, b and c. The cell lies
+// on top if the sum of det(a, b, c) over these triangles is positive.
 bool CellComplexSlicer::hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell,
                                         const SliceSet& out) const {
     double volume = 0;

@@ -57,7 +57,7 @@ class CellComplexSlicer {
         std::uint32_t edge;
     };
     // A face of the slice in hyperplane `plane`: a closed loop with `size` corners, of which loopCorners_[begin] is the
-    // first. `source` is its source number (see SliceSet).
+    // first. `source` is the entry of SliceSet::faceSource: it says from which cell or 2-face the slice face was cut.
     struct FaceLoop {
         std::int32_t plane;
         std::uint32_t source, begin, size;

@@ -38,8 +38,7 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices 
 }
 
 // Cuts with the lower and the upper half of the hyperplanes at the same time. Requires that no vertex lies in a
-// hyperplane: in this case, Sweep::maxSize() is exact, so that the position in `out` of the upper half is known before
-// cutting.
+// hyperplane. Then Sweep::maxSize() is exact, so that the position in `out` of the upper half is known before cutting.
 bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
     const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;

@@ -21,9 +21,10 @@ struct Field;
 namespace oval4d::slicing {
 
 /// Four two-dimensional histograms of a rotated field, one for each of the axes x, y, z and w. Each shows how much of
-/// the domain has a given coordinate along the axis and a given value. The histograms form an image of kRows ×
-/// kColumns, with a panel of kPanel columns for each axis. The first and the last column of a panel stand for the ends
-/// of the domain; the first row stands for the greatest value of range(), and the last row for the least.
+/// the domain has a given coordinate along the axis and a given value. The histograms form one table with kRows rows
+/// and kColumns columns, which has a panel of kPanel columns for each axis. The first and the last column of a panel
+/// stand for the ends of the domain; the first row stands for the greatest value of range(), and the last row for the
+/// least.
 ///
 /// The domain is sampled at quasirandom points (see fields::writeQuasirandomPoints()). The function is not evaluated
 /// again while only the rotation or the levels change. Reuses its memory between measurements.

@@ -233,8 +233,8 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
             break;
         }
         case ElementKind::cell: {
-            // The sum of the signed volumes of the tetrahedra from `base` to the triangles into which the 2-faces are
-            // divided.
+            // The 2-faces are divided into triangles with the corners a, b and c, relative to `base`. The volume is the
+            // sum of det(a, b, c) / 6, the signed volumes of the tetrahedra from `base` to these triangles.
             double volume = 0;
             for (std::uint32_t item = p.cells.begin[index]; item < p.cells.begin[index + 1]; ++item) {
                 const auto loop = p.faces[p.cells.items[item]];

@@ -74,8 +74,9 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
 std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                 const geometry::Hyperplanes& plane);
 
-/// The parts of a picture that show one element of the object: slice vertices and slice edges, given by their source
-/// numbers (see SliceSet), and vertices of the object. The lists are sorted and have no duplicates.
+/// The parts of a picture that show one element of the object: slice vertices, slice edges, and vertices of the object.
+/// A slice vertex or edge is given by its source number, which says from which element of the object it was cut (see
+/// SliceSet). The lists are sorted and have no duplicates.
 struct PartsShowingElement {
     std::vector<std::uint32_t> vertices, edges;  ///< source numbers of slice vertices and of slice edges
     std::vector<std::uint32_t> ownVertices;      ///< the element's vertices, as indices into the object's vertices

@@ -23,8 +23,8 @@ std::uint32_t indexIn(const std::vector<std::uint32_t>& sorted, std::uint32_t nu
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
 }
 
-// Appends the vertices with these numbers, rotated by `turn`, to `out`. The source number of vertex v is firstSource +
-// v. Returns the w coordinate of the first rotated vertex.
+// Appends the vertices with these numbers, rotated by `turn`, to `out`. Sets the entry of SliceSet::vertexSource for
+// vertex v to firstSource + v. Returns the w coordinate of the first rotated vertex.
 double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<std::uint32_t>& numbers,
                    std::uint32_t firstSource, const geometry::Rotation& turn, SliceSet& out) {
     for (const std::uint32_t v : numbers) {
@@ -40,8 +40,9 @@ void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std:
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
     // If each loop whose entry in cellSigns is −1 is reversed, the loops of all 2-faces have the same direction in the
-    // hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces toward +w: it is
-    // counterclockwise if the signed volume of the cell is positive, else clockwise.
+    // hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces toward +w. Let
+    // a, b and c be the corners of the triangles into which these loops are divided. The direction is counterclockwise
+    // if `volume`, the sum of det(a, b, c), is positive, else clockwise.
     double volume = 0;
     for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
         const auto loop = p.faces[p.cells.items[at]];

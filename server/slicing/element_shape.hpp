@@ -11,9 +11,9 @@ namespace oval4d::slicing {
 /// Writes an element to `out` as the only slice: the element's vertices and edges, and for a cell its 2-faces, whose
 /// loops are counterclockwise seen from outside. The element is rotated by `orientation`, and then by the rotation that
 /// turns its direction to +w (see rotationToW()). Therefore the element lies in a hyperplane w = const, where it has
-/// its true shape and size. The vertices, edges and faces of the slice have the source numbers of elements that lie in
-/// the hyperplane (see SliceSet). Overwrites `out`; `out.rotatedVertices` is empty. Requires element.index <
-/// elementCount(object, element.kind).
+/// its true shape and size. The source numbers of the slice's vertices, edges and faces say which elements of the
+/// object they are (see SliceSet: elements that lie in the hyperplane). Overwrites `out`; `out.rotatedVertices` is
+/// empty. Requires element.index < elementCount(object, element.kind).
 void writeElementAsSlice(const Object& object, const Element& element, const geometry::Rotation& orientation,
                          SliceSet& out);
 

@@ -15,9 +15,9 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Returns where a function that is linear from p to q is 0, given its values, `a` at p and `b` at q, exactly one of
-// which is negative. The result does not depend on the order of the two ends, so both cells at the sides of a segment
-// find the same point. If a value is infinite, returns the middle.
+// Returns the point between p and q at which a function is 0. The function is linear from p to q, with the value `a` at
+// p and `b` at q; exactly one of these values is negative. The result does not depend on the order of p and q, so that
+// the two cells that share the segment find the same point. If a value is infinite, returns the middle of p and q.
 glm::dvec2 zeroOnSegment(glm::dvec2 p, glm::dvec2 q, double a, double b) {
     if (std::tie(q.x, q.y) < std::tie(p.x, p.y)) {
         std::swap(p, q);
@@ -199,11 +199,13 @@ void PlanarContourTracer::addSegments(std::span<const std::uint32_t> corners, do
         if ((here < 0) != (next < 0))
             crossings_.push_back(zeroOnSegment(withoutZ(points_[a]), withoutZ(points_[b]), here, next));
     }
-    // If there are more than two crossings, corners below the level alternate with corners above it. The value in the
-    // middle decides which of them are connected within the cell: in a square, the value at the saddle point of the
-    // bilinear interpolation (G. M. Nielson and B. Hamann, "The asymptotic decider", 1991), else the mean of all
-    // corners. For each run of successive corners on the other side of the level than the middle, a segment separates
-    // the run from the middle.
+    // If there are more than two crossings, corners below the level alternate with corners above it. `middle` then
+    // decides which corners are connected within the cell:
+    // - In a square, it is the value at the saddle point of the bilinear interpolation, minus the level (G. M. Nielson
+    //   and B. Hamann, "The asymptotic decider", 1991).
+    // - In any other cell, it has the sign of the mean of all corners, minus the level.
+    // Corners on the same side of the level as the middle are connected. A segment separates each run of successive
+    // corners on the other side from the middle.
     double middle = sum;
     if (corners.size() == 4 && crossings_.size() == 4) {
         const auto value = [&](std::size_t i) { return values_[corners[i]] - level; };

@@ -18,10 +18,10 @@ constexpr double opacityOf(Visibility visibility) {
     return visibility == Visibility::full ? 1 : visibility == Visibility::faded ? 0.25 : 0;
 }
 
-/// The visibilities of slice vertices, edges and faces, indexed by their source numbers (see SliceSet). An element of a
-/// slice has the visibility of the polytope element from which it was cut. A cell has the visibility of its type, and
-/// any other polytope element the greatest visibility of the cells that contain it. The lists are empty if everything
-/// is fully visible.
+/// The visibilities of slice vertices, edges and faces. The index of an element of a slice is its source number, which
+/// says from which polytope element it was cut (see SliceSet). The element of the slice has the visibility of this
+/// polytope element. A cell has the visibility of its type, and any other polytope element the greatest visibility of
+/// the cells that contain it. The lists are empty if everything is fully visible.
 struct Visibilities {
     std::vector<Visibility> vertices, edges, faces;
 
@@ -46,9 +46,9 @@ void findVisibilities(const Object& object, std::span<const std::uint32_t> hidde
 /// element.index < elementCount(object, element.kind).
 Visibility visibilityOf(const Object& object, const Visibilities& visibilities, const Element& element);
 
-/// Returns the cell that determines the color of the slice face with the source number `source`. If the face was cut
-/// from a cell, this is that cell. If the slice face is a 2-face that lies in the hyperplane, the result is the first
-/// cell of this 2-face or, if the first one is hidden, the second.
+/// Returns the cell that determines the color of a slice face. `source` is the entry of SliceSet::faceSource for this
+/// face. If the face was cut from a cell, the result is that cell. If the slice face is a 2-face that lies in the
+/// hyperplane, the result is the first cell of this 2-face or, if the first one is hidden, the second.
 std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source);
 
 }  // namespace oval4d::slicing

@@ -21,9 +21,10 @@ struct ClosedSurface {
     std::size_t firstCap = 0;
     /// Per point, the value of the interpolated function. Empty unless ClosedSurfaceSlicer::Options::pointData is true.
     std::vector<float> values;
-    /// Per point of the level set, a vector in the direction of the mean gradient of the interpolated function in the
-    /// simplices around the point, weighted by the areas of their triangles: its components along x, y, z and w of the
-    /// rotated object. Its length has no meaning. (0, 0, 0, 0) for other points. Empty if `values` is.
+    /// Per point of the level set, a vector in the direction of the gradient of the interpolated function: its
+    /// components along x, y, z and w of the rotated object. The gradient at a point is the mean of the gradients in
+    /// the simplices around the point, weighted by the areas of the triangles in these simplices. The length of the
+    /// vector has no meaning. The vector is 0 for points that are only on caps. Empty if `values` is empty.
     std::vector<glm::dvec4> gradients;
 
     void clear() {

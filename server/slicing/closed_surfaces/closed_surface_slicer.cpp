@@ -106,9 +106,9 @@ void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     cutRange(upper);
 }
 
-// Returns whether some lattice points of the range lie below the hyperplane, and others in or above it. Compares bounds
-// of their heights with 0. The bounds and the heights are sums of four terms in the same order. Rounded sums are
-// monotone in each term, so no height is outside the bounds.
+// Returns whether some lattice points of the range lie below the hyperplane, and others in or above it. Compares 0 with
+// bounds of the heights of the points above the hyperplane. A height and its bounds are sums of four terms, added in
+// the same order. Rounded sums are monotone in each term, so no height is outside the bounds.
 bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -268,9 +268,9 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
     }
 }
 
-// Adds the gradient of the function in the pentatope to those of the points of its triangles, which are the triangles
-// from the index `first` on. Triangles without area have a tiny weight, so that points without other triangles have a
-// gradient, too.
+// Adds the gradient of the function in the pentatope to the gradients of the corners of the triangles in this
+// pentatope. These triangles are the last ones, from the index `first` on. The weight of a triangle is its area, but at
+// least kLeastWeight, so that points whose triangles all have the area 0 have a gradient, too.
 void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t first) {
     constexpr double kLeastWeight = 1e-100;
     std::array<double, 4> rises{};  // along each axis of the lattice, per cell

@@ -95,7 +95,7 @@ class ClosedSurfaceSlicer {
         std::array<double, 5> heights, values;  // per corner: its height above the hyperplane, its value
         std::array<std::array<PentatopeEdgeCrossing, 5>, 5>
             crossings;  // [i][j], i < j: on the edge between corners i and j
-        bool positive;  // whether its signed volume is positive: see sectionOf()
+        bool positive;  // the argument `positive` of sectionOf()
     };
 
     double movedIntoDomain(double w) const;

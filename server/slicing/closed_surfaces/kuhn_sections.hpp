@@ -19,7 +19,7 @@ namespace oval4d::slicing {
 /// A pentatope of the subdivision of a cell.
 struct Pentatope {
     std::array<std::uint8_t, 5> corners{};  ///< a chain of corners of the cell, from 0 to 15 (see the top of this file)
-    bool positive = true;                   ///< whether the signed volume of the corners, in this order, is positive
+    bool positive = true;                   ///< whether det(c1 − c0, …, c4 − c0) > 0 for the corners c0 … c4
 
     /// Returns the axis along which corner i + 1 is above corner i, for i from 0 to 3.
     int axisToNextCorner(std::size_t i) const;
@@ -45,8 +45,8 @@ struct SectionTetrahedron {
     std::array<std::uint8_t, 4> facets{};
 };
 
-/// The faces of a tetrahedron with a positive volume: face k is opposite to corner k, and is counterclockwise as seen
-/// from outside.
+/// The faces of a tetrahedron with a positive signed volume (see sectionOf()): face k is opposite to corner k, and is
+/// counterclockwise as seen from outside.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
@@ -59,9 +59,10 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
 /// the last lower corner. This rule depends only on the facet, so that the two pentatopes that share the facet divide
 /// the side in the same way.
 ///
-/// `positive` says whether the signed volume of the pentatope is positive in coordinates (x, y, z, h), where x, y and z
-/// are coordinates in the hyperplane and h is the height above it. For both values of `positive`, the signed volumes of
-/// the tetrahedra in coordinates (x, y, z) are positive.
+/// `positive` says whether det(c1 − c0, c2 − c0, c3 − c0, c4 − c0) is positive for the corners c0 … c4 of the
+/// pentatope, in coordinates (x, y, z, h). Here, x, y and z are coordinates in the hyperplane, and h is the height
+/// above it. For both values of `positive`, the signed volume det(a1 − a0, a2 − a0, a3 − a0) / 6 of each tetrahedron
+/// with the corners a0 … a3, in coordinates (x, y, z), is positive.
 std::span<const SectionTetrahedron> sectionOf(unsigned above, bool positive);
 
 }  // namespace oval4d::slicing

@@ -28,8 +28,8 @@ using TopologyByLevel = std::vector<SectionTopology>;
 const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
 
-// The farthest distance at which a change is searched from the w that the lattices of whole sections show, relative to
-// the range of w.
+// Whole sections show in which interval of w a change lies. searchOnFinerLattices() also searches up to this far beyond
+// both ends of the interval. Relative to the range of w.
 constexpr double kLocalReach = 5e-3;
 constexpr std::size_t kMaxChanges = 1000;  // of all levels together; a noisy field may have more changes
 
@@ -316,10 +316,10 @@ class CriticalSearch {
         }
     }
 
-    // Refines the critical w of a change of this kind on finer lattices around those points where the sections before
-    // and after it are most nearly tangent to the hyperplane. The parts that merge or vanish are tangent before the
-    // change, and those that split or appear after it. Returns std::nullopt for a change of handles, of which finer
-    // lattices show more where the surface has creases.
+    // Refines the critical w of a change of this kind on finer lattices around the points where the section is most
+    // nearly tangent to the hyperplane. Parts that merge or vanish are tangent in the section `before`; parts that
+    // split or appear are tangent in the section `after`. Returns std::nullopt for a change of handles, because finer
+    // lattices show additional handles where the surface has creases.
     std::optional<double> searchOnFinerLattices(const TopologyChange& change, SectionChange kind,
                                                 const SliceSurface& before, const SliceSurface& after) const {
         constexpr std::size_t kStarts = 24;

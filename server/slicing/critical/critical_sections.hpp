@@ -89,9 +89,10 @@ struct CriticalOptions {
 ///
 /// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
 /// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w, where it
-/// converges. If it is an array, the critical w at which parts of the body appear, vanish, merge or split, or cavities
-/// open or close, are refined on lattices around the change that are up to 256 times finer (see LocalChangeSearch),
-/// which find those of the interpolated function to about kCriticalTolerance of the range of w.
+/// converges. If the field is an array, each critical w at which parts of the body appear, vanish, merge or split, or
+/// at which cavities open or close, is refined on lattices around the change (see LocalChangeSearch). These lattices
+/// are up to 256 times finer. The refined w is that of the interpolated function, with an error of about
+/// kCriticalTolerance of the range of w.
 ///
 /// Error: `canceled` if a stop is requested. Throws std::runtime_error if the samples of a field are in a file that can
 /// no longer be read.

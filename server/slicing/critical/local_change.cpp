@@ -15,7 +15,7 @@ namespace {
 constexpr int kWindowSide = LocalChangeSearch::kSide, kWindowMiddle = kWindowSide / 2;
 constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWindowSide,
                       kWindowPoints = kWindowLayer * kWindowSide;
-constexpr int kMaxSamplings = 600;          // of one search
+constexpr int kMaxSamplings = 600;          // how often one search may sample a window
 constexpr std::size_t kMaxTriedPoints = 8;  // the number of points of a change that are tried as middles of windows
 constexpr int kWindowMargin = 2;          // points closer to the boundary of a window than this are not in its interior
 constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, relative to Start::tolerance
@@ -27,8 +27,8 @@ std::size_t windowPointIndex(int x, int y, int z) {
            kWindowSide * (static_cast<std::size_t>(y) + kWindowSide * static_cast<std::size_t>(z));
 }
 
-// Returns twice the least step along w that changes one of the coordinates of points in the box if they are 32-bit
-// floats.
+// Returns twice the least step along w that changes at least one coordinate of every point in the box. The coordinates
+// are 32-bit floats. `normal` is one unit of w, as a vector in the function's coordinates.
 double leastStepAlongW(const fields::Box& box, const glm::dvec4& normal) {
     double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 4; ++axis) {
@@ -65,7 +65,8 @@ std::optional<double> LocalChangeSearch::find(const Change& change, const Start&
     return findIn({start.point, start.half}, start.w, start.reach, 1);
 }
 
-// Finds the change in a window and in those around its points. `number` is the number of the window, from 1.
+// Finds the change in a window, and refines it in smaller windows around the points that change sides. `number` is 1
+// for the first, largest window.
 std::optional<double> LocalChangeSearch::findIn(const Window& window, double w, double reach, int number) {
     const std::optional<LocalEvent> event = eventIn(window, w, reach, number);
     if (!event) return std::nullopt;
@@ -151,7 +152,7 @@ void LocalChangeSearch::sample(const Window& window, double w, PointFlags& insid
     }
 }
 
-// Counts the parts of the body or, if change_ says so, those outside of it.
+// Counts the parts of the body or, if change_.ofBody is false, the parts outside of the body.
 std::size_t LocalChangeSearch::countParts(const PointFlags& inside) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     const auto rootOf = [&](std::uint32_t point) {

@@ -17,16 +17,17 @@
 
 namespace oval4d::slicing {
 
-/// Finds the w at which the number of connected parts changes, of the body of a level or of what is outside of the
-/// body, in the part of the section around a point. It needs no derivatives, so it also works for arrays, whose
+/// Finds the w at which the number of connected parts changes in the section around a point. The parts are those of the
+/// body of a level, or those of the rest of the section. Needs no derivatives, so it also works for arrays, whose
 /// critical points mostly lie where the derivatives of the interpolation jump.
 ///
-/// Takes the section for a piecewise linear function on a cubic lattice in a window, a cube with kSide points along
-/// each side. The body of such a function has as many parts as the graph of the lattice points in the body, of which
-/// two are neighbors if an edge of the Freudenthal subdivision joins them. Bisection finds the w of the change that is
-/// nearest to a given w, and a lattice point that changes sides there. The next window, with the same number of points,
-/// is kZoom times smaller, with this point in its middle. Changes that are due to the boundary of a window are not
-/// counted: the point must lie in its interior, and the same change must be in the next windows.
+/// Works in a window: a cube in the section with kSide lattice points along each side. Treats the function as linear
+/// between these points. The number of parts is then that of the graph whose nodes are the lattice points in the body
+/// (or outside of it). Each node has the neighbors at the offsets ±(i, j, k) with i, j, k in {0, 1}: the edges of the
+/// Freudenthal subdivision. Bisection finds the w of the change that is nearest to a given w, and a lattice point that
+/// enters or leaves the body there. The next window is kZoom times smaller, has this point in its middle, and has the
+/// same number of points. Changes that are due to the boundary of a window are not counted: the point must lie in the
+/// interior of the window, and the next windows must have the same change.
 ///
 /// Reuses its memory. Only one thread at a time may use an object of this class.
 class LocalChangeSearch {
@@ -37,8 +38,8 @@ class LocalChangeSearch {
 
     /// What changes while w increases.
     struct Change {
-        bool ofBody = true;       ///< whether the parts are those of the body; if false, those outside of the body
-        bool becomesMore = true;  ///< whether they become more
+        bool ofBody = true;       ///< true: the parts of the body; false: the parts outside of the body
+        bool becomesMore = true;  ///< whether the number of these parts grows
     };
     /// Where to search. Lengths and w are in the units of the object.
     struct Start {
@@ -53,8 +54,8 @@ class LocalChangeSearch {
     LocalChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
                       fields::Inside inside, std::function<bool()> mustEnd);
 
-    /// Returns the w of the change, or std::nullopt if there is none in the first window, or if it is not in the next
-    /// windows.
+    /// Returns the w of the change. Returns std::nullopt if there is no change in the first window, or if the smaller
+    /// windows do not have the same change.
     std::optional<double> find(const Change& change, const Start& start);
 
   private:
@@ -64,7 +65,7 @@ class LocalChangeSearch {
     };
     struct LocalEvent {
         double w;
-        std::vector<glm::dvec3> points;  // those in the interior of the window that change sides; not empty
+        std::vector<glm::dvec3> points;  // lattice points in the interior of the window that change sides; not empty
     };
     using PointFlags = std::vector<std::uint8_t>;  // per point of a window: whether it is in the body
 
@@ -82,7 +83,7 @@ class LocalChangeSearch {
     const double level_;
     const fields::Inside inside_;
     const std::function<bool()> mustEnd_;
-    double leastStep_ = 0;  // the least step along w that changes the function's coordinates, which are 32-bit floats
+    double leastStep_ = 0;  // the result of leastStepAlongW(): bisection stops at intervals of w of this length
     Change change_;
     double tolerance_ = 0;
     int samplings_ = 0;  // how often a window was sampled in the current search
