@@ -89,9 +89,9 @@ Arrangement columnOf(int count, double reach) {
 // Returns a grid with the number of columns at which the slices are largest. `reach`: the radius of a slice with its
 // balls.
 Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
-    // The square of the projection takes the share kProjectionShare of the width of the room if it is to the left of
-    // the grid, or of the height if it is above the grid; but its side is at most the share kProjectionBreadth of the
-    // other dimension of the room.
+    // The projection fills a square. To the left of the grid, the side of the square is kProjectionShare times the
+    // width of the room, but at most kProjectionBreadth times its height. Above the grid, width and height are
+    // exchanged.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
     constexpr double kLeastWideAspect = 1.3;  // from this width / height on, the projection is to the left
     if (count == 1) return focusSliceAlone();

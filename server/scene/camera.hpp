@@ -12,7 +12,7 @@ struct Viewport {
     bool operator==(const Viewport&) const = default;
 };
 
-/// A perspective camera in a right-handed coordinate system. `shiftX` and `shiftY` move the image of the slices right
+/// A perspective camera in a right-handed coordinate system. `shiftX` and `shiftY` move the slices in the picture right
 /// and up by these fractions of the viewport's width and height, to leave room for other parts of the picture, such as
 /// the parallel coordinates.
 struct Camera {

@@ -42,8 +42,8 @@ Color plainColor(Scheme scheme = Scheme::dark);
 /// the color of the nearer end; NaN has the gray of 0.
 Color divergingColor(double value, Scheme scheme = Scheme::dark);
 
-/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1; on a
-/// light ground, the yellow is darkened to olive. Values outside this range have the color of the nearer end.
+/// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1; in the
+/// light scheme, the yellow is darkened to olive. Values outside this range have the color of the nearer end.
 Color sequentialColor(double value, Scheme scheme = Scheme::dark);
 
 /// Returns the color of points without a value: a gray.

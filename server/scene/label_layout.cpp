@@ -111,8 +111,9 @@ void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, d
         if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
                         overlapsOtherSlice(i, box, camera, toView, aspect)))
             return false;
-        // Two kinds of labels have been decided before this one: those of slices nearer to the focus slice, and the one
-        // at the same distance if its index is less. This label must not overlap any of these labels that is kept.
+        // The labels of slices nearer to the focus slice have been decided before this label. So has the label of the
+        // other slice at the same distance, if its index is less. This label must not overlap a decided label that is
+        // kept.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

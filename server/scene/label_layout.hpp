@@ -66,10 +66,11 @@ class LabelLayout {
 
     // Returns how far the slice with the parameter u, regarded as a sphere, extends on the screen from its center in
     // `direction`, a unit vector. The result is in viewport heights; at the depth of the center, a world unit appears
-    // as `scale` viewport heights. Away from the optical axis, perspective stretches the image of the sphere. Let p be
-    // the coordinates of a point parallel to the screen, and d its depth. A plane through the eye that appears as a
-    // line perpendicular to the direction n has the equation n · p = e d for some number e. The plane touches a sphere
-    // with the radius r whose center has the coordinates c and the depth d if (n · c − e d)² = r² (1 + e²).
+    // as `scale` viewport heights. Away from the optical axis, perspective stretches the picture of the sphere. Let n
+    // be `direction`, r the radius of the sphere, c the coordinates of its center parallel to the screen, and d the
+    // depth of the center. A line on the screen perpendicular to n shows a plane through the eye: the points with
+    // coordinates p and depth q for which n · p = e q, for some number e. The plane touches the sphere if
+    // (n · c − e d)² = r² (1 + e²). With the larger solution e, the sphere extends by e d − n · c.
     double extentOf(double u, const glm::dvec2& direction, double scale) const;
 
     // Returns the vector on the screen from the center of slice i to the center of its label, in viewport heights; at

@@ -19,8 +19,9 @@ using slicing::Visibility;
 
 constexpr double kHitRadius = 3;  // pixels: the least radius within which a ball or a bar is hit
 
-// Returns the element with this source number (see SliceSet): for numbers less than `count`, an element of the kind
-// `cut`; for numbers from `count` on, an element of the kind `contained`.
+// Returns the element of the object from which an element of a slice was cut. `source` is the source number of the
+// latter (see SliceSet): a number less than `count` is the index of an element of the kind `cut` that the hyperplane
+// cuts; any other number is `count` plus the index of an element of the kind `contained` that lies in the hyperplane.
 Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
     if (source < count) return {cut, source};
     return {contained, source - count};
