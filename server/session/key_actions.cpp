@@ -25,8 +25,9 @@ constexpr double kSpacingFactor = 1.1;
 
 void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
 
-// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object; for a
-// point cloud, whose slices have a thickness, of those that are nearest to the points with the least and greatest w.
+// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. The
+// slices of a point cloud have a thickness, so for a cloud, returns the indices of the hyperplanes that are nearest to
+// the points with the least and the greatest w.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;

@@ -30,11 +30,14 @@ struct Action {
     bool mayNeedLoading = false;  ///< whether `onState` may use ActionContext::loader
 };
 
-/// Returns all actions that the server performs: those of the table in key_actions.cpp; for each row of scene::kParts,
-/// one that toggles this part of the picture; for each row of slicing::kElementKinds, one that turns an element of this
-/// kind toward +w, and two that highlight the next and the previous element of this kind; for each view but the oval,
-/// one that toggles the view; for each other setting that is an enumeration, one that has the name of the setting and
-/// sets it to its next value; and for each setting with KeySteps, two that step to a larger and to a smaller number.
+/// Returns all actions that the server performs:
+/// - those of the table in key_actions.cpp;
+/// - for each row of scene::kParts, one that toggles this part of the picture;
+/// - for each row of slicing::kElementKinds, one that turns an element of this kind toward +w, and two that highlight
+///   the next and the previous element of this kind;
+/// - for each view but the oval, one that toggles the view;
+/// - for each other setting that is an enumeration, one that has the name of the setting and sets it to its next value;
+/// - for each setting with KeySteps, two that step to a larger and to a smaller number.
 std::span<const Action> keyActions();
 
 }  // namespace oval4d::session

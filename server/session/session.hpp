@@ -160,10 +160,10 @@ std::size_t historyMemoryWithoutObjects(const Session& session);
 
 class ObjectLoader;
 
-/// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. If so, they
-/// become pending; the caller must complete them with ObjectLoader::completePending() and call needsLoading() again,
-/// because a command may need an object first and its image in the frame of reference next. Does not change the
-/// session.
+/// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. If so, this
+/// object or search becomes pending. The caller must complete it with ObjectLoader::completePending(), and call
+/// needsLoading() again, because a command may need first an object and then this object transformed to the frame of
+/// reference. Does not change the session.
 bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is

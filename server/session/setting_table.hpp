@@ -58,8 +58,8 @@ enum class ResetOccasion : std::uint8_t {
 };
 
 /// A setting. `ofSet` returns a reference to the setting's value in a Set, a std::optional. `ofState` returns the
-/// setting's value in a State: by reference if the value is one member of the State; otherwise by value; in this second
-/// case, the rule must be CheckedByApplySet.
+/// setting's value in a State: by reference if the value is one member of the State, else by value. If `ofState`
+/// returns by value, the rule must be CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
