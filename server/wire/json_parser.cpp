@@ -104,8 +104,7 @@ class Builder {
 
 constexpr auto kNotFinite = std::to_array<std::string_view>({"NaN", "Infinity", "-Infinity"});
 
-// Returns the token at which the parser stopped if it is NaN, ±Infinity or a number too large for a double; else an
-// empty string.
+// If the parser stopped at NaN, ±Infinity or a number too large for a double, returns this token; else an empty string.
 std::string_view badNumberAt(std::string_view text, const Builder& builder) {
     if (builder.position() == 0 || builder.position() > text.size()) return {};
     if (builder.overflow()) return text.substr(builder.position() - builder.token().size(), builder.token().size());
