@@ -10,8 +10,8 @@ namespace oval4d::net {
 
 /// Counts and limits the bytes that the server holds for clients: files, pictures and messages that clients have not
 /// yet read; long messages and uploads that the server is receiving; objects loaded or built by name; undo histories.
-/// One budget covers all clients together; each client has an account in it. Bytes are reserved on an account before
-/// they are used. Every function may be called from any thread.
+/// One budget covers all clients together. The bytes of each client are counted by an object of the class Account: they
+/// are reserved there before they are used. Every function may be called from any thread.
 class ByteBudget {
   public:
     class Account;

@@ -30,9 +30,10 @@ struct ClientLimits {
     std::size_t bytes = 1U << 30U;                   ///< bytes held for the client (ByteBudget)
 };
 
-/// The account of a client, that is, of everybody at one IPv4 address, or in one IPv6 /64 network (the size that
-/// providers assign to one customer). Holds the client's rate limits, its byte account, and its job queues in the
-/// worker pools (see parallel::FairQueue). Every function may be called from any thread.
+/// The account of one client: the client's rate limits, the count of the bytes held for the client
+/// (ByteBudget::Account), and its job queues in the worker pools (see parallel::FairQueue). A client is everybody at
+/// one IPv4 address, or in one IPv6 /64 network (the size that providers assign to one customer). Every function may be
+/// called from any thread.
 class AddressAccount {
   public:
     using Clock = TokenBucket::Clock;

@@ -87,8 +87,8 @@ const exports::Format* formatIn(std::string_view path) {
     return path.starts_with(kFile) ? exports::formatNamed(path.substr(kFile.size())) : nullptr;
 }
 
-/// Returns a job that draws a picture as a PNG file. The result of the job is empty if the client's byte account has no
-/// room for the picture.
+/// Returns a job that draws a picture as a PNG file. The result of the job is empty if the picture would exceed the
+/// limit of the bytes held for the client (ByteBudget::Account).
 std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const session::State& state,
                                                                         scene::Viewport viewport,
                                                                         const AddressAccountPtr& client,

@@ -52,14 +52,15 @@ std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared
 /// status 429 and the header field Retry-After for `too_many`.
 Reply uploadErrorReply(const Error& error);
 
-/// The body of an upload while it is received: a file in memory, whose bytes are reserved on the client's account. The
-/// reservation ends when this object and all copies of the pointer from finish() have been destroyed.
+/// The body of an upload while it is received: a file in memory. Its bytes are reserved in the client's byte account
+/// (ByteBudget::Account) until this object and all copies of the pointer from finish() have been destroyed.
 class UploadedBody {
   public:
     /// Throws std::system_error if the system cannot create the file.
     explicit UploadedBody(const AddressAccountPtr& client);
 
-    /// Appends bytes. Errors: `too_many` if the account has no room for them; `internal` if the system has no memory.
+    /// Appends bytes. Errors: `too_many` if the byte account has no room for them; `internal` if the system has no
+    /// memory.
     std::optional<Error> append(std::string_view bytes);
     /// Returns the file. append() must not be called afterward.
     std::shared_ptr<const fields::FileHandle> finish();

@@ -16,9 +16,10 @@
 namespace oval4d::net {
 
 /// Queues `work` in `jobQueue` of `pool`, suspends the coroutine until a worker has run `work`, and returns the result.
-/// `pool` is a parallel::WorkerPool or a pipeline::PipelinePool. The coroutine resumes on its own executor. Throws the
-/// exception that `work` threw, or QueueFull if the pool rejected the job. `cost`: the estimated running time. Create
-/// `work` in an ordinary function: if a lambda is created in a coroutine, GCC 12 destroys its captures twice.
+/// `pool` is a parallel::WorkerPool or a pipeline::PipelinePool. `cost` is the estimated running time of `work`. The
+/// coroutine resumes on its own executor. Throws the exception that `work` threw, or QueueFull if the pool rejected the
+/// job. Create `work` in an ordinary function: if a lambda is created in a coroutine, GCC 12 destroys its captures
+/// twice.
 template <typename Value, typename Pool>
 boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename Pool::JobArgument)> work,
                                         parallel::WorkerPool::JobQueuePtr jobQueue,

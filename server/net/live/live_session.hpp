@@ -34,9 +34,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     using Strand = PictureStreams::Strand;
     using RequestId = RequestAnswers::RequestId;
 
-    /// `client`: the client that opened the session; the session's memory counts against this client's byte account.
-    /// `value`: the session, new or read from the store. `fence`: the fence with which the session was created in the
-    /// store or fetched from it (see store::Fence).
+    /// `client`: the client that opened the session; the session's memory counts as bytes held for this client
+    /// (ByteBudget::Account). `value`: the session, new or read from the store. `fence`: the fence with which the
+    /// session was created in the store or fetched from it (see store::Fence).
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 store::Fence fence, AddressAccountPtr client, session::Session value);
 

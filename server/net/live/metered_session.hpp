@@ -10,17 +10,17 @@
 
 namespace oval4d::net {
 
-/// A session whose memory counts against the byte account of the client that opened it. Not thread-safe.
+/// A session whose memory counts as bytes held for the client that opened it (ByteBudget::Account). Not thread-safe.
 class MeteredSession {
   public:
     MeteredSession(AddressAccountPtr client, session::Session opened);
 
     const AddressAccountPtr& client() const { return client_; }
 
-    /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit of the
-    /// account, forgets the older half of the undo steps, and reserves the memory of the remaining session, even if it
-    /// exceeds the limit. `objectsChanged`: whether the command may have added, removed or replaced objects of the
-    /// session.
+    /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit on the
+    /// bytes held for clients, removes the older half of the undo steps, and reserves the memory of the remaining
+    /// session, even if it exceeds the limit. `objectsChanged`: whether the command may have added, removed or replaced
+    /// objects of the session.
     void adjustReservationOrTrimUndo(bool objectsChanged);
 
     session::Session value;

@@ -29,9 +29,9 @@ class ObjectLoading {
     session::ObjectLoader makeLoader() const;
 
     /// Builds or reads the loader's pending object on a worker. If a search for critical values of w is pending instead
-    /// (see slicing/critical/), an export worker runs it, and searches() can stop it. `by`: the client whose job queue
-    /// is charged. `peer`: the connection that needs the result; may be null. The caller must keep `loader` until the
-    /// result is there. Returns an error if there is no room for the result, else an empty optional. Throws
+    /// (see slicing/critical/), an export worker runs it, and searches() can stop it. `by`: the client in whose job
+    /// queue the job waits. `peer`: the connection that needs the result; may be null. The caller must keep `loader`
+    /// until the result is there. Returns an error if there is no room for the result, else an empty optional. Throws
     /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws. After an exception, the
     /// caller must not use the loader anymore.
     boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,

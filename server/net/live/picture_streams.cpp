@@ -186,8 +186,8 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     }
 }
 
-/// Returns the client to whose job queue a job for the pictures `wanted` is charged. If several clients receive these
-/// pictures, they are charged in turn, one for each job.
+/// Returns the client in whose job queue a job for the pictures `wanted` must wait. If several clients receive these
+/// pictures, returns another of them for each job, because a job uses up its client's share of the workers.
 const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
@@ -314,7 +314,7 @@ bool PictureStreams::keepIfCurrent(const SnapshotPtr& state) {
 }
 
 /// Lets a worker make the current state for clients without a stream, unless a worker is already making a state.
-/// `subscriber`: the client that is charged.
+/// `subscriber`: the client in whose job queue the job waits.
 void PictureStreams::requestState(const Subscriber& subscriber) {
     assertOnStrand();
     if (stateRequested_) return;

@@ -16,8 +16,8 @@
 namespace oval4d::net {
 
 /// Saves a session in use, as the write policy of the store demands: a short time after each change, and perhaps before
-/// the change is acknowledged. After detach(), never writes the session again. Not thread-safe: every function must run
-/// on the strand of the session, and so do the functions that it returns.
+/// the change is acknowledged. After detach(), never writes the session again. Not thread-safe: the functions of this
+/// class, and the functions that they return, must be called on the strand of the session.
 class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
   public:
     /// Delay from a change until the session is saved. The store must be at most a second behind the session, even on a
