@@ -214,12 +214,14 @@ struct RecordCodec<slicing::FieldPtr> {
     static constexpr std::size_t kFileLength = 3, kLength = 5, kLengthWithSecond = 7, kLengthWithQuantities = 9;
     static constexpr std::array kLengths{kFileLength, kLength, kLengthWithSecond, kLengthWithQuantities};
 
-    // Without optional members: [version, name, file in the data folder] or [version, name, formula or samples, box,
-    // shape]. The shape of a formula is an empty array. If there is a second function, two members are added: this
-    // function, and the text "field", without which the record would have the length of a polytope's record. If a unit
-    // or a quantity is known, which only arrays have, four members are added: the second function or null, the text
-    // "field", [units of x, y, z and w, quantity of the values], and the quantity of the second function; see
-    // encoded(const fields::Quantity&).
+    // The record of a field is one of these arrays:
+    // - [version, name, file in the data folder]
+    // - [version, name, formula or samples, box, shape]; the shape of a formula is an empty array
+    // - these five members, the second function, and the text "field", without which the record would have the length
+    //   of a polytope's record
+    // - these seven members (null if there is no second function), [units of x, y, z and w, quantity of the values],
+    //   and the quantity of the second function (see encoded(const fields::Quantity&)); only for arrays, if a unit or a
+    //   quantity is known
     static json encode(const fields::Field& field) {
         if (field.source) return json({kRecordVersion, field.name, encoded(*field.source)});
         const fields::Box& box = field.array ? field.array->box() : field.box;

@@ -33,8 +33,8 @@ class ObjectListEncoder {
     std::map<const void*, std::size_t> indices_;
 };
 
-/// The objects of a session that is being decoded: the objects in the list of its record, and their images in the
-/// frames of reference of its states.
+/// The objects of a session that is being decoded: the objects in the list of its record, and these objects transformed
+/// to the frames of reference of its states.
 class ObjectListDecoder {
   public:
     static constexpr std::size_t kMaxTotalVertices = 10'000'000;
@@ -49,9 +49,9 @@ class ObjectListDecoder {
     const slicing::Object& at(const nlohmann::json& index) const;
 
     /// Returns `source` in the frame of reference `frame` (see slicing::transformedTo()). Calls with equal arguments
-    /// return the same object, so that states share it. Throws UnreadableRecord, before it makes the image, if the
-    /// images and the objects built from their names would have more than `maxVertices` vertices altogether (see the
-    /// constructor).
+    /// return the same object, so that states share it. Throws UnreadableRecord, before it transforms the object, if
+    /// the transformed objects and the objects built from their names would have more than `maxVertices` vertices
+    /// altogether (see the constructor).
     slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
