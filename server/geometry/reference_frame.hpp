@@ -48,7 +48,7 @@ void visitStoredMembers(serialization::ReadOrWritten<ReferenceFrame> auto& frame
     visit.member(2, boost, Range::absoluteUpTo(ReferenceFrame::kMaxBoost));
 }
 
-/// Replaces each point by its image under the linear map. Returns the largest distance of an image from the origin.
+/// Replaces each point p by map · p. Returns the largest distance of a new point from the origin.
 double mapPoints(const glm::dmat4& map, std::vector<glm::dvec4>& points);
 
 }  // namespace oval4d::geometry
