@@ -38,10 +38,10 @@ void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std
 using EightPixels = std::uint8_t __attribute__((vector_size(32)));
 
 // Like subtractPaethScalar(), but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
-// are its left, upper and upper-left neighbors. If a and b are both greater or both less than c, then c is the farthest
-// of the three from a + b − c. In this case, its exact distance, which may not fit into a byte, does not matter. Each
-// store writes eight bytes too many, which the next store overwrites; the scalar loop processes the last pixels of a
-// row, so that nothing is written past its end.
+// are its left, upper and upper-left neighbors. The prediction of x is that of a, b and c which is nearest to
+// a + b − c. If a and b are both greater or both less than c, then c is the farthest from a + b − c, so its exact
+// distance, which may not fit into a byte, does not matter. Each store writes eight bytes too many, which the next
+// store overwrites; the scalar loop processes the last pixels of a row, so that nothing is written past its end.
 __attribute__((target("avx2"))) void subtractPaethAvx2(const std::uint8_t* row, const std::uint8_t* above,
                                                        std::uint8_t* out, std::size_t count) {
     std::size_t i = 0;
