@@ -236,7 +236,7 @@ void PlanarContourTracer::joinSegments(std::uint32_t level, PlanarContours& out)
     nodeBegin_.push_back(static_cast<std::uint32_t>(ends_.size()));
     const auto isPassed = [&](std::uint32_t node) { return nodeBegin_[node + 1] - nodeBegin_[node] == 2; };
     isJoined_.assign(segments_.size(), 0);
-    // Adds the line that begins with the segment of `end`, at this end.
+    // Adds the line that begins at the end with the number `end` (see SegmentEnd).
     const auto addLine = [&](std::uint32_t end) {
         out.points.push_back(segments_[end / 2].ends[end % 2]);
         for (;;) {

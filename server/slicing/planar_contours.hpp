@@ -111,8 +111,8 @@ class PlanarContourTracer {
     std::vector<glm::dvec2> crossings_;     // of one level with the sides of one cell, in their order around it
     std::vector<Segment> segments_;         // of the contours of one level
     std::vector<SegmentEnd> ends_;          // of all segments, sorted by their places
-    std::vector<std::uint32_t> nodeOf_;     // per end: the index of the node at its place
-    std::vector<std::uint32_t> nodeBegin_;  // per node: its first end in ends_; then the number of ends
+    std::vector<std::uint32_t> nodeOf_;     // per end: the index of its node, a place where ends meet
+    std::vector<std::uint32_t> nodeBegin_;  // per node: the index in ends_ of its first end; then the number of ends
     std::vector<char> isJoined_;            // per segment: whether it belongs to a line
 };
 
