@@ -65,7 +65,7 @@ class JsonWriter {
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
     void lists(JaggedArrayView view);                     ///< writes an array of arrays
-    /// Writes an image with this number of columns as an array of rows.
+    /// Writes `pixels`, the rows of a table with this number of columns, as an array of arrays.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 
     template <typename T>

@@ -104,8 +104,8 @@ BOOST_DESCRIBE_STRUCT(Ping, (), ())
 /// Answers a Ping: how busy the threads are that slice and draw pictures.
 struct Pong {
     static constexpr std::string_view kMessageType = "pong";
-    std::uint64_t workers = 0;  ///< the number of these threads
-    std::uint64_t waiting = 0;  ///< the number of jobs, mostly pictures, that wait for one of them
+    std::uint64_t workers = 0;  ///< the number of threads that slice and draw pictures
+    std::uint64_t waiting = 0;  ///< the number of jobs, mostly pictures, that wait for such a thread
     double busy = 0;            ///< the total running time of all jobs that have ended, in seconds
     double time = 0;            ///< the time of a steady clock, in seconds
 };
