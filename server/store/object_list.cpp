@@ -78,7 +78,7 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
 /// `vertexBudget_`. Throws UnreadableRecord if there is no such polytope, if it cannot be built, or if it has more
 /// vertices than `vertexBudget_`.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
-    constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope; clients are allowed far fewer by default
+    constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope; clients may build far fewer (session::Limits)
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     if (design == nullptr) throwUnreadable("the catalogue has no polytope called " + text::inQuotes(name));
