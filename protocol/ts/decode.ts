@@ -256,7 +256,7 @@ export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, 
 };
 
 export function decodeText(text: string): Message {
-    return flattened(JSON.parse(text) as Message);
+    return withTypedArrays(JSON.parse(text) as Message);
 }
 
 /**
@@ -287,7 +287,7 @@ function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, w
     within?.startMessage(6 * bytes.length);
     arena = within;
     try {
-        return flattened(read(bytes) as Message);
+        return withTypedArrays(read(bytes) as Message);
     } finally {
         arena = undefined;
     }
@@ -349,7 +349,7 @@ interface JsonSlice extends Omit<Slice, keyof Elements | "surface" | "fog">, Jso
     fog?: Omit<Fog, "walls" | "values"> & { walls: number[][]; values: number[][] };
 }
 
-function flattened(message: Message): Message {
+function withTypedArrays(message: Message): Message {
     if (message.type !== "slices") return message;
     const loose = message as unknown as Omit<Slices, "slices" | "coordinates" | "density" | "projection"> & {
         coordinates?: FlatOrNested<Float32Array>;

@@ -344,7 +344,7 @@ class Exporter {
     SkeletonRadii radii_;
     double cube_ = 0;
     bool hasSurfaces_ = false;  // whether the bodies are enclosed by the surfaces of a field
-    std::optional<FieldSurfaces> surfaces_;
+    std::optional<FieldSurfaceSource> surfaces_;
     bool lastSurfaceIsEmpty_ = false;  // whether the slice whose bodies were made last has no surface
     std::vector<std::string> warnings_;
 };

@@ -127,7 +127,8 @@ class FileReadConversation {
         return transfer;
     }
 
-    // Maps the files to which the outcome refers: the loaded file and the new files.
+    // Maps the loaded file and the files that the process has got for large arrays, because the samples of the arrays
+    // stay in these files. Maps none without allocate_.
     Result<slicing::MappedFiles> map() const {
         slicing::MappedFiles mapped;
         if (!allocate_) return mapped;

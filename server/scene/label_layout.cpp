@@ -52,7 +52,7 @@ Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
     Rect out{0, 0, 0, 0};
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         if (!placements_[i].drawn) continue;
-        const Box box = initialLabelBox(i, scale);
+        const Box box = labelBoxInInitialView(i, scale);
         out.left = std::max(out.left, bounds.left * scale - (box.center.x - box.half.x));
         out.right = std::max(out.right, box.center.x + box.half.x - bounds.right * scale);
         out.bottom = std::max(out.bottom, bounds.bottom * scale - (box.center.y - box.half.y));
@@ -169,7 +169,7 @@ glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
     return outward * (radius + gapOf(placement) + glm::dot(glm::abs(outward), halfText(placement)));
 }
 
-Box LabelLayout::initialLabelBox(std::size_t i, double scale) const {
+Box LabelLayout::labelBoxInInitialView(std::size_t i, double scale) const {
     const double u = parameterOf(i, placements_.size());
     return {scale * sliceCenterOnPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)),
             halfPlate(placements_[i])};
@@ -205,9 +205,9 @@ std::ptrdiff_t LabelLayout::smallestStep(std::ptrdiff_t focus, double scale) con
     const auto fits = [&](std::ptrdiff_t step) {
         for (std::ptrdiff_t i = focus % step; i < count; i += step) {
             if (!placements_[i].drawn) continue;
-            const Box box = initialLabelBox(i, scale);
+            const Box box = labelBoxInInitialView(i, scale);
             for (std::ptrdiff_t j = i + step; j < count; j += step)
-                if (placements_[j].drawn && overlap(box, initialLabelBox(j, scale))) return false;
+                if (placements_[j].drawn && overlap(box, labelBoxInInitialView(j, scale))) return false;
         }
         return true;
     };

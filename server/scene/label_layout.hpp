@@ -79,7 +79,7 @@ class LabelLayout {
 
     // Returns the box of label i before the viewer moves the camera, in viewport heights from the center of the focus
     // slice. `scale`: as in overhang().
-    Box initialLabelBox(std::size_t i, double scale) const;
+    Box labelBoxInInitialView(std::size_t i, double scale) const;
 
     // Returns the place on the screen of a point in view coordinates, in viewport heights from the lower left corner.
     static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);

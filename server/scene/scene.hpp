@@ -46,7 +46,9 @@ struct ObjectProjection {
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines its color
 
     /// Returns whether the pieces of `fill` are drawn instead of the polygons of this part.
-    bool isFilled(std::size_t part) const { return !fill.empty() && fill.faceBegin[part] < fill.faceBegin[part + 1]; }
+    bool drawsPieces(std::size_t part) const {
+        return !fill.empty() && fill.faceBegin[part] < fill.faceBegin[part + 1];
+    }
 };
 
 /// The matrix of planar sections, which the matrix view shows beside the focus slice.

@@ -172,13 +172,13 @@ BOOST_DESCRIBE_STRUCT(CommandLine, (), (line))
 
 /// Shows the view that the query of an address describes. Settings that the query does not contain stay as they are.
 /// However, if the query contains an object or rotations, the orientation is first set back to the initial one.
-struct OpenAddress {
+struct ShowLinkedView {
     static constexpr std::string_view kMessageType = "address";
     std::string query;  ///< see parseQuery()
 };
-BOOST_DESCRIBE_STRUCT(OpenAddress, (), (query))
+BOOST_DESCRIBE_STRUCT(ShowLinkedView, (), (query))
 
-using Command =
-    std::variant<Key, Rotate, TurnToward, TurnAtRandom, Set, LoadObject, Undo, Redo, Reset, CommandLine, OpenAddress>;
+using Command = std::variant<Key, Rotate, TurnToward, TurnAtRandom, Set, LoadObject, Undo, Redo, Reset, CommandLine,
+                             ShowLinkedView>;
 
 }  // namespace oval4d::session

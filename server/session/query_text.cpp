@@ -50,7 +50,8 @@ bool isIgnored(std::string_view name) {
     });
 }
 
-/// Returns whether an operand may end with `c` (if `parenthesis` is ')') or begin with `c` (if it is '(').
+/// Returns whether an operand of an arithmetic operator can end with `c`, where `parenthesis` must be ')', or can begin
+/// with `c`, where `parenthesis` must be '('. decodedValue() uses this to find a "+" between two operands.
 bool isOperand(char c, char parenthesis) {
     const bool isAscii = static_cast<unsigned char>(c) < 0x80;
     return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;

@@ -142,7 +142,7 @@ class OutcomeOfCommand {
         outcome.loaded->insert_or_assign(command.name, reading->object);
         return outcome;
     }
-    Result<Outcome> of(const OpenAddress& command) const {
+    Result<Outcome> of(const ShowLinkedView& command) const {
         auto query = parseQuery(command.query);
         if (!query) {
             return Error{ErrorCode::bad_expression,
@@ -259,7 +259,7 @@ class CommandApplier {
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
     }
-    VoidResult operator()(const OpenAddress& command) { return finish(outcome_.of(command), false); }
+    VoidResult operator()(const ShowLinkedView& command) { return finish(outcome_.of(command), false); }
 
   private:
     // Stores the outcome of a command in the session, unless it is an error. `continues`: whether the command belongs
@@ -323,7 +323,7 @@ class NeedsOfCommand {
         const auto parsed = parseCommandLine(command.line, session_.current);
         if (parsed) std::visit(*this, *parsed);
     }
-    void operator()(const OpenAddress& command) const { static_cast<void>(outcome_.of(command)); }
+    void operator()(const ShowLinkedView& command) const { static_cast<void>(outcome_.of(command)); }
     void operator()(const Rotate& /*command*/) const {}
     void operator()(const TurnToward& /*command*/) const {}
     void operator()(const TurnAtRandom& /*command*/) const {}

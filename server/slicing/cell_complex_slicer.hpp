@@ -96,10 +96,11 @@ class CellComplexSlicer {
                below_[edge[1]] < upTo_[edge[1]];
     }
     void cutCells(const geometry::CellComplex& complex, SliceSet& out);
-    // Considers the hyperplane through a cell's lowest vertices, and the section of the cell just above it. Returns
-    // whether each segment of this section, when it is moved down into the hyperplane, moves to an edge of the complex
-    // or shrinks to a point. If a segment does neither, the cell itself nearly lies in the hyperplane. Returns true if
-    // no hyperplane contains the cell's lowest vertices.
+    // Returns true if none of the slicing hyperplanes contains the cell's lowest vertices. Otherwise, just above the
+    // hyperplane that does, the cell's 2-faces are cut in segments. Returns true if each of these segments, moved down
+    // into the hyperplane, becomes an edge of the complex or a point: the cell then only touches the hyperplane.
+    // Returns false if a segment stays inside a 2-face: the cell then nearly lies in the hyperplane, and is cut there,
+    // too.
     bool lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out);
     void addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward);

@@ -38,12 +38,12 @@ struct SectionNamePair {
 /// thread at a time may use a namer.
 class SectionNamer {
   public:
-    /// A quick test: returns false if the section of `object`, rotated by `orientation`, by the hyperplane at `w`
-    /// certainly has no name, and true if it may have one. Let n be the number of vertices in the hyperplane, and m the
-    /// number of edges that cross it. The slice has n + m vertices, and the hull of the object's own vertices has n
-    /// (see SectionNamePair). The result is true if at least one of these two numbers is between 1 and the vertex count
-    /// of the largest named shape. It is always false for point clouds and fields. Takes time linear in the numbers of
-    /// vertices and edges; does not cut the slice.
+    /// A quick test, which does not cut the slice: returns false if the section of `object`, rotated by `orientation`,
+    /// by the hyperplane at `w` certainly has neither of the names in SectionNamePair, and true if it may have one. Let
+    /// n be the number of the object's vertices in the hyperplane, and m the number of edges that cross it. The slice
+    /// has n + m vertices; the second name depends only on the n vertices. Returns true if n or n + m is between 1 and
+    /// the vertex count of the largest named shape. Always returns false for point clouds and fields, which have no
+    /// names. Takes time linear in the numbers of vertices and edges.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
@@ -54,9 +54,8 @@ class SectionNamer {
     /// or an empty string if it has none. These hulls are the sections in Coxeter's tables (Regular Polytopes, §13.1
     /// and table V). The slice has more vertices if edges of the polytope cross the hyperplane: for example, the second
     /// section of the vertex-first 600-cell after the point is a dodecahedron, but the slice there has 32 vertices.
-    /// `edges` is the number of edges of the polytope; it is 0 for a point cloud, so that all points of the slice
-    /// count. The string is valid until the process ends. Takes time linear in the number of the slice's vertices, plus
-    /// the time to compare the polytope's vertices with the named shapes.
+    /// `edges` is the number of edges of the polytope. The string is valid until the process ends. Takes time linear in
+    /// the number of the slice's vertices, plus the time to compare the polytope's vertices with the named shapes.
     std::string_view nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges);
 
     /// Returns whether `name`, a result of the functions above, is the name of a polyhedron. False for the names of the

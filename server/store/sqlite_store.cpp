@@ -176,8 +176,9 @@ void SqliteStore::migrate() {
         database_->run("PRAGMA foreign_keys = ON");
         spdlog::info("store migrated to version {} store={}", kSchemaVersion, name());
     }
-    // Erase the plain-text tokens from free pages and from the write-ahead log. A new value of auto_vacuum takes effect
-    // only with VACUUM, so later the value `incremental` shows that VACUUM has succeeded.
+    // Once for each file, erase the plain-text tokens of schema version 1 from free pages and from the write-ahead log.
+    // auto_vacuum tells whether this is done: it becomes `incremental` only when VACUUM succeeds. After a failure,
+    // VACUUM runs again when the file is opened the next time.
     constexpr std::int64_t kIncremental = 2;
     if (database_->queryNumber("PRAGMA auto_vacuum") != kIncremental) {
         database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");

@@ -125,8 +125,8 @@ struct Request {
     std::variant<Hello, session::Command, Get, Measure, Ping, PictureShown> body;
 };
 
-/// An answer whose members are described. GetTarget::address is answered with an OpenAddress whose query describes the
-/// session's view.
-using Answer = std::variant<Done, Measured, Pong, session::OpenAddress>;
+/// An answer whose members are described. GetTarget::address is answered with a ShowLinkedView whose query describes
+/// the session's view.
+using Answer = std::variant<Done, Measured, Pong, session::ShowLinkedView>;
 
 }  // namespace oval4d::wire

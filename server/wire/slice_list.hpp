@@ -45,7 +45,8 @@ class SliceListWriter {
 
   private:
     static void writePlacements(BinaryWriter& w, const std::vector<scene::SlicePlacement>& placements);
-    // Writes all slices. `placements`: the object that writePlacements() has written.
+    // Writes all slices as one object. `placements`: the encoded object from writePlacements(), whose members
+    // become members of this object.
     void writeAllSlices(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
     // Writes the elements of all slices, or of all parts of a projection.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,

@@ -6,7 +6,7 @@ import { toSentence } from "./format";
 const kMargin = 4; // pixels between the note and the edge of the window
 
 export interface HeaderValueEvents {
-    /** The value for editing. */
+    /** Returns the text with which the field opens. It may differ from the shown value, which is rounded. */
     editable(): string;
     /** Applies what the user has typed; rejects with an Error whose message is shown at the field. */
     apply(text: string): Promise<unknown>;

@@ -22,7 +22,7 @@ interface HeaderValueDescription {
     value(state: State): string;
     /** What a screen reader says of the value; "" if nothing. */
     spoken(state: State): string;
-    /** The value for editing; by default, as it is shown. */
+    /** The text with which the field opens, such as an angle that is not rounded; by default, the shown value. */
     editable?(state: State): string;
     /** The command that applies what the user has typed; throws an Error if the text cannot be understood. */
     command(text: string, state: State): string;

@@ -52,7 +52,7 @@ class ShapeCutter {
         if (std::max(std::abs(line.at.x), std::abs(line.at.y)) > farthest_) return std::nullopt;
         return line;
     }
-    std::optional<DrawnShape> operator()(const DensityImage& density) const { return density; }
+    std::optional<DrawnShape> operator()(const OpacityImage& density) const { return density; }
 
   private:
     // Cuts a polygonal line at all bounds. If `closed`, the line also leads from the last point to the first.

@@ -52,7 +52,7 @@ Drawing drawStrip(const scene::Scene& scene) {
     const auto& colors = scene.style().axes;
     const auto tones = density.tones();
     ShapeGroup strip{"density",
-                     {DensityImage{{kDrawingMargin, kDrawingMargin},
+                     {OpacityImage{{kDrawingMargin, kDrawingMargin},
                                    {kDrawingMargin + 3 * step, bottom},
                                    {tones.begin(), tones.end()},
                                    scene::DensityPlot::kColumns,
@@ -84,7 +84,7 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
         const double left = kDrawingMargin + k * (width + kGap), right = left + width;
         const scene::Color color = scene.style().axes[static_cast<std::size_t>(k)];
         const std::string name(1, "xyzw"[k]);
-        DensityImage panel{{left, kDrawingMargin}, {right, bottom}, {}, CoordinateHistograms::kPanel, {color}};
+        OpacityImage panel{{left, kDrawingMargin}, {right, bottom}, {}, CoordinateHistograms::kPanel, {color}};
         for (int row = 0; row < CoordinateHistograms::kRows; ++row) {
             const auto first =
                 histogram.tones().subspan(CoordinateHistograms::index(row, k, 0), CoordinateHistograms::kPanel);

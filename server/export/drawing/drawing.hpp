@@ -60,7 +60,7 @@ struct TextLine {
 /// slicing::CoordinateHistograms), in the rectangle from `topLeft` to `bottomRight`. The centers of the first and the
 /// last column lie on the left and right edges of the rectangle, and the centers of the first and the last row on its
 /// upper and lower edges.
-struct DensityImage {
+struct OpacityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top
     int columns = 1;                   ///< must be at least 2, and so must rows()
@@ -86,7 +86,7 @@ struct DensityImage {
         return mixed;
     }
 };
-using DrawnShape = std::variant<Line, Polyline, FilledPolygon, Disk, TextLine, DensityImage>;
+using DrawnShape = std::variant<Line, Polyline, FilledPolygon, Disk, TextLine, OpacityImage>;
 
 /// A named group of shapes. Later shapes cover earlier ones.
 struct ShapeGroup {

@@ -81,9 +81,9 @@ class PageWriter {
         HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
         HPDF_Page_EndText(page_);
     }
-    // Draws a density image: an image with the colors of DensityImage::colorOfColumn(), and DensityImage::alphas as its
+    // Draws a density image: an image with the colors of OpacityImage::colorOfColumn(), and OpacityImage::alphas as its
     // soft mask, which determines the opacity of each pixel.
-    void operator()(const DensityImage& density) {
+    void operator()(const OpacityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
         for (int row = 0; row < density.rows(); ++row) {
@@ -98,7 +98,7 @@ class PageWriter {
             HPDF_LoadRawImageFromMem(document_, density.alphas.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
         // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
-        // (see DensityImage).
+        // (see OpacityImage).
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const double across = size.x / (density.columns - 1), down = size.y / (density.rows() - 1);
         const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};

@@ -243,7 +243,7 @@ class PovWriter {
                                     look.barRadius,
                                     look.ballColor,
                                     look.barColor};
-            if (projection.isFilled(i)) {
+            if (projection.drawsPieces(i)) {
                 addPieces(projection.fill, projection.fillCells, i, part, look.faceOpacity);
             } else {
                 addFaces(projection.elements, i, part, look.faceOpacity,
@@ -417,8 +417,8 @@ class PovWriter {
     const glm::dmat3 axes_;  // the right, up and backward directions of the camera
     PovTextures textures_;
     std::string objects_;
-    std::optional<FieldSurfaces> surfaces_;  // empty unless the object is a field
-    std::size_t triangles_ = 0;              // the number of triangles of the surfaces so far
+    std::optional<FieldSurfaceSource> surfaces_;  // empty unless the object is a field
+    std::size_t triangles_ = 0;                   // the number of triangles of the surfaces so far
 };
 
 }  // namespace

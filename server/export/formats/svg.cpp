@@ -40,9 +40,9 @@ std::string opacityAttribute(std::string_view name, double opacity) {
     return opacity < 1 ? attribute(name, opacity) : std::string();
 }
 
-/// Returns the opacities of the image (DensityImage::alphas) as SVG paths. The opacities are rounded to multiples of
+/// Returns the opacities of the image (OpacityImage::alphas) as SVG paths. The opacities are rounded to multiples of
 /// 1/kTones. For each opacity except 0, there is one path with the outlines of all pixels of this opacity.
-std::string densityPaths(const DensityImage& density) {
+std::string densityPaths(const OpacityImage& density) {
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };
     std::array<std::string, kTones + 1> paths;
@@ -63,9 +63,9 @@ std::string densityPaths(const DensityImage& density) {
     return out;
 }
 
-/// Returns an SVG gradient with the id `axes-colors`, which goes through DensityImage::colors from the first column to
+/// Returns an SVG gradient with the id `axes-colors`, which goes through OpacityImage::colors from the first column to
 /// the last.
-std::string gradient(const DensityImage& density) {
+std::string gradient(const OpacityImage& density) {
     std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
                       attribute("x2", density.columns - 0.5) + ">\n";
     const double last = static_cast<double>(density.colors.size()) - 1;
@@ -105,9 +105,9 @@ struct ElementWriter {
                attribute("font-size", line.size) + attribute("fill", scene::cssColor(line.color)) +
                attribute("x", line.at.x) + attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
-    std::string operator()(const DensityImage& density) const {
+    std::string operator()(const OpacityImage& density) const {
         // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
-        // (see DensityImage).
+        // (see OpacityImage).
         const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;

@@ -98,9 +98,9 @@ class CommandWriter {
         out += "\\node[anchor=base,inner sep=0pt,text=" + use(line.color) + ",font=\\fontsize{" + size + "}{" + size +
                "}\\selectfont] at " + position(line.at) + " {" + latexEscaped(line.text) + "};\n";
     }
-    void operator()(const DensityImage& density) {
+    void operator()(const OpacityImage& density) {
         // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
-        // (see DensityImage).
+        // (see OpacityImage).
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const glm::dvec2 pixel(size.x / (density.columns - 1), size.y / (density.rows() - 1));
         for (int column = 0; column < density.columns; ++column) {

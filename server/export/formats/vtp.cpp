@@ -213,7 +213,7 @@ std::string vtp(const SceneToWrite& source) {
     const bool isField = field != nullptr;
     PolyData data;
     if (!isField) data.elements = elementsOf(source.object);
-    std::optional<FieldSurfaces> surfaces;
+    std::optional<FieldSurfaceSource> surfaces;
     if (isField) surfaces.emplace(source.scene, *field, source.orientation, source.exact, source.budget);
     std::vector<int> empty;
     for (int i = 0; i < source.scene.slices->planes.count; ++i) {

@@ -24,9 +24,9 @@ std::vector<std::size_t> allLevels(const scene::Scene& scene) {
 
 }  // namespace
 
-FieldSurfaces::FieldSurfaces(const scene::Scene& scene, const fields::Field& field,
-                             const geometry::Rotation& orientation, bool exact, std::vector<std::size_t> levels,
-                             const Budget& budget)
+FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field,
+                                       const geometry::Rotation& orientation, bool exact,
+                                       std::vector<std::size_t> levels, const Budget& budget)
     : scene_(scene), field_(field), orientation_(orientation), levels_(std::move(levels)) {
     if (!exact) return;
     slicer_.emplace(
@@ -36,11 +36,11 @@ FieldSurfaces::FieldSurfaces(const scene::Scene& scene, const fields::Field& fie
         budget);
 }
 
-FieldSurfaces::FieldSurfaces(const scene::Scene& scene, const fields::Field& field,
-                             const geometry::Rotation& orientation, bool exact, const Budget& budget)
-    : FieldSurfaces(scene, field, orientation, exact, allLevels(scene), budget) {}
+FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field,
+                                       const geometry::Rotation& orientation, bool exact, const Budget& budget)
+    : FieldSurfaceSource(scene, field, orientation, exact, allLevels(scene), budget) {}
 
-FieldSliceSurface FieldSurfaces::ofSlice(int i) {
+FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
     if (!slicer_) return {scene_.slices->surfaces[static_cast<std::size_t>(i)], {}};
     surface_.clear();
     points_.clear();
@@ -62,7 +62,7 @@ FieldSliceSurface FieldSurfaces::ofSlice(int i) {
 }
 
 // Appends the surface of one level.
-void FieldSurfaces::append(std::size_t level) {
+void FieldSurfaceSource::append(std::size_t level) {
     const auto first = static_cast<std::uint32_t>(points_.size());
     const double sign = scene_.look.field.inside == fields::Inside::below ? 1 : -1;
     for (std::size_t p = 0; p < closed_.points.size(); ++p) {

@@ -32,17 +32,17 @@ struct FieldSliceSurface {
 /// Returns the surfaces of the slices of a field one after another: either those of a scene or exact ones, which it
 /// makes when they are needed (see ExactSlicer). The normals and the growth at the points of an exact surface are those
 /// of the interpolated function: means over the triangles at the point.
-class FieldSurfaces {
+class FieldSurfaceSource {
   public:
     /// The slices of `scene` must have been cut from `field` rotated by `orientation`. If `exact` is false, they must
     /// have surfaces (SliceSet::surfaces). `levels` are the indices in FieldSettings::levels, in ascending order, of
     /// those levels of which an exact surface is needed; it is ignored if `exact` is false. `scene`, `field` and
     /// `budget` must outlive this object.
-    FieldSurfaces(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
-                  bool exact, std::vector<std::size_t> levels, const Budget& budget);
-    /// The same, with exact surfaces of all levels.
-    FieldSurfaces(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
-                  bool exact, const Budget& budget);
+    FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
+                       bool exact, std::vector<std::size_t> levels, const Budget& budget);
+    /// The same, where `levels` are all levels of the field.
+    FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
+                       bool exact, const Budget& budget);
 
     /// Returns the surface of slice i. The surface is valid until the next call. The limits on triangles and memory
     /// apply to the surfaces of all slices so far together. Throws ExportRefused if a limit is exceeded or a stop is

@@ -72,7 +72,7 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
             peer->send(textMessage(wire::keymapMessage(id)));
             break;
         case wire::GetTarget::address:
-            answerWithOpenAddress(*peer, id);
+            answerWithViewLink(*peer, id);
             break;
         case wire::GetTarget::slices:
             key.stream = Stream::geometry;
@@ -139,11 +139,11 @@ asio::awaitable<void> RequestAnswers::answerWithState(std::shared_ptr<Peer> peer
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
-void RequestAnswers::answerWithOpenAddress(Peer& peer, RequestId id) {
+void RequestAnswers::answerWithViewLink(Peer& peer, RequestId id) {
     session::ObjectLoader loader = loading_->makeLoader();
     const auto query = session::queryFromState(session_.current, loader);
     if (query) {
-        peer.send(textAnswer(session::OpenAddress{session::queryText(*query)}, id));
+        peer.send(textAnswer(session::ShowLinkedView{session::queryText(*query)}, id));
     } else {
         sendError(peer, services_.metrics, query.error(), id);
     }

@@ -47,7 +47,7 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     boost::asio::awaitable<void> answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id);
-    void answerWithOpenAddress(Peer& peer, RequestId id);
+    void answerWithViewLink(Peer& peer, RequestId id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
     boost::asio::awaitable<void> answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id);

@@ -72,7 +72,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
             add({-(part == 0 ? far : near), ShapeKind::bar, part, e}, scene.visibilities.edge(elements.edgeSource[e]));
         }
     }
-    if (look.faceOpacity > 0 && projection.isFilled(part)) {
+    if (look.faceOpacity > 0 && projection.drawsPieces(part)) {
         const slicing::FilledFaces& fill = projection.fill;
         for (std::uint32_t f = fill.faceBegin[part]; f < fill.faceBegin[part + 1]; ++f) {
             const Visibility visibility = scene.visibilities.face(fill.faces[f].source);

@@ -148,8 +148,8 @@ TEST(ProjectionFill, LeavesOutWhatTheEyeCannotSee) {
     EXPECT_LT(projection.elements.faceCount(0), p.faces.size());
     ASSERT_EQ(projection.fill.faces.size(), projection.elements.faceCount(0));
     ASSERT_EQ(projection.fillCells.size(), projection.fill.faces.size());
-    EXPECT_TRUE(projection.isFilled(0));
-    EXPECT_FALSE(projection.isFilled(1)) << "the section of the focus hyperplane";
+    EXPECT_TRUE(projection.drawsPieces(0));
+    EXPECT_FALSE(projection.drawsPieces(1)) << "the section of the focus hyperplane";
     for (std::size_t f = 0; f < projection.fill.faces.size(); ++f) {
         const slicing::FilledFaces::Face& face = projection.fill.faces[f];
         EXPECT_EQ(face.source, projection.elements.faceSource[f]);
@@ -163,7 +163,7 @@ TEST(ProjectionFill, IsEmptyIfAllFacesAreConvexOrHidden) {
         const Scene s = sceneWithProjectedCells(named(name), {}, {});
         EXPECT_EQ(s.projection.elements.faceCount(0), named(name).faces.size()) << name;
         EXPECT_TRUE(s.projection.fill.empty()) << name;
-        EXPECT_FALSE(s.projection.isFilled(0)) << name;
+        EXPECT_FALSE(s.projection.drawsPieces(0)) << name;
     }
     // The same scene, first with and then without cells.
     const polytopes::Polytope& p = named("small stellated 120-cell");

@@ -148,20 +148,20 @@ TEST(Query, CannotContainAnObjectFromAFile) {
 TEST(Query, OpensInASessionAsOneStep) {
     Session session;
     line(session, "set slices=11");
-    must(session, OpenAddress{"token=x&polytope=24-cell&rotate=xw:0.1+pi/8&width=7"});
+    must(session, ShowLinkedView{"token=x&polytope=24-cell&rotate=xw:0.1+pi/8&width=7"});
     EXPECT_EQ(infoOf(session.current).name, "24-cell");
     EXPECT_EQ(session.current.slices.count, 11) << "what the query does not contain stays";
     EXPECT_EQ(session.revision, 2);
-    must(session, OpenAddress{"polytope=24-cell&rotate=xw:0.1+pi/8"});
+    must(session, ShowLinkedView{"polytope=24-cell&rotate=xw:0.1+pi/8"});
     EXPECT_EQ(session.revision, 2) << "the view is shown already: an address does not turn further";
-    must(session, OpenAddress{"formula=x^2%2By^2<w&values=x"});
+    must(session, ShowLinkedView{"formula=x^2%2By^2<w&values=x"});
     EXPECT_TRUE(session.loaded.contains("formula")) << "it can be shown again by its name";
     line(session, "undo");
     line(session, "undo");
     EXPECT_EQ(infoOf(session.current).name, "5-cell");
-    expectRefused(session, OpenAddress{"slices=12"}, ErrorCode::out_of_range, "odd");
-    expectRefused(session, OpenAddress{"slices=%1"}, ErrorCode::bad_expression, "hexadecimal");
-    expectRefused(session, OpenAddress{"sices=11"}, ErrorCode::unknown_command, "did you mean 'slices'?");
+    expectRefused(session, ShowLinkedView{"slices=12"}, ErrorCode::out_of_range, "odd");
+    expectRefused(session, ShowLinkedView{"slices=%1"}, ErrorCode::bad_expression, "hexadecimal");
+    expectRefused(session, ShowLinkedView{"sices=11"}, ErrorCode::unknown_command, "did you mean 'slices'?");
 }
 
 TEST(CommandLine, SettingsOfOneLineAreCombined) {

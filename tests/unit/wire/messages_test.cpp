@@ -302,7 +302,7 @@ TEST(OtherMessages, HaveTheDescribedMembersThatAreNotEmpty) {
               R"({"type":"done","id":3,"revision":8,"warnings":["one","two"]})");
     EXPECT_EQ(wire::answerMessage(wire::Pong{2, 0, 1.25, 86400.5}, 14),
               R"({"type":"pong","id":14,"workers":2,"waiting":0,"busy":1.25,"time":86400.5})");
-    EXPECT_EQ(wire::answerMessage(session::OpenAddress{"polytope=24-cell"}, 1),
+    EXPECT_EQ(wire::answerMessage(session::ShowLinkedView{"polytope=24-cell"}, 1),
               R"({"type":"address","id":1,"query":"polytope=24-cell"})");
 }
 

@@ -10,7 +10,7 @@ import type { Elements, PolytopeElement, Slice, Slices } from "@oval4d/protocol"
 
 import type { Hit } from "./hit_test";
 import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
-import { areaVector } from "./polygon";
+import { doubleAreaVector } from "./polygon";
 
 const kFlat = 1e-5; // circumradii: a vertex up to this distance from a hyperplane counts as lying in it
 const kLevel = 1e-4; // circumradii along w: vertices nearer to a slice are not used to find the slope m of a hyperplane
@@ -229,12 +229,12 @@ export class ElementSources {
         let [largest, extent]: [readonly [Slice, number] | undefined, number] = [undefined, 0];
         for (const slice of this.slices) {
             const f = slice.of.faces.indexOf(cell);
-            const area = f < 0 ? 0 : Math.hypot(...areaVectorOf(slice, f));
+            const area = f < 0 ? 0 : Math.hypot(...doubleAreaVectorOf(slice, f));
             if (area > extent) [largest, extent] = [[slice, f], area];
         }
         if (!largest) return undefined;
         const [slice, f] = largest;
-        const [a, b, c] = areaVectorOf(slice, f).map((value) => value / extent) as [number, number, number];
+        const [a, b, c] = doubleAreaVectorOf(slice, f).map((value) => value / extent) as [number, number, number];
         const p = 3 * slice.faces.corners[slice.faces.begin[f]!]!;
         const [x, y, z] = slice.vertices.subarray(p, p + 3);
         const offset = a * x! + b * y! + c * z!;
@@ -258,6 +258,6 @@ function heightAbove([a, b, c, m, offset]: Hyperplane, points: Float32Array, v: 
 }
 
 /** The outward normal of a face of a slice; its length is twice the area. */
-function areaVectorOf({ vertices, faces: { begin, corners } }: Slice, f: number): [number, number, number] {
-    return areaVector(vertices, corners, [begin[f]!, begin[f + 1]!]);
+function doubleAreaVectorOf({ vertices, faces: { begin, corners } }: Slice, f: number): [number, number, number] {
+    return doubleAreaVector(vertices, corners, [begin[f]!, begin[f + 1]!]);
 }

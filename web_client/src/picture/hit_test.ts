@@ -3,7 +3,7 @@
 import type { Elements, Slice, Slices, Vector } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
-import { areaVector } from "./polygon";
+import { doubleAreaVector } from "./polygon";
 import type { ViewCamera } from "./view_camera";
 
 /**
@@ -213,7 +213,7 @@ class MeshTest {
                 }
                 p = q;
             }
-            const [x, y, z] = areaVector(projected, corners, [first, end], kStride);
+            const [x, y, z] = doubleAreaVector(projected, corners, [first, end], kStride);
             [nx, ny, nz] = [nx + x, ny + y, nz + z];
         }
         const [rayX, rayY] = this.viewCamera.rayAt(this.x, this.y);

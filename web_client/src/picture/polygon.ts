@@ -4,7 +4,7 @@
  * The normal of the polygon corners[begin] … corners[end − 1], by Newell's method; its length is twice the area. The
  * coordinates of point p begin at points[stride · p].
  */
-export function areaVector(
+export function doubleAreaVector(
     points: Float32Array,
     corners: Uint32Array,
     [begin, end]: readonly [begin: number, end: number],

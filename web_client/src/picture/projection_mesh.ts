@@ -9,7 +9,7 @@ import type { Elements, Fill, ObjectProjection, Slices } from "@oval4d/protocol"
 import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
 import { cellColor, type HighlightedElements } from "./highlighted_elements";
-import { areaVector } from "./polygon";
+import { doubleAreaVector } from "./polygon";
 import { kBall, kBar, kFace } from "./shaders";
 import { kQuadTriangles, ShapeBuffers } from "./shape_buffers";
 import { sortByKey } from "./sort";
@@ -168,7 +168,7 @@ export class ProjectionMesh {
         for (let f = 0; f + 1 < begin.length; ++f) {
             const opacity = part.opacity * opacities[seen?.[f] ?? 2]!;
             if (opacity === 0) continue;
-            const [x, y, z] = areaVector(points, corners, [begin[f]!, begin[f + 1]!]);
+            const [x, y, z] = doubleAreaVector(points, corners, [begin[f]!, begin[f + 1]!]);
             const length = Math.hypot(x, y, z) || 1;
             for (let c = begin[f]!; c < begin[f + 1]!; ++c, ++this.used) {
                 this.shapes.setVector("at", this.used, ...place(points, corners[c]!));

@@ -41,7 +41,7 @@ TEST(Tikz, EscapesTexts) {
 }
 
 TEST(Tikz, WritesTheRunsOfEachColumnOfAnImage) {
-    const exports::DensityImage image{{10, 10}, {20, 30}, {255, 0, 255, 51}, 2, {0xFF0000, 0x0000FF}};
+    const exports::OpacityImage image{{10, 10}, {20, 30}, {255, 0, 255, 51}, 2, {0xFF0000, 0x0000FF}};
     const std::string text = tikzOf(image);
     EXPECT_TRUE(has(text, "\\fill[ovalFF0000] (5,0) rectangle (15,40);"));
     EXPECT_TRUE(has(text, "\\fill[oval0000FF,fill opacity=0.2] (15,20) rectangle (25,40);"));
