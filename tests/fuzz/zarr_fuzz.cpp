@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "fields/readers/zarr.hpp"
 #include "support.hpp"
@@ -48,11 +49,15 @@ OVAL4D_FUZZER(zarr) {
         return std::optional(fields::FileContents::copyOf(found->second));
     };
     for (const char* variable : {"", "a", "../a"}) {
-        const auto field = fields::readZarr(folder, {.variable = variable, .maxSamples = kMaxSamples});
-        if (field) {
-            requireSound(*field);
-        } else {
-            fuzz::requireSentence(field.error());
+        for (const std::optional<fields::Box>& region :
+             {std::optional<fields::Box>(), std::optional(fields::Box{glm::dvec4(0.3), glm::dvec4(0.3, 1, 2, 5)})}) {
+            const auto field =
+                fields::readZarr(folder, {.variable = variable, .maxSamples = kMaxSamples, .region = region});
+            if (field) {
+                requireSound(*field);
+            } else {
+                fuzz::requireSentence(field.error());
+            }
         }
     }
     return 0;

@@ -39,6 +39,9 @@ struct ReadOptions {
     MappedFileMaker newFile = {};  ///< null if all converted samples are kept in memory
     std::span<float> into = {};    ///< memory for converted samples, used if it has exactly the size of the array; must
                                    ///< remain valid as long as the samples are used
+    /// The part of the array that is read, in the coordinates of its box: the samples that cover this region or, along
+    /// an axis where the region has no extent, the sample nearest to it. Only readZarr() reads parts.
+    std::optional<Box> region = {};
 };
 
 /// A field read from a file. If `samples` refers to the bytes of the file, it keeps these bytes valid.
@@ -49,6 +52,7 @@ struct FieldArray {
     SampleStorage samples{std::vector<float>()};
     AxisUnits units;                    ///< of `box`
     Quantity quantity;                  ///< what the samples measure
+    bool isPart = false;                ///< whether the file has further samples: of a finer level, or beyond the box
     std::vector<std::string> warnings;  ///< sentences for the user
 
     /// Returns the interpolant of the samples. Error: `bad_field` if the box is not valid (see Lattice).

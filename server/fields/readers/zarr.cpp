@@ -30,13 +30,19 @@ FolderTextReader textsOf(const FolderFileReader& folder) {
     };
 }
 
-// Reads the chunks of an array.
+// A part of an array: for each dimension, its first index and the number of its indices.
+struct IndexBox {
+    std::vector<std::size_t> first, size;
+};
+
+// Reads the chunks of an array that have numbers of a part of the array.
 class ChunkReader {
   public:
-    ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array) : folder_(folder), array_(array) {}
+    ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array, IndexBox part)
+        : folder_(folder), array_(array), part_(std::move(part)) {}
 
-    // Converts all chunks. `stride` has, for each dimension, the distance in `to` between neighbors along this
-    // dimension; `first` is the place of the array's first number in `to`. `to` must contain only zeros before the
+    // Converts the numbers of the part. `stride` has, for each dimension, the distance in `to` between neighbors along
+    // this dimension; `first` is the place of the part's first number in `to`. `to` must contain only zeros before the
     // call, because missing chunks whose fill value is 0 are skipped. Calls `afterward` about once per kNumbers
     // numbers, so that the caller can release memory.
     template <typename Afterward>
@@ -44,20 +50,22 @@ class ChunkReader {
                                 const Afterward& afterward) {
         constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // numbers between two calls
         const std::size_t rank = array_.shape.size();
-        std::vector<std::size_t> index(rank, 0);
+        const auto firstChunk = [this](std::size_t i) { return part_.first[i] / array_.chunk[i]; };
+        std::vector<std::size_t> index(rank);
+        for (std::size_t i = 0; i < rank; ++i) index[i] = firstChunk(i);
         std::size_t numbers = 0;
         for (;;) {
-            std::ptrdiff_t at = static_cast<std::ptrdiff_t>(first);
-            for (std::size_t i = 0; i < rank; ++i)
-                at += static_cast<std::ptrdiff_t>(index[i] * array_.chunk[i]) * stride[i];
-            if (auto chunk = readChunk(index, stride, to + at); !chunk) return chunk;
+            if (auto chunk = readChunk(index, stride, to + first); !chunk) return chunk;
             numbers += array_.decompressedChunkBytes() / sizeOf(array_.format.type);
             if (numbers >= kNumbers) {
                 afterward();
                 numbers = 0;
             }
             std::size_t i = rank;
-            while (i > 0 && ++index[i - 1] * array_.chunk[i - 1] >= array_.shape[i - 1]) index[--i] = 0;
+            while (i > 0 && ++index[i - 1] * array_.chunk[i - 1] >= part_.first[i - 1] + part_.size[i - 1]) {
+                --i;
+                index[i] = firstChunk(i);
+            }
             if (i == 0) return std::monostate{};
         }
     }
@@ -88,13 +96,19 @@ class ChunkReader {
         return std::monostate{};
     }
 
-    // Returns how many indices along a dimension are both in the chunk `index` and in the array, because the last chunk
-    // may extend beyond the array.
-    std::size_t sizeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
-        return std::min(array_.chunk[dimension], array_.shape[dimension] - index[dimension] * array_.chunk[dimension]);
+    // The indices in a chunk, along one dimension, from `begin` to `end` − 1.
+    struct IndexRange {
+        std::size_t begin, end;
+    };
+
+    // Returns the indices along a dimension that are both in the chunk `index` and in the part.
+    IndexRange rangeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
+        const std::size_t chunk = index[dimension] * array_.chunk[dimension], first = part_.first[dimension];
+        return {std::max(first, chunk) - chunk,
+                std::min(array_.chunk[dimension], first + part_.size[dimension] - chunk)};
     }
 
-    // Converts the numbers of the chunk `index` that are in the array, row by row. `from` is the decompressed chunk.
+    // Converts the numbers of the chunk `index` that are in the part, row by row. `from` is the decompressed chunk.
     void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
               float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
@@ -116,32 +130,43 @@ class ChunkReader {
         });
     }
 
-    // Visits the stored rows of a chunk that begin within the array. Calls `visit` for each row with four numbers: the
-    // index of the row's first number in the chunk; the place of this number in `to`, relative to the place of the
-    // chunk's first number; how many numbers of the row are within the array; and the distance between their places in
-    // `to`.
+    // Visits the stored rows of a chunk that have numbers of the part. Calls `visit` for each row with four numbers:
+    // the index in the chunk of the row's first number that is in the part; the place of this number in `to`, relative
+    // to the place of the part's first number; how many numbers of the row are in the part; and the distance between
+    // their places in `to`.
     template <typename Visit>
     void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                    const Visit& visit) const {
         const std::vector<std::size_t>& order = array_.order;
         const std::size_t rank = order.size(), fastest = order.back();
-        std::vector<std::size_t> i(rank, 0);  // indices in the chunk, in the order of storage
+        std::vector<IndexRange> range(rank);
+        std::vector<std::size_t> i(rank);  // indices in the chunk, in the order of storage
+        for (std::size_t d = 0; d < rank; ++d) {
+            range[d] = rangeWithin(index, order[d]);
+            i[d] = range[d].begin;
+        }
         for (;;) {
             std::size_t number = 0;
             std::ptrdiff_t at = 0;
             for (std::size_t d = 0; d < rank; ++d) {
-                number = number * array_.chunk[order[d]] + i[d];
-                at += static_cast<std::ptrdiff_t>(i[d]) * stride[order[d]];
+                const std::size_t dimension = order[d];
+                number = number * array_.chunk[dimension] + i[d];
+                const std::size_t inPart = index[dimension] * array_.chunk[dimension] + i[d] - part_.first[dimension];
+                at += static_cast<std::ptrdiff_t>(inPart) * stride[dimension];
             }
-            visit(number, at, sizeWithin(index, fastest), stride[fastest]);
+            visit(number, at, range.back().end - range.back().begin, stride[fastest]);
             std::size_t d = rank - 1;
-            while (d > 0 && ++i[d - 1] == sizeWithin(index, order[d - 1])) i[--d] = 0;
+            while (d > 0 && ++i[d - 1] == range[d - 1].end) {
+                --d;
+                i[d] = range[d].begin;
+            }
             if (d == 0) return;
         }
     }
 
     const FolderFileReader& folder_;
     const ZarrArrayMetadata& array_;
+    const IndexBox part_;
     std::vector<std::byte> chunk_;
 };
 
@@ -163,7 +188,9 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
     // coordinates are converted as differences from the first coordinate.
     std::vector<float> values(size);
     const double offset = array.format.offset;
-    const auto read = [&] { return ChunkReader(folder, array).read({1}, 0, values.data(), [] {}).operator bool(); };
+    const auto read = [&] {
+        return ChunkReader(folder, array, {{0}, {size}}).read({1}, 0, values.data(), [] {}).operator bool();
+    };
     if (!read()) return {};
     const double first = double{values.front()} - offset;
     if (!std::isfinite(first)) return {};
@@ -247,59 +274,152 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
     return dimensions;
 }
 
+// Returns the error that there is no array at `path`.
+Error missingArray(const ZarrFolder& zarr, const std::string& path) {
+    std::vector<std::string_view> names;
+    const auto chosen = zarr.chooseArray();
+    if (chosen) names.assign(chosen->all.begin(), chosen->all.end());
+    return {ErrorCode::not_found,
+            "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
+}
+
+// The samples of an axis that are read: `count` of them, from the index `first` on.
+struct AxisPart {
+    std::size_t first, count;
+};
+
+// Returns the samples of an axis that cover the interval from `from` to `to` as far as possible or, if the interval has
+// no length, the sample nearest to it. The first and the last of the `samples` samples have the coordinates `min` and
+// `max`. Returns all samples if these are not valid.
+AxisPart samplesCovering(double from, double to, double min, double max, std::size_t samples) {
+    constexpr double kTolerance = 1e-6;  // in distances between samples; allows for rounded coordinates
+    if (samples <= 1 || !(min < max) || !std::isfinite(max - min)) return {0, samples};
+    const double last = static_cast<double>(samples) - 1;
+    const auto position = [&](double at) { return std::clamp((at - min) / (max - min) * last, 0.0, last); };
+    if (from == to) return {static_cast<std::size_t>(std::round(position(from))), 1};
+    const double first = std::min(std::floor(position(from) + kTolerance), last - 1);
+    const double end = std::max(std::ceil(position(to) - kTolerance), first + 1);
+    return {static_cast<std::size_t>(first), static_cast<std::size_t>(end - first) + 1};
+}
+
+// The part of an array that is read.
+struct ArrayPart {
+    ZarrArrayMetadata array;
+    IndexBox indices;
+    std::vector<std::size_t> kept;      // see squeeze()
+    std::vector<Dimension> dimensions;  // those in `kept`, with the sizes of the part
+    FieldArray field;                   // without its shape and its samples
+};
+
+// Restricts a part, which is the whole array, to the samples that cover `region`. Error: `out_of_range` if the region
+// lies beyond the box of the array, unless `mayLieBeyond` is true.
+std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart& part) {
+    Box& box = part.field.box;
+    for (std::size_t i = 0; i < part.kept.size(); ++i) {
+        Dimension& dimension = part.dimensions[i];
+        const auto axis = static_cast<glm::length_t>(dimension.axis);
+        const double min = box.min[axis], max = box.max[axis];
+        const std::size_t samples = dimension.size;
+        if (samples > 1 && !mayLieBeyond && (region.max[axis] < min || region.min[axis] > max)) {
+            return Error{ErrorCode::out_of_range,
+                         std::string("the region lies beyond the array, which extends along ") + "xyzw"[axis] +
+                             " from " + text::roundedDecimal(min) + " to " + text::roundedDecimal(max)};
+        }
+        const auto [first, count] = samplesCovering(region.min[axis], region.max[axis], min, max, samples);
+        if (count == samples) continue;
+        const double step = (max - min) / (static_cast<double>(samples) - 1);
+        box.min[axis] = min + step * static_cast<double>(first);
+        if (first + count < samples) box.max[axis] = min + step * static_cast<double>(first + count - 1);
+        if (count == 1) box.max[axis] = box.min[axis];
+        part.indices.first[part.kept[i]] = dimension.reversed ? samples - first - count : first;
+        part.indices.size[part.kept[i]] = dimension.size = count;
+        part.field.isPart = true;
+    }
+    return {};
+}
+
+// Returns the part of an array that the options select. `isCoarser`: whether the array is a level of an image, but not
+// the finest one. Its samples may lie between those of the finest level, and then do not reach the ends of that box.
+Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
+                         const ReadOptions& options, bool isCoarser = false) {
+    ArrayPart part{std::move(array), {}, {}, {}, {}};
+    squeeze(part.array, part.kept);
+    part.indices = {std::vector<std::size_t>(part.array.shape.size(), 0), part.array.shape};
+    auto dimensions = mapDimensions(folder, zarr, part.array, part.kept, options, part.field);
+    if (!dimensions) return dimensions.error();
+    part.dimensions = std::move(*dimensions);
+    FieldArray& field = part.field;
+    Shape shape{1, 1, 1, 1};  // of the whole array
+    for (const Dimension& each : part.dimensions) shape.at(each.axis) = each.size;
+    const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
+    if (!field.boxIsKnown) field.box = defaultBox(shape, time);
+    if (options.box) field.box = *options.box;
+    field.boxIsKnown = field.boxIsKnown || options.box;
+    if (options.region) {
+        if (auto error = restrictTo(*options.region, isCoarser, part)) return std::move(*error);
+    }
+    return part;
+}
+
+// Returns the part that the options select of the array that they name or, without a name, of the array that readZarr()
+// chooses.
+Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& zarr, const ReadOptions& options) {
+    std::string path = options.variable;
+    while (path.starts_with('/')) path.erase(0, 1);
+    auto named = zarr.array(path);
+    if (!named) return named.error();
+    if (*named) return partOf(folder, zarr, std::move(**named), options);
+    if (!path.empty()) return missingArray(zarr, path);
+    const auto chosen = zarr.chooseArray();
+    if (!chosen) return chosen.error();
+    const std::vector<std::string> candidates = chosen->areLevels ? chosen->all : std::vector{chosen->path};
+    for (std::size_t i = 0;; ++i) {
+        auto array = zarr.array(candidates[i]);
+        if (!array) return array.error();
+        if (!*array) return missingArray(zarr, candidates[i]);
+        auto part = partOf(folder, zarr, std::move(**array), options, i > 0);
+        if (!part) return part.error();
+        const auto fits = AxisMapping::of(part->dimensions, std::min(options.maxSamples, options.maxInMemory));
+        const bool isTooLarge = !fits && fits.error().code == ErrorCode::too_large;
+        if (isTooLarge && i + 1 < candidates.size()) continue;
+        std::string warning = "of " + std::to_string(chosen->all.size()) + (i > 0 ? " levels, " : " arrays, ") +
+                              text::inQuotes(candidates[i]) + " is shown";
+        if (i > 0) {
+            warning += std::string(isTooLarge ? ", the coarsest one" : ", the finest one that fits into memory") +
+                       "; a region of the array is shown in more detail";
+            part->field.isPart = true;
+        }
+        if (chosen->all.size() > 1) part->field.warnings.insert(part->field.warnings.begin(), std::move(warning));
+        return part;
+    }
+}
+
 }  // namespace
 
 Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options) {
     const ZarrFolder zarr(textsOf(folder));
-    FieldArray field;
-    std::string path = options.variable;
-    while (path.starts_with('/')) path.erase(0, 1);
-    auto found = zarr.array(path);
-    if (found && !*found && path.empty()) {
-        const auto chosen = zarr.chooseArray();
-        if (!chosen) return chosen.error();
-        path = chosen->path;
-        if (chosen->all.size() > 1) {
-            field.warnings.push_back("of " + std::to_string(chosen->all.size()) + " arrays, " + text::inQuotes(path) +
-                                     " is shown");
-        }
-        found = zarr.array(path);
-    }
-    if (!found) return found.error();
-    if (!*found) {
-        std::vector<std::string_view> names;
-        const auto chosen = zarr.chooseArray();
-        if (chosen) names.assign(chosen->all.begin(), chosen->all.end());
-        return Error{ErrorCode::not_found,
-                     "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
-    }
-    ZarrArrayMetadata& array = **found;
-    std::vector<std::size_t> kept;
-    squeeze(array, kept);
-    const auto dimensions = mapDimensions(folder, zarr, array, kept, options, field);
-    if (!dimensions) return dimensions.error();
-    const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
+    auto part = chosenPart(folder, zarr, options);
+    if (!part) return part.error();
+    const ZarrArrayMetadata& array = part->array;
+    const std::vector<std::size_t>& kept = part->kept;
+    FieldArray& field = part->field;
+    const auto mapping = AxisMapping::of(part->dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
     field.shape = mapping->shape();
-    const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
-    if (!field.boxIsKnown) field.box = defaultBox(field.shape, time);
-    if (options.box) field.box = *options.box;
-    field.boxIsKnown = field.boxIsKnown || options.box;
     auto buffer = SampleBuffer::of(mapping->count(), options);
     if (!buffer) return buffer.error();
     std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for the dimensions that are left out
     for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = mapping->layout().stride.at(4 - kept.size() + i);
     const auto read =
-        ChunkReader(folder, array).read(stride, mapping->firstSampleIndex(), buffer->values().data(), [&] {
-            buffer->releasePages();
-        });
+        ChunkReader(folder, array, part->indices)
+            .read(stride, mapping->firstSampleIndex(), buffer->values().data(), [&] { buffer->releasePages(); });
     if (!read) return read.error();
     field.samples = buffer->take();
     field.quantity = {quantityText(array.text("long_name")), quantityText(array.text("units"))};
     // The path of a level of a multiscale image is a number, which says nothing about the quantity.
-    if (field.quantity.name.empty() && !zarr.coordinatesOf(path))
-        field.quantity.name = quantityText(path.substr(path.rfind('/') + 1));
-    return field;
+    if (field.quantity.name.empty() && !zarr.coordinatesOf(array.path))
+        field.quantity.name = quantityText(array.path.substr(array.path.rfind('/') + 1));
+    return std::move(field);
 }
 
 }  // namespace oval4d::fields

@@ -377,6 +377,7 @@ Result<ZarrFolder::ChosenArray> ZarrFolder::chooseArray() const {
         if (levels != nullptr && levels->is_array() && !levels->empty()) {
             for (const auto& level : *levels) chosen.all.push_back(textIn(level, "path"));
             chosen.path = chosen.all.front();
+            chosen.areLevels = true;
             return chosen;
         }
     }

@@ -64,6 +64,7 @@ class ZarrFolder {
     struct ChosenArray {
         std::string path;
         std::vector<std::string> all;  ///< the paths of all arrays among which `path` was chosen
+        bool areLevels = false;        ///< whether `all` are the levels of a multiscale image, the finest first
     };
     /// Chooses an array to read if the folder is a group (see readZarr()). Errors: `unsupported_format` if the folder
     /// is neither an array nor a group; `out_of_range` if the group does not list its arrays; `bad_field` if none of

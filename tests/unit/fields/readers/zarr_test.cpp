@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,13 +19,19 @@ namespace {
 
 using Files = std::map<std::string, std::string>;  // the contents of each file by its path
 
-Result<FieldArray> readFiles(const Files& files, const std::string& variable = "") {
+// Reads an array from the files. If `opened` is not null, adds to it the paths that are opened.
+Result<FieldArray> readFiles(const Files& files, const ReadOptions& options, std::set<std::string>* opened = nullptr) {
     const FolderFileReader folder = [&](const std::string& path) -> Result<std::optional<FileContents>> {
+        if (opened != nullptr) opened->insert(path);
         const auto found = files.find(path);
         if (found == files.end()) return std::optional<FileContents>();
         return std::optional(FileContents::copyOf(found->second));
     };
-    return readZarr(folder, {.variable = variable});
+    return readZarr(folder, options);
+}
+
+Result<FieldArray> readFiles(const Files& files, const std::string& variable = "") {
+    return readFiles(files, ReadOptions{.variable = variable});
 }
 
 // The .zarray file of an array of 32-bit floats in one chunk. `sizes` are the numbers in a JSON list.
@@ -136,6 +145,138 @@ TEST(Zarr, ReadsTheFillValueOfXarrayInBase64) {
     for (const std::string fill : {"AAAAAAAA+H8=", "AAAAAICHww==", "AAAAAICHw8AA", "AAAAAICHw8A", "-Infinity", "?", ""})
         EXPECT_EQ(samples("float32", fill)[1], -9999) << fill;
     EXPECT_EQ(samples("int32", "AAAAAICHw8A=")[1], -9999);
+}
+
+// The value of the sample with these indices along x, y, z, w in the arrays of the following tests.
+float valueAt(std::size_t x, std::size_t y, std::size_t z, std::size_t w) {
+    return static_cast<float>(1 + x + 10 * y + 100 * z + 1000 * w);
+}
+
+// An array with the axes t z y x, whose shape is 5 × 4 × 7 × 6. Its chunks of 2 × 3 × 4 × 6 extend beyond it.
+Files filesInChunks() {
+    constexpr std::array<std::size_t, 4> kShape{6, 7, 4, 5}, kChunk{6, 4, 3, 2};  // x, y, z, t
+    Files files{{".zarray", zarray("[5,4,7,6]", "[2,3,4,6]")}};
+    for (std::size_t t = 0; t < kShape[3]; t += kChunk[3]) {
+        for (std::size_t z = 0; z < kShape[2]; z += kChunk[2]) {
+            for (std::size_t y = 0; y < kShape[1]; y += kChunk[1]) {
+                std::vector<float> numbers;
+                for (std::size_t l = 0; l < kChunk[3]; ++l)
+                    for (std::size_t k = 0; k < kChunk[2]; ++k)
+                        for (std::size_t j = 0; j < kChunk[1]; ++j)
+                            for (std::size_t i = 0; i < kChunk[0]; ++i)
+                                numbers.push_back(valueAt(i, y + j, z + k, t + l));
+                const std::string name = std::to_string(t / kChunk[3]) + '.' + std::to_string(z / kChunk[2]) + '.' +
+                                         std::to_string(y / kChunk[1]) + ".0";
+                files[name] = chunkOf(numbers);
+            }
+        }
+    }
+    return files;
+}
+
+TEST(Zarr, ReadsARegionFromItsOwnChunks) {
+    const Files files = filesInChunks();
+    const ReadOptions whole{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}};  // the coordinates are the indices
+    struct Case {
+        Box region, expected;  // the box of the samples that cover the region
+        std::vector<std::string> chunks;
+    };
+    for (const auto& [region, expected, chunks] :
+         std::vector<Case>{{{{1.5, 4.5, 0, 2}, {3, 5.5, 1, 3}}, {{1, 4, 0, 2}, {3, 6, 1, 3}}, {"1.0.1.0"}},
+                           {{{0, 3.5, 2.5, 4}, {0.5, 3.6, 9, 4}},
+                            {{0, 3, 2, 4}, {1, 4, 3, 4}},
+                            {"2.0.0.0", "2.0.1.0", "2.1.0.0", "2.1.1.0"}},
+                           {{{4, 0, 3, 1.4}, {4, 0.1, 3, 1.4}}, {{4, 0, 3, 1}, {4, 1, 3, 1}}, {"0.1.0.0"}}}) {
+        ReadOptions options = whole;
+        options.region = region;
+        std::set<std::string> opened;
+        const auto field = readFiles(files, options, &opened);
+        ASSERT_TRUE(field) << field.error().message;
+        EXPECT_EQ(field->box, expected);
+        EXPECT_TRUE(field->isPart);
+        std::array<std::size_t, 4> first{}, last{};
+        for (std::size_t axis = 0; axis < 4; ++axis) {
+            first[axis] = static_cast<std::size_t>(expected.min[static_cast<glm::length_t>(axis)]);
+            last[axis] = static_cast<std::size_t>(expected.max[static_cast<glm::length_t>(axis)]);
+            EXPECT_EQ(field->shape[axis], last[axis] - first[axis] + 1) << axis;
+        }
+        std::vector<float> values;
+        for (std::size_t w = first[3]; w <= last[3]; ++w)
+            for (std::size_t z = first[2]; z <= last[2]; ++z)
+                for (std::size_t y = first[1]; y <= last[1]; ++y)
+                    for (std::size_t x = first[0]; x <= last[0]; ++x) values.push_back(valueAt(x, y, z, w));
+        const auto samples = field->samples.values();
+        EXPECT_EQ(std::vector(samples.begin(), samples.end()), values);
+        std::erase_if(opened, [](const std::string& path) { return path.starts_with(".z") || path == "zarr.json"; });
+        EXPECT_EQ(opened, std::set<std::string>(chunks.begin(), chunks.end()));
+    }
+    ReadOptions all = whole;
+    all.region = Box{{-1, -1, -1, -1}, {9, 9, 9, 9}};
+    const auto one = readFiles(files, all), other = readFiles(files, whole);
+    ASSERT_TRUE(one && other);
+    EXPECT_FALSE(one->isPart);
+    EXPECT_EQ(one->box, other->box);
+    EXPECT_TRUE(std::ranges::equal(one->samples.values(), other->samples.values()));
+}
+
+TEST(Zarr, ReadsARegionWhereTheCoordinateDecreases) {
+    const Files files{{".zgroup", R"({"zarr_format":2})"},
+                      {"f/.zarray", zarray("[5]", "[2]")},
+                      {"f/.zattrs", R"({"_ARRAY_DIMENSIONS":["x"]})"},
+                      {"f/1", chunkOf({3, 4})},
+                      {"x/.zarray", zarray("[5]", "[5]")},
+                      {"x/.zattrs", R"({"_ARRAY_DIMENSIONS":["x"]})"},
+                      {"x/0", chunkOf({50, 40, 30, 20, 10})}};
+    std::set<std::string> opened;
+    const auto field =
+        readFiles(files, ReadOptions{.variable = "f", .region = Box{{20, 0, 0, 0}, {30, 0, 0, 0}}}, &opened);
+    ASSERT_TRUE(field) << field.error().message;
+    const auto samples = field->samples.values();
+    EXPECT_EQ(std::vector(samples.begin(), samples.end()), (std::vector<float>{4, 3}));
+    EXPECT_EQ(field->box, (Box{{20, 0, 0, 0}, {30, 0, 0, 0}}));
+    EXPECT_TRUE(opened.contains("f/1") && !opened.contains("f/0") && !opened.contains("f/2"));
+}
+
+TEST(Zarr, RefusesARegionBeyondTheArray) {
+    const Files files = filesInChunks();
+    for (const auto& region : {Box{{-2, 0, 0, 0}, {-1, 6, 3, 4}}, Box{{5.5, 0, 0, 0}, {6, 6, 3, 4}}}) {
+        const auto field = readFiles(files, ReadOptions{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}, .region = region});
+        ASSERT_FALSE(field);
+        EXPECT_EQ(field.error().code, ErrorCode::out_of_range);
+        EXPECT_NE(field.error().message.find("along x from 0 to 5"), std::string::npos) << field.error().message;
+    }
+}
+
+TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
+    const std::string image = R"({"multiscales":[{"axes":[{"name":"y"},{"name":"x"}],"datasets":[
+        {"path":"0","coordinateTransformations":[{"type":"scale","scale":[1,1]}]},
+        {"path":"1","coordinateTransformations":[
+            {"type":"scale","scale":[2,2]},{"type":"translation","translation":[0.5,0.5]}]}]}]})";
+    const Files files{{".zgroup", R"({"zarr_format":2})"},
+                      {".zattrs", image},
+                      {"0/.zarray", zarray("[4,8]", "[4,8]")},
+                      {"1/.zarray", zarray("[2,4]", "[2,4]")}};
+    const Box fine{{0, 0, 0, 0}, {7, 3, 0, 0}}, coarse{{0.5, 0.5, 0, 0}, {6.5, 2.5, 0, 0}};
+    const auto read = [&](std::size_t maxInMemory, const std::optional<Box>& region = {}) {
+        auto field = readFiles(files, ReadOptions{.maxInMemory = maxInMemory, .region = region});
+        EXPECT_TRUE(field) << field.error().message;
+        return std::move(*field);
+    };
+    const FieldArray whole = read(32), overview = read(31), coarsest = read(7);
+    EXPECT_EQ(whole.box, fine);
+    EXPECT_FALSE(whole.isPart);
+    EXPECT_EQ(overview.box, coarse);
+    EXPECT_TRUE(overview.isPart);
+    EXPECT_NE(overview.warnings.at(0).find("of 2 levels, '1' is shown, the finest one"), std::string::npos);
+    EXPECT_EQ(coarsest.box, coarse);
+    EXPECT_NE(coarsest.warnings.at(0).find("the coarsest one"), std::string::npos);
+    const FieldArray left = read(16, Box{{0, 0, 0, 0}, {3, 3, 0, 0}});
+    EXPECT_EQ(left.box, (Box{{0, 0, 0, 0}, {3, 3, 0, 0}}));
+    EXPECT_EQ(left.shape, (Shape{4, 4, 1, 1}));
+    EXPECT_TRUE(left.isPart);
+    // A coarser level does not reach the ends of the finest one.
+    const FieldArray end = read(2, Box{{7, 0, 0, 0}, {7, 3, 0, 0}});
+    EXPECT_EQ(end.box, (Box{{6.5, 0.5, 0, 0}, {6.5, 2.5, 0, 0}}));
 }
 
 }  // namespace
