@@ -76,6 +76,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     if (isFolder || (mapped && isArray(*mapped))) {
         fields::ReadOptions options{take(query, "axes").value_or(""), {}, take(query, "variable").value_or("")};
         if (const auto text = take(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
+        if (const auto text = take(query, "region")) options.region = valueOrThrow(session::parseBox(*text, "region"));
         const session::SecondFunctionSource second{take(query, "values").value_or(""),
                                                    take(query, "values_variable").value_or("")};
         if (!second.formula.empty() && !second.variable.empty())
@@ -149,6 +150,7 @@ struct ReadingOption {
 };
 constexpr auto kReadingOptions = std::to_array<ReadingOption>({
     {"axes", "arrays"},
+    {"region", "arrays"},
     {"variable", "arrays"},
     {"values_variable", "arrays"},
     {"center", "polytopes, surfaces and points"},

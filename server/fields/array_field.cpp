@@ -38,6 +38,7 @@ Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
         field.array = *function;
         std::ranges::transform(array.units, field.units.begin(), quantityText);
         field.quantity = {quantityText(array.quantity.name), quantityText(array.quantity.unit)};
+        field.isPart = array.isPart;
         field.initialLevel = 0.5 * (static_cast<double>(samples.min) + samples.max);
         field.initialInside = Inside::above;
         return field;

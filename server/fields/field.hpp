@@ -33,12 +33,12 @@ struct SecondFunction {
     Quantity quantity = {};                           ///< what the values of the array measure
 };
 
-/// The origin of the samples of a field that are too large for memory: a file in the server's data folder, and the
-/// options with which this file is read. The members are explained at the members of session::LoadObject with the same
-/// names.
+/// The origin of the samples of a field that are too large for memory or a part of an array: a file in the server's
+/// data folder, and the options with which this file is read. The members are explained at the members of
+/// session::LoadObject with the same names.
 struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
-    std::optional<Box> box;
+    std::optional<Box> box, region;
 };
 
 /// A 4-D scalar field: a function on a box. It is shown as a 4-D object that is centered at the origin: the point p of
@@ -57,14 +57,16 @@ struct Field : geometry::ObjectInfo {
     Inside initialInside = Inside::below;        ///< which side of the levels is inside at first
     std::string formula;                         ///< the text of the formula; empty if there is none
     std::shared_ptr<const ArrayFunction> array;  ///< `function` if it is an array; else null
-    AxisUnits units;    ///< of `box` and `center`, if the function is an array (see quantityText())
-    Quantity quantity;  ///< what the values measure, if the function is an array (see quantityText())
+    AxisUnits units;      ///< of `box` and `center`, if the function is an array (see quantityText())
+    Quantity quantity;    ///< what the values measure, if the function is an array (see quantityText())
+    bool isPart = false;  ///< whether the file of the array has further samples (see FieldArray)
     std::shared_ptr<const SecondFunction> second;  ///< null if there is none
     /// The range, without outliers, of the values of coloringFunction() on the box.
     std::shared_ptr<const TypicalRangeOnBox> coloringRange;
     bool shared = false;                       ///< whether several sessions share this field; the limits on the memory
                                                ///< of sessions then do not count it
-    std::shared_ptr<const FileSource> source;  ///< null unless the samples are too large for memory
+    std::shared_ptr<const FileSource> source;  ///< null unless the samples are too large for memory or a part of an
+                                               ///< array in the data folder
 
     /// Returns whether the samples of the field or of its second array are in a mapped file of which a part could not
     /// be read, or which has changed (see MappedFile::isLost()).

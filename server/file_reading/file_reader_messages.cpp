@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -78,17 +79,20 @@ void encodeReadRequest(const session::LoadObject& load, const session::Limits& l
     out.clear();
     ByteWriter archive(out);
     visitReadRequest(archive, load, limits);
-    archive(load.box.has_value()), archive(load.box.value_or(fields::Box{})), archive(load.series.size());
-    archive(load.folder != nullptr), archive(mayMap);
+    for (const auto& box : {load.box, load.region}) archive(box.has_value()), archive(box.value_or(fields::Box{}));
+    archive(load.series.size()), archive(load.folder != nullptr), archive(mayMap);
 }
 
 void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
     ByteReader archive(bytes);
     visitReadRequest(archive, out.load, out.limits);
-    bool hasBox = false;
-    fields::Box box;
-    archive(hasBox), archive(box), archive(out.seriesLength), archive(out.isFolder), archive(out.mayMap);
-    if (hasBox) out.load.box = box;
+    for (std::optional<fields::Box>* const to : {&out.load.box, &out.load.region}) {
+        bool hasBox = false;
+        fields::Box box;
+        archive(hasBox), archive(box);
+        if (hasBox) *to = box;
+    }
+    archive(out.seriesLength), archive(out.isFolder), archive(out.mayMap);
 }
 
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out, slicing::MappedFiles files,

@@ -99,13 +99,16 @@ std::string cacheKeyOf(const session::LoadObject& load, const std::string& versi
     std::string key =
         load.dataName + '\0' + load.name + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
     key += load.secondFormula + '\0' + load.secondVariable + '\0';
-    if (load.box) key.append(reinterpret_cast<const char*>(&*load.box), sizeof *load.box);
+    for (const auto& box : {load.box, load.region}) {
+        key += box ? '1' : '0';
+        if (box) key.append(reinterpret_cast<const char*>(&*box), sizeof *box);
+    }
     return key + '\0' + version;
 }
 
 /// Returns a copy of the loaded field in which Field::shared is true: its memory does not count against the sessions
-/// that use it, because DataFolder::bytes_ counts it. If the samples are in a mapped file, sets Field::source. Returns
-/// an error if the object is not an array.
+/// that use it, because DataFolder::bytes_ counts it. If the samples are in a mapped file, or are a part of an array,
+/// sets Field::source. Returns an error if the object is not an array.
 Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings loaded,
                                                      const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
@@ -114,9 +117,10 @@ Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings
     copy->shared = true;
     const bool isMapped = field->array->storage().file() ||
                           (field->second && field->second->array && field->second->array->storage().file());
-    if (isMapped) {
-        copy->source = std::make_shared<const fields::FileSource>(fields::FileSource{
-            load.dataName, load.format, load.axes, load.variable, load.secondFormula, load.secondVariable, load.box});
+    if (isMapped || field->isPart) {
+        copy->source = std::make_shared<const fields::FileSource>(
+            fields::FileSource{load.dataName, load.format, load.axes, load.variable, load.secondFormula,
+                               load.secondVariable, load.box, load.region});
     }
     loaded.object = slicing::FieldPtr(std::move(copy));
     return loaded;

@@ -196,14 +196,20 @@ Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& l
     return readArray(*file, load.name, optionsForReading(load, limits), {load.secondFormula, load.secondVariable});
 }
 
-// Returns an error if the box has no extent along an axis with several samples, or if the ends of the box along any
-// axis are in the wrong order.
-std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
+// Returns an error if the ends of a box along any axis are in the wrong order. `name` is what the error calls the box.
+std::optional<Error> checkOrder(const fields::Box& box, std::string_view name) {
     for (int axis = 0; axis < 4; ++axis) {
-        if (box.min[axis] > box.max[axis]) {
-            return Error{ErrorCode::out_of_range, std::string("the ends of the box along ") + "xyzw"[axis] +
-                                                      " are in the wrong order: the smaller one comes first"};
-        }
+        if (box.min[axis] <= box.max[axis]) continue;
+        return Error{ErrorCode::out_of_range, "the ends of the " + std::string(name) + " along " + "xyzw"[axis] +
+                                                  " are in the wrong order: the smaller one comes first"};
+    }
+    return {};
+}
+
+// Returns the error of checkOrder(), or one if the box has no extent along an axis with several samples.
+std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
+    if (auto error = checkOrder(box, "box")) return error;
+    for (int axis = 0; axis < 4; ++axis) {
         const bool wide = shape.at(static_cast<std::size_t>(axis)) > 1;
         if (wide && box.min[axis] == box.max[axis])
             return Error{ErrorCode::out_of_range, std::string("the box has no extent along ") + "xyzw"[axis]};
@@ -215,6 +221,7 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
                                       const SecondFunctionSource& second) {
+    if (auto error = options.region ? checkOrder(*options.region, "region") : std::nullopt) return std::move(*error);
     Result<fields::FieldArray> array = read(options);
     if (!array) return array.error();
     if (options.box) array->units = {};  // the units in the file belong to the box in the file, not to this one
@@ -322,6 +329,7 @@ fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limi
     fields::ReadOptions options{load.axes, load.box, load.variable, most, most};
     if (newFile) options.maxSamples = fields::kMaxSamples;
     options.newFile = std::move(newFile);
+    options.region = load.region;
     return options;
 }
 
@@ -414,6 +422,8 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
     };
     if (load.isArrayInFiles() && !array) return Error{ErrorCode::unsupported_format, "this file must be an array"};
     if (load.box && !array && load.format != kFormula) return refused("only formulas and arrays take a box");
+    if (load.region && load.dataName.empty())
+        return Error{ErrorCode::bad_message, "only arrays of the data folder (path) have regions"};
     if ((!load.axes.empty() || !load.variable.empty()) && !array) return refused("only arrays take axes or a variable");
     if (!load.secondFormula.empty() && !array && load.format != kFormula)
         return refused("only formulas and arrays take the formula of values");

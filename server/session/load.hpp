@@ -55,7 +55,9 @@ Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std
 fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
                                       fields::MappedFileMaker newFile = {});
 
-/// Reads an array from a Zarr folder. Errors: those of fields::readZarr(), and of readArray().
+/// Reads an array, or the region of it that the options select, from a Zarr folder. Errors: those of
+/// fields::readZarr(), and of readArray(); `out_of_range` if the ends of the region along any axis are in the wrong
+/// order.
 Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, const std::string& name,
                                     const fields::ReadOptions& options = {}, const SecondFunctionSource& second = {});
 

@@ -95,9 +95,9 @@ Error unknownName(std::string_view name, std::span<const std::string_view> other
 
 }  // namespace
 
-Result<fields::Box> parseBox(std::string_view text) {
+Result<fields::Box> parseBox(std::string_view text, std::string_view name) {
     const auto ends =
-        parseNumbers<8>("box", "eight numbers, the ranges of x, y, z and w, such as -1,1,-1,1,-1,1,0,2", text);
+        parseNumbers<8>(name, "eight numbers, the ranges of x, y, z and w, such as -1,1,-1,1,-1,1,0,2", text);
     if (!ends) return ends.error();
     fields::Box box;
     for (std::size_t i = 0; i < ends->size(); ++i)

@@ -21,9 +21,9 @@ inline constexpr auto kPictureParameters = std::to_array<std::string_view>({"wid
 inline constexpr auto kFileParameters =
     std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit", "exact"});
 
-/// Parses the ranges of x, y, z and w: eight numbers or expressions, separated by commas. Errors: `bad_expression` and
-/// those of evaluate().
-Result<fields::Box> parseBox(std::string_view text);
+/// Parses the ranges of x, y, z and w: eight numbers or expressions, separated by commas. `name` is what errors call
+/// the box. Errors: `bad_expression` and those of evaluate().
+Result<fields::Box> parseBox(std::string_view text, std::string_view name = "box");
 
 /// Parses the point about which an object turns: "object", "origin", or four numbers or expressions, separated by
 /// commas. Errors: `bad_expression` and those of evaluate().

@@ -94,7 +94,7 @@ void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& fi
         archive(field.array->shape());
         writer.write(field.array->storage());
         for (const std::string& unit : field.units) archive(unit);
-        archive(field.quantity);
+        archive(field.quantity), archive(field.isPart);
     }
     const fields::SecondFunction* const second = field.second.get();
     archive(second == nullptr ? std::string() : second->formula);
@@ -154,6 +154,7 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
         archive(array.shape), readSamples(archive, files, array);
         for (std::string& unit : array.units) readQuantityText(archive, unit);
         readQuantity(archive, array.quantity);
+        archive(array.isPart);
     }
     archive(second), archive(variable), archive(hasArray);
     auto field = formula.empty() ? fields::fieldFromArray(name, array)

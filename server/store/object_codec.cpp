@@ -121,12 +121,14 @@ void readSecond(const json& second, const json& shape, fields::Quantity quantity
     if (error) throwUnreadable("a field is not valid: " + error->message);
 }
 
-// Encodes a source as [dataName, format, axes, variable, secondFormula, secondVariable, box or null]: see
-// fields::FileSource.
+// Encodes a source as [dataName, format, axes, variable, secondFormula, secondVariable, box or null], followed by the
+// region if there is one: see fields::FileSource.
 json encoded(const fields::FileSource& source) {
-    const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box] = source;
-    return json::array({dataName, format, axes, variable, secondFormula, secondVariable,
-                        box ? encoded(std::vector{box->min, box->max}) : json()});
+    const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
+    json record = json::array({dataName, format, axes, variable, secondFormula, secondVariable,
+                               box ? encoded(std::vector{box->min, box->max}) : json()});
+    if (region) record.push_back(encoded(std::vector{region->min, region->max}));
+    return record;
 }
 
 // Reads any box of finite numbers. The functions that make fields from the box check that its bounds are not too large.
@@ -137,6 +139,8 @@ fields::Box boxIn(const json& value) {
 }
 
 slicing::Object openFile(const std::string& name, const json& source, const DataFolderReader& open) {
+    constexpr std::size_t kMembers = 8;
+    refuseUnknownMembers(source, kMembers);
     session::LoadObject load;
     load.name = name;
     load.dataName = source.at(0).get<std::string>();
@@ -146,6 +150,7 @@ slicing::Object openFile(const std::string& name, const json& source, const Data
     load.secondFormula = source.at(4).get<std::string>();
     load.secondVariable = source.at(5).get<std::string>();
     if (!source.at(6).is_null()) load.box = boxIn(source.at(6));
+    if (source.size() == kMembers) load.region = boxIn(source.at(7));
     const auto object = open ? open(load) : Error{ErrorCode::not_found, "there is no data folder"};
     if (!object)
         throwUnreadable("its field " + text::inQuotes(load.dataName) + " cannot be read: " + object.error().message);

@@ -218,6 +218,7 @@ session::LoadObject bodyOf(const json& message) {
     load.secondVariable = message.value("values_variable", "");
     load.append = message.value("append", false);
     if (const auto box = message.find("box"); box != message.end()) load.box = boxOf(*box);
+    if (const auto region = message.find("region"); region != message.end()) load.region = boxOf(*region);
     if (const auto center = message.find("center"); center != message.end()) load.center = centerOf(*center);
     return load;
 }

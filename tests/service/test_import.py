@@ -258,7 +258,7 @@ def test_the_command_line_may_choose_the_center(tmp_path):
 
 @pytest.mark.parametrize(
     ("option", "files"),
-    [("axes", "arrays"), ("variable", "arrays"), ("values_variable", "arrays"), ("center", "polytopes, surfaces and points")],
+    [("axes", "arrays"), ("region", "arrays"), ("variable", "arrays"), ("values_variable", "arrays"), ("center", "polytopes, surfaces and points")],
 )
 def test_an_option_of_reading_needs_a_file_of_its_kind(tmp_path, option, files):
     points, picture = tmp_path / "points.txt", tmp_path / "picture.png"

@@ -10,6 +10,7 @@ import subprocess
 
 import png
 import pytest
+import zarr_files
 from array_files import npy, quadratic
 from harness import DEADLINE, LONG_TIME, PROGRAM, Server, run_oval4d
 from test_pacing import open_nonreading_socket
@@ -124,6 +125,20 @@ def test_compressed_files_and_folders_are_named(tmp_path):
     (tmp_path / "folder").mkdir()
     done = run_oval4d("render", "--load", tmp_path / "folder", "-o", "-")
     assert done.returncode != 0 and b"the folder contains no Zarr array or group" in done.stderr
+
+
+def test_a_region_of_a_zarr_folder(tmp_path):
+    values = quadratic((11, 4, 5, 6))
+    zarr_files.write(tmp_path / "run", values, (2, 3, 2, 4))
+    (tmp_path / "part.npy").write_bytes(npy(values[2:7, 1:3, :, 1:4]))
+    region = "1,3,0,4,1,2,2,6"
+    files = (tmp_path / "run", "--box=0,5,0,4,0,3,0,10", f"--region={region}"), (tmp_path / "part.npy", f"--box={region}")
+    of_region, of_part = (run_oval4d("export", "--format", "csv", "-o", "-", "--of", "oval", "--slices", 5, "--spacing", 0.3,
+                                     "--load", *options) for options in files)
+    assert of_region.returncode == of_part.returncode == 0, of_region.stderr
+    assert len(of_part.stdout.splitlines()) == 6 and of_region.stdout == of_part.stdout
+    done = run_oval4d("render", "--load", tmp_path / "part.npy", f"--region={region}", "-o", "-")
+    assert done.returncode != 0 and b"only Zarr folders" in done.stderr
 
 
 def test_a_folder_of_arrays_is_a_series(tmp_path):

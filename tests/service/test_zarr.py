@@ -164,6 +164,96 @@ async def test_multiscale_images_show_their_finest_level(shared, version):
         assert field["box"] == [[0, 7], [0, 7], [0, 12], [0, 120]]
 
 
+def write_image(root, values, chunk, version):
+    """Writes an image of two levels, the second of which has the means of 2 × 2 × 2 × 2 samples. Returns these means."""
+    halves = [part for size in values.shape for part in (size // 2, 2)]
+    means = values.reshape(halves).mean((1, 3, 5, 7)).astype("f4")
+    for level, part in enumerate((values, means)):
+        zarr_files.write(root / str(level), part, chunk, version, "zstd")
+    levels = [{"path": "0", "coordinateTransformations": [{"type": "scale", "scale": [1] * 4}]},
+              {"path": "1", "coordinateTransformations": [{"type": "scale", "scale": [2] * 4},
+                                                          {"type": "translation", "translation": [0.5] * 4}]}]
+    image = {"multiscales": [{"version": "0.4", "datasets": levels, "axes": [{"name": axis} for axis in "tzyx"]}]}
+    if version == 2:
+        zarr_files.write_json(root / ".zgroup", {"zarr_format": 2})
+        zarr_files.write_json(root / ".zattrs", image)
+    else:
+        zarr_files.write_json(root / "zarr.json", {"zarr_format": 3, "node_type": "group", "attributes": {"ome": image}})
+    return means
+
+
+async def field_of(client):
+    return (await client.request("get", what="state"))["field"]
+
+
+@pytest.mark.parametrize("version", [2, 3])
+async def test_an_image_larger_than_memory_opens_by_a_coarser_level(folder, version):
+    values = quadratic((8, 24, 24, 24))
+    means = write_image(folder / "image", values, (2, 8, 8, 8), version)
+    with Server("--data", folder, "--field-cache-folder", folder.parent, "--max-undo", 0, *LARGE) as server:
+        async with Client(server) as client:
+            done = await client.request("load", name="run", path="image")
+            assert any("of 2 levels, '1' is shown, the finest one" in warning for warning in done["warnings"])
+            field = await field_of(client)
+            assert field["shape"] == [12, 12, 12, 4] and field["box"] == [[0.5, 22.5]] * 3 + [[0.5, 6.5]]
+            assert field["range"] == [float(means.min()), float(means.max())]
+            assert server.metric("oval4d_field_cache_bytes") == 0
+            await client.request("load", name="fine", path="image", variable="0")
+            assert (await field_of(client))["shape"] == [24, 24, 24, 8]
+            assert server.metric("oval4d_field_cache_bytes") == values.nbytes
+
+
+@pytest.mark.parametrize("version", [2, 3])
+async def test_a_region_is_read_from_its_own_chunks(folder, tmp_path, version):
+    values = quadratic((8, 24, 24, 24))
+    write_image(folder / "image", values, (2, 8, 8, 8), version)
+    needed = [folder / "image" / "0" / name for name in (("1.1.0.0", "1.1.0.1") if version == 2 else ("c/1/1/0/0", "c/1/1/0/1"))]
+    for path in (folder / "image" / "0").rglob("*"):
+        if path.is_file() and path not in needed and not path.name.startswith((".z", "zarr.json")):
+            path.write_bytes(b"damaged")
+    (folder / "part.npy").write_bytes(npy(values[3:4, 8:16, 0:8, 2:10]))
+    options = ("--data", folder, "--field-cache-folder", folder.parent, "--store", f"sqlite:{tmp_path / 'sessions.sqlite'}", *LARGE)
+    with Server(*options) as server:
+        async with Client(server) as client:
+            credentials = {"session": client.welcome["session"], "token": client.welcome["token"]}
+            await client.request("load", name="run", path="part.npy", box=[[2, 9], [0, 7], [8, 15], [3, 3]])
+            expected = await field_of(client), await slices_of(client)
+            await client.request("load", name="run", path="image", region=[[2.5, 9], [-5, 7], [8, 15], [3.1, 3.1]])
+            assert (await field_of(client), await slices_of(client)) == expected
+        assert (await refusal(server, "image", variable="0")).code == "bad_field"
+    with Server(*options) as server:
+        async with Client(server, **credentials) as client:
+            assert (await field_of(client), await slices_of(client)) == expected
+
+
+async def test_a_region_of_ten_terabytes_is_read(shared):
+    root = shared.folder / "ten terabytes"
+    zarr_files.write_json(root / ".zarray", GOOD | {"shape": [1000, 1536, 1280, 1280], "chunks": [1, 64, 64, 64]})
+    (root / "700.20.3.2").write_bytes(numpy.full(64**3, 5, "<f4").tobytes())
+    async with Client(shared) as client:
+        await client.request("load", name="run", path=root.name, box=[[0, 1279], [0, 1279], [0, 1535], [0, 999]],
+                             region=[[100, 200], [180, 260], [1270, 1350], [699, 701]])
+        field = await field_of(client)
+        assert field["shape"] == [101, 81, 81, 3] and field["range"] == [0, 5]
+        assert field["box"] == [[100, 200], [180, 260], [1270, 1350], [699, 701]]
+
+
+@pytest.mark.parametrize("members, code, says", [
+    ({"path": "f", "region": [[5, 6], [-1, 1], [-1, 1], [-1, 1]]}, "out_of_range", "along x from −1 to 1"),
+    ({"path": "f", "region": [[0, 1], [1, 0], [-1, 1], [-1, 1]]}, "out_of_range", "region along y are in the wrong order"),
+    ({"path": "f", "region": [[0, 1]]}, "bad_message", "region"),
+    ({"path": "f.npy", "region": BOX}, "unsupported_format", "only Zarr folders"),
+    ({"format": "formula", "data": "x", "region": BOX}, "bad_message", "data folder"),
+])
+async def test_other_regions_are_refused(shared, members, code, says):
+    zarr_files.write(shared.folder / "f", quadratic(SHAPE), CHUNK)
+    (shared.folder / "f.npy").write_bytes(npy(quadratic(SHAPE)))
+    async with Client(shared) as client:
+        with pytest.raises(Refused, match=says) as refused:
+            await client.request("load", name="run", **members)
+        assert refused.value.code == code
+
+
 async def test_the_catalogue_lists_zarr_folders(shared):
     zarr_files.write(shared.folder / "listed.zarr", quadratic(SHAPE), CHUNK)
     (shared.folder / "not zarr").mkdir()

@@ -761,6 +761,10 @@ class LoadRequest(_LoadRequest, total=False):
     # For a formula: the box on which it is shown, by default −2 to 2 along each axis. For an array: where its first and
     # last samples lie, by default what the file states.
     box: Box
+    # The part that is read of an array in a Zarr folder of the [data folder](#the-data-folder), in the coordinates of
+    # its box: the samples that cover it. Along an axis where both ends are equal, the nearest sample. The whole array
+    # if it is absent.
+    region: Box
     # The axes of an array's dimensions, in the order of its indices in Python, such as `"tzyx"`; see Fields. What the
     # file states if it is absent, else `"tzyx"`, or its end if there are fewer dimensions.
     axes: str

@@ -92,6 +92,8 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start) {
 }
 
 Result<FieldArray> readField(const FileContents& file, const ReadOptions& options) {
+    if (options.region)
+        return Error{ErrorCode::unsupported_format, "only Zarr folders can be read in part, not other files (region)"};
     const FieldFormat* const format = formatOfFile(file.bytes.first(std::min(file.bytes.size(), kRecognizedBytes)));
     if (format == nullptr) {
         std::vector<std::string_view> names;

@@ -31,7 +31,8 @@ std::span<const FieldFormat> fieldFormats();
 /// compressed as a whole.
 const FieldFormat* formatOfFile(std::span<const std::byte> start);
 
-/// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, and those of FieldFormat::read.
+/// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, also if the options have a
+/// region; and those of FieldFormat::read.
 Result<FieldArray> readField(const FileContents& file, const ReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. All files must have the same shape, with one sample

@@ -52,7 +52,8 @@ Variations variationsOf(std::type_identity<session::LoadObject> /*type*/) {
              R"({"name": "b", "format": "netcdf", "data": "y", "continues": true, "axes": "xyzw", "variable": "v",
                  "values": "x", "values_variable": "u", "center": "origin", "append": true,
                  "box": [[0, 1], [0, 1], [0, 1], [0, 1]]})"},
-            {R"({"type": "load", "name": "a", "path": "p"})", R"({"path": "q"})"}};
+            {R"({"type": "load", "name": "a", "path": "p"})",
+             R"({"path": "q", "region": [[0, 1], [0, 1], [0, 1], [0, 1]]})"}};
 }
 Variations variationsOf(std::type_identity<Get> /*type*/) {
     return {{R"({"type": "get", "what": "slices", "width": 100, "height": 100})",
