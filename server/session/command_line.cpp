@@ -6,9 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "fields/field.hpp"
 #include "session/cell_types.hpp"
 #include "session/expression.hpp"
 #include "session/load.hpp"
+#include "session/query.hpp"
 #include "session/setting_text.hpp"
 #include "text/message_text.hpp"
 #include "text/words.hpp"
@@ -75,6 +77,30 @@ Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const
     const std::size_t end = rest.find(kColoredBy);
     LoadObject load{std::string(kFormula), std::string(kFormula), std::string(rest.substr(0, end))};
     if (end != std::string_view::npos) load.secondFormula = rest.substr(end + kColoredBy.size());
+    return Command{std::move(load)};
+}
+
+// "region 0,1,0,1,0,1,0,5" loads this region of the array of which the shown field is a part; "region all" loads the
+// whole array.
+Result<Command> regionLine(std::string_view rest, const Words& /*words*/, const State& state) {
+    const fields::Field* const field = slicing::fieldIn(state.source);
+    if (field == nullptr || !field->source) {
+        return bad(ErrorCode::out_of_range, text::inQuotes(slicing::infoOf(state.source).name) +
+                                                " is not a part of a larger array in the data folder of the server");
+    }
+    const fields::FileSource& source = *field->source;
+    LoadObject load{field->name, source.format, {}};
+    load.dataName = source.dataName;
+    load.axes = source.axes;
+    load.box = source.box;
+    load.variable = source.variable;
+    load.secondFormula = source.secondFormula;
+    load.secondVariable = source.secondVariable;
+    if (rest != "all") {
+        const auto region = parseBox(rest, "region");
+        if (!region) return region.error();
+        load.region = *region;
+    }
     return Command{std::move(load)};
 }
 
@@ -219,6 +245,7 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"fade", cellTypesLine<fade>},
      {"show", cellTypesLine<reveal>},
      {"formula", formulaLine},
+     {"region", regionLine},
      {"fog", [](std::string_view rest, const Words&, const State&) { return oneSetting("fog", rest); }},
      {"follow", [](std::string_view rest, const Words&, const State&) { return oneSetting("follow", rest); }},
      {"boost", boostLine},

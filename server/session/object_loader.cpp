@@ -66,7 +66,9 @@ Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (auto error = checkLoad(load, limits_)) return *error;
     if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // never deferred, because it is fast
     if (mode_ == Mode::deferred) {
-        pending_ = &load;
+        // The command line makes a load anew whenever it parses a line. Such a load is small, unlike one with data.
+        ofDataFolder_ = load.dataName.empty() ? nullptr : std::make_shared<const LoadObject>(load);
+        pending_ = ofDataFolder_ ? ofDataFolder_.get() : &load;
         return kLater;
     }
     return *(fromFile_ = reader_(load, limits_));

@@ -64,8 +64,8 @@ class ObjectLoader {
     /// computation of a convex hull exceeds a limit, which is not known before the computation.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
-    /// Returns the object that `load` specifies. `load` must outlive the loader. Errors: those of checkLoad() and
-    /// readObject().
+    /// Returns the object that `load` specifies. `load` must outlive the loader, unless it names an array in the data
+    /// folder. Errors: those of checkLoad() and readObject().
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
     /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is
@@ -129,7 +129,8 @@ class ObjectLoader {
     std::variant<std::monostate, polytopes::Design, const LoadObject*, ObjectInReferenceFrame, TimeStepsToAppend,
                  CriticalSearchArguments>
         pending_;
-    std::string builtName_;  // the name of the design from which `built_` was built
+    std::shared_ptr<const LoadObject> ofDataFolder_;  // the pending load if it names an array in the data folder
+    std::string builtName_;                           // the name of the design from which `built_` was built
     std::optional<Result<slicing::Object>> built_;
     std::optional<Result<ObjectWithWarnings>> fromFile_;
     slicing::Object extendedFrom_;  // the array to which time steps were added to make `extended_`

@@ -220,6 +220,14 @@ async def test_a_region_is_read_from_its_own_chunks(folder, tmp_path, version):
             expected = await field_of(client), await slices_of(client)
             await client.request("load", name="run", path="image", region=[[2.5, 9], [-5, 7], [8, 15], [3.1, 3.1]])
             assert (await field_of(client), await slices_of(client)) == expected
+            await client.request("load", name="run", path="image")
+            overview = await field_of(client)
+            assert overview["shape"] == [12, 12, 12, 4]
+            await client.request("command", line=":region 2.5,9,-5,7,8,15,3.1,3.1")
+            assert (await field_of(client), await slices_of(client)) == expected
+            await client.request("command", line=":region all")
+            assert await field_of(client) == overview
+            await client.request("undo")
         assert (await refusal(server, "image", variable="0")).code == "bad_field"
     with Server(*options) as server:
         async with Client(server, **credentials) as client:
