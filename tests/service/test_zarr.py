@@ -65,6 +65,17 @@ async def test_arrays_are_those_of_numpy(folder, options, version, compressor):
         await compare(server, folder, "run.zarr", values)
 
 
+@pytest.mark.parametrize("options", [[], LARGE], ids=["in memory", "on the disk"])
+@pytest.mark.parametrize("compressor", ["", "zstd", "blosc"], ids=lambda name: name or "uncompressed")
+async def test_chunks_are_read_from_shards(folder, options, compressor):
+    values = quadratic(SHAPE)
+    values[0:2, 8:16] = 0
+    values[4:, :, :, 20:] = 0
+    zarr_files.write_shards(folder / "run.zarr", values, (1, 4, 11, 10), (2, 8, 22, 20), compressor)
+    with Server("--data", folder, "--field-cache-folder", folder.parent, *options) as server:
+        await compare(server, folder, "run.zarr", values)
+
+
 @pytest.mark.parametrize("version", [2, 3])
 @pytest.mark.parametrize("type_", ["|b1", "|i1", "|u1", "<i2", ">i2", "<u2", "<i4", ">u4", "<i8", "<u8", "<f2", ">f2", ">f4",
                                    "<f8", ">f8"])
@@ -284,6 +295,7 @@ GOOD = {"zarr_format": 2, "shape": [4, 4], "chunks": [2, 4], "dtype": "<f4", "or
 GOOD3 = {"zarr_format": 3, "node_type": "array", "shape": [4, 4], "data_type": "float32", "fill_value": 0,
          "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [2, 4]}},
          "chunk_key_encoding": {"name": "default"}, "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}]}
+SHARDS = {"chunk_shape": [1, 2], "codecs": GOOD3["codecs"], "index_codecs": [*GOOD3["codecs"], {"name": "crc32c"}]}  # in GOOD3
 
 
 @pytest.mark.parametrize("changes, code", [
@@ -307,7 +319,15 @@ async def test_hostile_metadata_are_refused(shared, changes, code):
 @pytest.mark.parametrize("changes, code", [
     ({"shape": [0, 4]}, "bad_field"), ({"data_type": "complex64"}, "unsupported_format"), ({"data_type": {"name": "r8"}}, "unsupported_format"),
     ({"chunk_grid": {"name": "rectilinear"}}, "unsupported_format"), ({"codecs": []}, "bad_field"), ({"codecs": None}, "bad_field"),
-    ({"codecs": [{"name": "sharding_indexed"}]}, "unsupported_format"),
+    *(({"codecs": [{"name": "sharding_indexed", "configuration": SHARDS | change}, *others]}, code) for change, others, code in [
+        ({}, [{"name": "gzip"}], "unsupported_format"), ({"chunk_shape": None}, [], "bad_field"), ({"chunk_shape": [2]}, [], "bad_field"),
+        ({"chunk_shape": [0, 4]}, [], "bad_field"), ({"chunk_shape": [1, 3]}, [], "bad_field"), ({"chunk_shape": [4, 4]}, [], "bad_field"),
+        ({"index_location": "middle"}, [], "bad_field"), ({"index_codecs": None}, [], "unsupported_format"),
+        ({"index_codecs": [{"name": "gzip"}]}, [], "unsupported_format"), ({"index_codecs": ["bytes"]}, [], "bad_field"),
+        ({"codecs": [{"name": "sharding_indexed", "configuration": {}}]}, [], "unsupported_format"), ({"codecs": []}, [], "bad_field")]),
+    ({"codecs": [{"name": "sharding_indexed"}]}, "bad_field"),
+    ({"chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [2**20, 2**20]}},
+      "codecs": [{"name": "sharding_indexed", "configuration": {"chunk_shape": [1, 1]}}]}, "too_large"),
     ({"codecs": GOOD3["codecs"] + [{"name": "gzip"}] * 2}, "unsupported_format"),
     ({"codecs": [{"name": "transpose", "configuration": {"order": [0, 0]}}, *GOOD3["codecs"]]}, "bad_field"),
     ({"codecs": [{"name": "transpose", "configuration": {"order": [1, 2]}}, *GOOD3["codecs"]]}, "bad_field"),

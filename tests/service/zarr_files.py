@@ -5,6 +5,7 @@ import ctypes.util
 import gzip
 import itertools
 import json
+import struct
 import zlib
 
 import numpy
@@ -80,3 +81,41 @@ def write(folder, values, chunk, version=2, compressor="", order="C", separator=
         path = folder / (("c" + separator if version == 3 else "") + separator.join(map(str, index)))
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(COMPRESSORS[compressor](whole.tobytes(order)))
+
+
+def crc32c(data):
+    crc = 0xFFFFFFFF
+    for byte in data:
+        crc ^= byte
+        for _ in range(8):
+            crc = crc >> 1 ^ (0x82F63B78 if crc & 1 else 0)
+    return crc ^ 0xFFFFFFFF
+
+
+def write_shards(folder, values, chunk, shard, compressor="", fill=0):
+    """Writes an array of version 3 in shards of so many samples, which have chunks. Chunks of which all samples are 0 are
+    left out, and shards of which all chunks are."""
+    little = {"name": "bytes", "configuration": {"endian": "little"}}
+    codecs = [little, *([{"name": compressor, "configuration": {}}] if compressor else [])]
+    write_json(folder / "zarr.json", {
+        "zarr_format": 3, "node_type": "array", "shape": values.shape, "data_type": TYPES[values.dtype.str[1:]], "fill_value": fill,
+        "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": shard}}, "chunk_key_encoding": {"name": "default"},
+        "codecs": [{"name": "sharding_indexed", "configuration": {
+            "chunk_shape": chunk, "codecs": codecs, "index_codecs": [little, {"name": "crc32c"}]}}]})
+    for index in itertools.product(*(range(-(-size // part)) for size, part in zip(values.shape, shard))):
+        body, places = b"", b""
+        for inner in itertools.product(*(range(size // part) for size, part in zip(shard, chunk))):
+            first = [i * s + j * c for i, s, j, c in zip(index, shard, inner, chunk)]
+            part = values[tuple(slice(f, f + c) for f, c in zip(first, chunk))]
+            if not part.any():  # also beyond the array
+                places += struct.pack("<QQ", 2**64 - 1, 2**64 - 1)
+                continue
+            whole = numpy.full(chunk, 77, values.dtype)
+            whole[tuple(slice(0, n) for n in part.shape)] = part
+            packed = COMPRESSORS[compressor](whole.tobytes())
+            places += struct.pack("<QQ", len(body), len(packed))
+            body += packed
+        if body:
+            path = folder / "c" / "/".join(map(str, index))
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(body + places + struct.pack("<I", crc32c(places)))

@@ -10,6 +10,7 @@
 #include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/cf_conventions.hpp"
 #include "fields/readers/sample_buffer.hpp"
+#include "fields/readers/zarr_chunk_files.hpp"
 #include "fields/readers/zarr_metadata.hpp"
 #include "text/message_text.hpp"
 
@@ -39,7 +40,7 @@ struct IndexBox {
 class ChunkReader {
   public:
     ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array, IndexBox part)
-        : folder_(folder), array_(array), part_(std::move(part)) {}
+        : chunks_(folder, array), array_(array), part_(std::move(part)) {}
 
     // Converts the numbers of the part. `stride` has, for each dimension, the distance in `to` between neighbors along
     // this dimension; `first` is the place of the part's first number in `to`. `to` must contain only zeros before the
@@ -73,8 +74,7 @@ class ChunkReader {
   private:
     Result<std::monostate> readChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                                      float* to) {
-        const std::string path = array_.chunkPath(index);
-        auto file = folder_(path);
+        auto file = chunks_.contentsOf(index);
         if (!file) return file.error();
         if (!*file) {
             fill(index, stride, to);
@@ -84,15 +84,14 @@ class ChunkReader {
         if (array_.codec) {
             chunk_.resize(array_.decompressedChunkBytes());
             if (const auto done = decompress(*array_.codec, bytes, chunk_); !done)
-                return badField("the chunk " + text::inQuotes(path) + " cannot be read: " + done.error().message);
+                return badField(chunks_.nameOf(index) + " cannot be read: " + done.error().message);
             bytes = chunk_;
         } else if (bytes.size() != array_.decompressedChunkBytes()) {
-            return badField("the chunk " + text::inQuotes(path) + " has " + std::to_string(bytes.size()) +
-                            " bytes; it must have " + std::to_string(array_.decompressedChunkBytes()));
+            return badField(chunks_.nameOf(index) + " has " + std::to_string(bytes.size()) + " bytes; it must have " +
+                            std::to_string(array_.decompressedChunkBytes()));
         }
         copy(index, stride, bytes.data(), to);
-        if ((*file)->file && (*file)->file->isLost())
-            return badField("the chunk " + text::inQuotes(path) + " was shortened");
+        if ((*file)->file && (*file)->file->isLost()) return badField(chunks_.nameOf(index) + " was shortened");
         return std::monostate{};
     }
 
@@ -164,7 +163,7 @@ class ChunkReader {
         }
     }
 
-    const FolderFileReader& folder_;
+    ZarrChunkFiles chunks_;
     const ZarrArrayMetadata& array_;
     const IndexBox part_;
     std::vector<std::byte> chunk_;

@@ -25,8 +25,8 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// the folder itself if it is an array. If the folder is a multiscale image (OME-Zarr), reads the finest level of which
 /// the part has at most `options.maxInMemory` samples, or the coarsest level if there is no such level. If the folder
 /// is any other group, the group's consolidated metadata must list its arrays, and the array with the most dimensions
-/// is read. Types: Booleans, integers and floats of either byte order. Chunks may be compressed by gzip, zlib, zstd or
-/// Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
+/// is read. Types: Booleans, integers and floats of either byte order. Chunks may be parts of shards, be compressed by
+/// gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
 ///
 /// The axes are those in `options.axes` or, if it is empty, those that the names of the dimensions state (xarray,
 /// OME-Zarr). The box is given by the arrays of coordinates beside the array, or by the scales of a multiscale image.

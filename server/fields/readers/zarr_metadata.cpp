@@ -127,6 +127,15 @@ Result<std::monostate> parseCodecs(const json& metadata, ZarrArrayMetadata& arra
         const std::string name = codec.is_string() ? codec.get<std::string>() : textIn(codec, "name");
         const json* const given = member(codec, "configuration");
         const json configuration = given == nullptr ? json::object() : *given;
+        if (name == "sharding_indexed" && codecs->size() == 1 && !array.shards) {
+            auto chunk = sizesIn(configuration, "chunk_shape", 1);
+            if (!chunk) return chunk.error();
+            auto shards = shardLayoutIn(configuration, array.chunk, *chunk);
+            if (!shards) return shards.error();
+            array.shards = std::move(*shards);
+            array.chunk = std::move(*chunk);
+            return parseCodecs(configuration, array);  // those of the chunks
+        }
         if (name == "transpose" && !hasBytes) {
             // Composes this transposition with the earlier transpositions in array.order.
             auto order = sizesIn(configuration, "order", 0);

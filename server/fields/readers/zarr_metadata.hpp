@@ -13,6 +13,7 @@
 #include "errors/error.hpp"
 #include "fields/readers/chunk_codecs.hpp"
 #include "fields/readers/numbers.hpp"
+#include "fields/readers/zarr_shards.hpp"
 
 namespace oval4d::fields {
 
@@ -27,6 +28,7 @@ struct ZarrArrayMetadata {
                                               ///< slowest to the fastest
     NumberFormat format;                      ///< with scale, offset and missing values as the CF attributes state them
     std::optional<ChunkCodec> codec;          ///< empty if chunks are not compressed
+    std::optional<ShardLayout> shards;        ///< empty if each chunk is a file of its own
     double fill;                              ///< the value of missing chunks, as a stored number; NaN if there is none
     std::vector<std::string> dimensionNames;  ///< empty, or one for each dimension
     std::string chunkPrefix, separator;       ///< a chunk's name: the prefix, then its indices with separators between
@@ -35,7 +37,7 @@ struct ZarrArrayMetadata {
 
     /// Returns the value of an attribute that is a string; an empty string if there is none.
     std::string text(std::string_view attribute) const;
-    /// Returns the path of the chunk with these indices, relative to the Zarr folder.
+    /// Returns the path of the file, a chunk or a shard, with these indices, relative to the Zarr folder.
     std::string chunkPath(const std::vector<std::size_t>& indices) const;
     /// Returns the size of a decompressed chunk in bytes.
     std::size_t decompressedChunkBytes() const;

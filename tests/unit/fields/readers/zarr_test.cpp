@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -148,7 +149,7 @@ TEST(Zarr, ReadsTheFillValueOfXarrayInBase64) {
 }
 
 // The value of the sample with these indices along x, y, z, w in the arrays of the following tests.
-float valueAt(std::size_t x, std::size_t y, std::size_t z, std::size_t w) {
+float expectedSample(std::size_t x, std::size_t y, std::size_t z, std::size_t w) {
     return static_cast<float>(1 + x + 10 * y + 100 * z + 1000 * w);
 }
 
@@ -164,7 +165,7 @@ Files filesInChunks() {
                     for (std::size_t k = 0; k < kChunk[2]; ++k)
                         for (std::size_t j = 0; j < kChunk[1]; ++j)
                             for (std::size_t i = 0; i < kChunk[0]; ++i)
-                                numbers.push_back(valueAt(i, y + j, z + k, t + l));
+                                numbers.push_back(expectedSample(i, y + j, z + k, t + l));
                 const std::string name = std::to_string(t / kChunk[3]) + '.' + std::to_string(z / kChunk[2]) + '.' +
                                          std::to_string(y / kChunk[1]) + ".0";
                 files[name] = chunkOf(numbers);
@@ -204,7 +205,7 @@ TEST(Zarr, ReadsARegionFromItsOwnChunks) {
         for (std::size_t w = first[3]; w <= last[3]; ++w)
             for (std::size_t z = first[2]; z <= last[2]; ++z)
                 for (std::size_t y = first[1]; y <= last[1]; ++y)
-                    for (std::size_t x = first[0]; x <= last[0]; ++x) values.push_back(valueAt(x, y, z, w));
+                    for (std::size_t x = first[0]; x <= last[0]; ++x) values.push_back(expectedSample(x, y, z, w));
         const auto samples = field->samples.values();
         EXPECT_EQ(std::vector(samples.begin(), samples.end()), values);
         std::erase_if(opened, [](const std::string& path) { return path.starts_with(".z") || path == "zarr.json"; });
@@ -235,6 +236,83 @@ TEST(Zarr, ReadsARegionWhereTheCoordinateDecreases) {
     EXPECT_EQ(std::vector(samples.begin(), samples.end()), (std::vector<float>{4, 3}));
     EXPECT_EQ(field->box, (Box{{20, 0, 0, 0}, {30, 0, 0, 0}}));
     EXPECT_TRUE(opened.contains("f/1") && !opened.contains("f/0") && !opened.contains("f/2"));
+}
+
+// The checksum CRC-32C (RFC 3720, appendix B.4), bit by bit.
+std::uint32_t crc32c(const std::string& bytes) {
+    std::uint32_t crc = ~std::uint32_t{0};
+    for (const char byte : bytes) {
+        crc ^= static_cast<std::uint8_t>(byte);
+        for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0x82F63B78U : 0U);
+    }
+    return ~crc;
+}
+
+// The bytes of a shard of 4 chunks, of which it has those in `chunks`, by their numbers.
+std::string shardOf(const std::map<std::size_t, std::string>& chunks, bool indexAtStart) {
+    constexpr std::size_t kCount = 4, kIndexSize = 16 * kCount + 4;
+    std::string body, index;
+    for (std::size_t number = 0; number < kCount; ++number) {
+        const auto found = chunks.find(number);
+        const bool isMissing = found == chunks.end();
+        const std::uint64_t offset = (indexAtStart ? kIndexSize : std::size_t{0}) + body.size();
+        index += bytesOf(isMissing ? ~std::uint64_t{0} : offset);
+        index += bytesOf(isMissing ? ~std::uint64_t{0} : std::uint64_t{found->second.size()});
+        if (!isMissing) body += found->second;
+    }
+    index += bytesOf(crc32c(index));
+    return indexAtStart ? index + body : body + index;
+}
+
+// An array of 3 × 6 numbers in shards of 2 × 4, which have chunks of 1 × 2.
+std::string shardedArray(const std::string& indexLocation) {
+    return R"({"zarr_format":3,"node_type":"array","shape":[3,6],"fill_value":7,"data_type":"float32",
+        "chunk_grid":{"name":"regular","configuration":{"chunk_shape":[2,4]}},
+        "chunk_key_encoding":{"name":"default"},
+        "codecs":[{"name":"sharding_indexed","configuration":{"chunk_shape":[1,2],"index_location":")" +
+           indexLocation + R"(","codecs":[{"name":"bytes","configuration":{"endian":"little"}}],
+            "index_codecs":[{"name":"bytes","configuration":{"endian":"little"}},{"name":"crc32c"}]}}]})";
+}
+
+TEST(Zarr, ReadsChunksOfShards) {
+    for (const bool indexAtStart : {false, true}) {
+        const auto shard = [&](const std::map<std::size_t, std::string>& chunks) {
+            return shardOf(chunks, indexAtStart);
+        };
+        const Files files{{"zarr.json", shardedArray(indexAtStart ? "start" : "end")},
+                          {"c/0/0", shard({{0, chunkOf({0, 1})}, {1, chunkOf({2, 3})}, {2, chunkOf({10, 11})}})},
+                          {"c/0/1", shard({{0, chunkOf({4, 5})}, {2, chunkOf({14, 15})}})},
+                          {"c/1/0", shard({{0, chunkOf({20, 21})}, {1, chunkOf({22, 23})}})}};
+        const auto field = readFiles(files);
+        ASSERT_TRUE(field) << field.error().message;
+        const auto samples = field->samples.values();
+        EXPECT_EQ(std::vector(samples.begin(), samples.end()),
+                  (std::vector<float>{0, 1, 2, 3, 4, 5, 10, 11, 7, 7, 14, 15, 20, 21, 22, 23, 7, 7}));
+        std::set<std::string> opened;
+        const Box box{{0, 0, 0, 0}, {5, 2, 0, 0}}, region{{4, 0, 0, 0}, {5, 1, 0, 0}};
+        const auto part = readFiles(files, ReadOptions{.box = box, .region = region}, &opened);
+        ASSERT_TRUE(part) << part.error().message;
+        const auto ofPart = part->samples.values();
+        EXPECT_EQ(std::vector(ofPart.begin(), ofPart.end()), (std::vector<float>{4, 5, 14, 15}));
+        EXPECT_TRUE(opened.contains("c/0/1") && !opened.contains("c/0/0") && !opened.contains("c/1/1"));
+    }
+}
+
+TEST(Zarr, RefusesDamagedShards) {
+    const std::string shard = shardOf({{0, std::string(80, 'x')}}, false);
+    std::string otherIndex = shard;
+    otherIndex[80 + 16] = 'x';  // a place of the second chunk, which the shard does not have
+    const std::map<std::string, std::string> shards{
+        {"'c/0/0' is damaged: it is shorter than its index", shard.substr(0, 60)},
+        {"'c/0/0' is damaged: the checksum", otherIndex},
+        {"'c/0/0' is damaged: its index states a place beyond its end", shard.substr(80)},
+        {"the chunk 0 in the shard 'c/0/0' has 80 bytes; it must have 8", shard}};
+    for (const auto& [message, bytes] : shards) {
+        const auto field = readFiles({{"zarr.json", shardedArray("end")}, {"c/0/0", bytes}});
+        ASSERT_FALSE(field) << message;
+        EXPECT_EQ(field.error().code, ErrorCode::bad_field);
+        EXPECT_NE(field.error().message.find(message), std::string::npos) << field.error().message;
+    }
 }
 
 TEST(Zarr, RefusesARegionBeyondTheArray) {

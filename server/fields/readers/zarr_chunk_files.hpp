@@ -1,0 +1,46 @@
+#pragma once
+// The files of the chunks of a Zarr array.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "errors/error.hpp"
+#include "fields/readers/file_contents.hpp"
+#include "fields/readers/zarr.hpp"
+#include "fields/readers/zarr_metadata.hpp"
+
+namespace oval4d::fields {
+
+/// Finds the stored bytes of the chunks of an array. Each chunk is a file or a part of a shard, of which only the index
+/// and the chunks that are needed are read. Keeps the shard open that was opened last.
+class ZarrChunkFiles {
+  public:
+    /// `folder` and `array` must outlive this object.
+    ZarrChunkFiles(const FolderFileReader& folder, const ZarrArrayMetadata& array) : folder_(folder), array_(array) {}
+
+    /// Returns the stored bytes of the chunk with these indices; an empty optional if the chunk is missing. Errors:
+    /// `bad_field` if its shard is damaged; those of the folder.
+    Result<std::optional<FileContents>> contentsOf(const std::vector<std::size_t>& index);
+
+    /// Returns what errors call the chunk, such as "the chunk 'c/0/0'".
+    std::string nameOf(const std::vector<std::size_t>& index) const;
+
+  private:
+    struct ChunkPlace {
+        std::string path;    // of the file
+        std::size_t number;  // of the chunk among the chunks of its shard
+    };
+    ChunkPlace placeOf(std::vector<std::size_t> index) const;
+    Result<std::optional<FileContents>> chunkInOpenShard(std::size_t number) const;
+
+    const FolderFileReader& folder_;
+    const ZarrArrayMetadata& array_;
+    std::string shardPath_;              // of the shard that was opened last
+    std::optional<FileContents> shard_;  // empty if there is no such file
+    std::span<const std::byte> shardIndex_;
+};
+
+}  // namespace oval4d::fields
