@@ -5,7 +5,8 @@
 
 namespace oval4d::pipeline {
 
-/// Returns the request for the picture of a session's state.
-raster::PictureRequest pictureOfState(const session::State& state, scene::Viewport viewport, slicing::Quality quality);
+/// Writes the request for the picture of a session's state. Overwrites `out` and reuses its memory.
+void writePictureOfState(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
+                         raster::PictureRequest& out);
 
 }  // namespace oval4d::pipeline

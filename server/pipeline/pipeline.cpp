@@ -73,7 +73,8 @@ void Pipeline::drawPng(const session::State& state, std::string_view stateText, 
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     times_ = {};
     slicing::checkSliceEdges(state.object, state.orientation, state.hyperplanes(), limits_.sliceEdges);
-    const auto pixels = rasterizer_->draw(pictureOfState(state, viewport, quality), times_);
+    writePictureOfState(state, viewport, quality, workspace_.picture);
+    const auto pixels = rasterizer_->draw(workspace_.picture, times_);
     const image::ImageView image{viewport.width, viewport.height, pixels,
                                  state.look.background == scene::Background::transparent};
     if (drawn) drawn();

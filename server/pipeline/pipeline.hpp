@@ -12,6 +12,7 @@
 #include "parallel/fork_join.hpp"
 #include "parallel/ownership.hpp"
 #include "pipeline/focus_section.hpp"
+#include "raster/picture_request.hpp"
 #include "raster/rasterizer.hpp"
 #include "scene/composer.hpp"
 #include "session/session.hpp"
@@ -107,6 +108,7 @@ class Pipeline {
         slicing::SurfaceDetail detail;
         SlicesToPointAt toPointAt;
         FocusSectionNamer sectionNamer;
+        raster::PictureRequest picture;
         scene::Composer composer;
         scene::Scene scene;
         wire::SlicesMessageWriter slicesWriter;

@@ -21,6 +21,7 @@
 
 #include "image/png.hpp"
 #include "pipeline/picture_of_state.hpp"
+#include "raster/picture_request.hpp"
 #include "raster/rasterizer.hpp"
 #include "session/object_loader.hpp"
 #include "session/query.hpp"
@@ -85,7 +86,8 @@ class Drawer {
         image.height = viewport.height;
         image.pixels.resize(image::byteCount(viewport.width, viewport.height));
         raster::DrawTimes times;
-        rasterizer_.draw(pipeline::pictureOfState(state_, viewport, slicing::Quality::full), image.pixels, times);
+        pipeline::writePictureOfState(state_, viewport, slicing::Quality::full, picture_);
+        rasterizer_.draw(picture_, image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }
 
@@ -93,6 +95,7 @@ class Drawer {
 
   private:
     session::State state_;
+    raster::PictureRequest picture_;
     raster::LocalRasterizer rasterizer_;
     image::PngEncoder encoder_;
     std::vector<std::uint8_t> png_;

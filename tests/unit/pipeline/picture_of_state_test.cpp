@@ -16,7 +16,8 @@ TEST(PictureOfState, HasWhatAffectsThePicture) {
     for (const session::SettingValue& setting : session::settingValues()) {
         SCOPED_TRACE(setting.name);
         const session::State state = sessionWith(setting).current;
-        const raster::PictureRequest picture = pictureOfState(state, {640, 360}, slicing::Quality::draft);
+        raster::PictureRequest picture;
+        writePictureOfState(state, {640, 360}, slicing::Quality::draft, picture);
         EXPECT_EQ(picture.source, state.source);
         EXPECT_EQ(picture.referenceFrame, state.referenceFrame);
         EXPECT_EQ(picture.object, state.object);
@@ -32,8 +33,8 @@ TEST(PictureOfState, HasWhatAffectsThePicture) {
 TEST(PictureOfState, ComesToTheRasterizerAsItWas) {
     for (const session::SettingValue& setting : session::settingValues()) {
         SCOPED_TRACE(setting.name);
-        const raster::PictureRequest picture =
-            pictureOfState(sessionWith(setting).current, {640, 360}, slicing::Quality::draft);
+        raster::PictureRequest picture;
+        writePictureOfState(sessionWith(setting).current, {640, 360}, slicing::Quality::draft, picture);
         std::string bytes;
         encodeRequest(picture, {7, 8}, bytes);
         raster::DrawRequest order;
