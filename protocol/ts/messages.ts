@@ -324,6 +324,10 @@ export interface MeasureRequest {
      * The element, counted from 0 among those of its kind.
      */
     number: number;
+    /**
+     * Whether the answer also has `highlight` and `range`; false if absent.
+     */
+    highlight?: boolean;
 }
 /**
  * Asks for a `pong`, which tells how busy the server is. It changes nothing.
@@ -1062,6 +1066,27 @@ export interface Measured {
      * Of the size of an element of a field's box, such as "m² s", if the units of the axes along which it extends are known.
      */
     unit?: string;
+    /**
+     * If the request asks for it: what every picture draws in the color of the highlight if this element is highlighted, as in `slices`. It depends only on the object.
+     */
+    highlight?: {
+        /**
+         * The values of `of.vertices` with which vertices are drawn in the color of the highlight, in slices and projection.
+         */
+        vertices: number[];
+        /**
+         * The values of `of.edges` with which edges are drawn in the color of the highlight.
+         */
+        edges: number[];
+        /**
+         * The element's vertices, which are marked in the parallel coordinates.
+         */
+        own_vertices: number[];
+    };
+    /**
+     * Together with `highlight`: the least and the greatest w of the element's vertices in the present orientation and frame of reference.
+     */
+    range?: [number, number];
 }
 /**
  * Answers a `ping`. Between two pongs, the threads were busy for the fraction Δ`busy` / (`workers` · Δ`time`) of the time.

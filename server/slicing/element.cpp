@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <string>
@@ -381,6 +382,19 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
                              [](const PointCloud& /*cloud*/) {}},
                   object);
     return out;
+}
+
+std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation,
+                                   const Element& element) {
+    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    double least = std::numeric_limits<double>::max(), most = -least;
+    const auto include = [&](const glm::dvec4& v) {
+        const double w = glm::dot(direction, v);
+        least = std::min(least, w);
+        most = std::max(most, w);
+    };
+    visitElements([&](const auto& elements) { visitVertices(elements, element, include); }, object);
+    return {least, most};
 }
 
 std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/vec4.hpp>
@@ -115,6 +116,10 @@ struct ElementMeasurements {
 /// field, those of its function. Takes time linear in the size of the element, apart from sorting its vertices.
 /// Requires element.index < elementCount(object, element.kind).
 ElementMeasurements measureElement(const Object& object, const Element& element);
+
+/// Returns the smallest and the largest w coordinate of the element's vertices after rotation by `orientation`. Takes
+/// time linear in the size of the element. Requires element.index < elementCount(object, element.kind).
+std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation, const Element& element);
 
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
 /// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two

@@ -88,6 +88,16 @@ inline void writeValue(JsonWriter& w, const std::optional<slicing::Element>& ele
     w.member("number", std::uint64_t{element->index});
     w.endObject();
 }
+inline void writeValue(JsonWriter& w, const slicing::PartsShowingElement& parts) {
+    w.beginObject();
+    w.key("vertices");
+    w.numbers(parts.vertices);
+    w.key("edges");
+    w.numbers(parts.edges);
+    w.key("own_vertices");
+    w.numbers(parts.ownVertices);
+    w.endObject();
+}
 
 /// Writes a member of an object.
 template <typename Value>

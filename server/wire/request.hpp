@@ -76,8 +76,9 @@ struct Measure {
     static constexpr std::string_view kMessageType = "measure";
     slicing::ElementKind element = slicing::ElementKind::vertex;  ///< the kind of the element
     std::size_t number = 0;                                       ///< slicing::Element::index
+    bool highlight = false;                                       ///< whether the answer has `highlight` and `range`
 };
-BOOST_DESCRIBE_STRUCT(Measure, (), (element, number))
+BOOST_DESCRIBE_STRUCT(Measure, (), (element, number, highlight))
 /// Answers a Measure: the slicing::ElementMeasurements of the element.
 struct Measured {
     static constexpr std::string_view kMessageType = "measured";
@@ -86,8 +87,12 @@ struct Measured {
     glm::dvec4 center{0};
     std::optional<std::uint64_t> kind = {};  ///< of a cell: its type, as an index into ObjectInfo::cellTypes
     std::optional<std::string> unit = {};    ///< of the length, the area or the volume; absent if unknown
+    /// If the request asks for it: what shows the element in pictures, and the least and the greatest w of its vertices
+    /// in the coordinates of what is shown.
+    std::optional<slicing::PartsShowingElement> highlight = {};
+    std::optional<glm::dvec2> range = {};
 };
-BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind, unit))
+BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind, unit, highlight, range))
 
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {

@@ -52,12 +52,35 @@ async def test_neither_a_rotation_nor_a_frame_of_reference_changes_them(server):
             await client.request("undo")
 
 
+@pytest.mark.parametrize("polytope", ["tesseract", "small stellated 120-cell"])
+async def test_they_tell_what_a_picture_highlights(server, polytope):
+    """Also for elements that no slice cuts, and while the parallel coordinates are hidden."""
+    async with Client(server, stream="none") as client:
+        frame = {"pace": 2, "boost": [0.5, 0, 0]}
+        await client.request("set", polytope=polytope, orientation=random_rotation(4), slices={"count": 3}, **frame)
+        for element in ("vertex", *SIZES):
+            chosen = {"element": element, "number": 7}
+            picture = await client.request("get", what="slices", highlight=chosen)
+            await client.request("set", shown={"coordinates": False})
+            measured = await client.request("measure", **chosen, highlight=True)
+            assert measured["highlight"] == picture["highlight"]
+            w = [picture["coordinates"][vertex][3] for vertex in picture["highlight"]["own_vertices"]]
+            assert measured["range"] == pytest.approx([min(w), max(w)], abs=1e-5)
+            only_size = await client.request("measure", **chosen)
+            assert measured == {**only_size, "id": measured["id"],
+                                "highlight": measured["highlight"], "range": measured["range"]}
+            await client.request("undo")
+
+
 @pytest.mark.parametrize("center", ["origin", "object"])
 async def test_a_point_has_only_its_place(server, center):
     async with Client(server, stream="none") as client:
         await client.request("load", name="pair", format="cloud", data="1 2 3 4\n5 6 7 8\n", center=center)
         measured = await client.request("measure", element="vertex", number=1)
         assert without_numbering(measured) == {"type": "measured", "center": [5, 6, 7, 8]}
+        measured = await client.request("measure", element="vertex", number=1, highlight=True)
+        assert measured["highlight"] == {"vertices": [1], "edges": [], "own_vertices": [1]}
+        assert measured["range"] == pytest.approx([8, 8]), "w of the file, wherever the center is"
         with pytest.raises(Refused, match="the pair has no edge") as refused:
             await client.request("measure", element="edge", number=0)
         assert refused.value.code == "out_of_range"

@@ -232,6 +232,17 @@ class Keymap(_Keymap, total=False):
     id: float
 
 
+class MeasuredHighlight(TypedDict):
+    """If the request asks for it: what every picture draws in the color of the highlight if this element is
+    highlighted, as in `slices`. It depends only on the object."""
+    # The values of `of.vertices` with which vertices are drawn in the color of the highlight, in slices and projection.
+    vertices: list[int]
+    # The values of `of.edges` with which edges are drawn in the color of the highlight.
+    edges: list[int]
+    # The element's vertices, which are marked in the parallel coordinates.
+    own_vertices: list[int]
+
+
 class _Measured(TypedDict):
     type: Literal["measured"]
     # The number of changes of the session's state so far.
@@ -257,6 +268,12 @@ class Measured(_Measured, total=False):
     # Of the size of an element of a field's box, such as "m² s", if the units of the axes along which it extends are
     # known.
     unit: str
+    # If the request asks for it: what every picture draws in the color of the highlight if this element is highlighted,
+    # as in `slices`. It depends only on the object.
+    highlight: MeasuredHighlight
+    # Together with `highlight`: the least and the greatest w of the element's vertices in the present orientation and
+    # frame of reference.
+    range: list[float]
 
 
 class _Pong(TypedDict):
@@ -797,6 +814,8 @@ class MeasureRequest(_MeasureRequest, total=False):
     Errors: `out_of_range`, also if the object has no such element."""
     # Chosen by the client; the answer or error has the same id.
     id: float
+    # Whether the answer also has `highlight` and `range`; false if absent.
+    highlight: bool
 
 
 class _PingRequest(TypedDict):

@@ -109,6 +109,12 @@ void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId 
     wire::Measured measured{revision(), found.length, found.area, found.volume, found.center};
     if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typeOfCells(object)[element.index];
     if (!found.unit.empty()) measured.unit = found.unit;
+    if (measure.highlight) {
+        const slicing::Object& shown = session_.current.object;
+        slicing::findPartsShowing(shown, element, measured.highlight.emplace());
+        const auto [least, most] = slicing::rangeOfW(shown, session_.current.orientation, element);
+        measured.range = slicing::infoOf(shown).originInFile.w + glm::dvec2(least, most);
+    }
     peer.send(textAnswer(measured, id));
 }
 

@@ -356,6 +356,22 @@ TEST(ElementMeasurements, OfAFieldAreThoseOfItsBox) {
 }
 
 // Coxeter, Regular Polytopes, table V: the distances of the 600-cell's vertices from one of them.
+TEST(RangeOfW, OfAnElementIsThatOfItsVertices) {
+    std::mt19937 random(52);
+    for (const char* name : {"5-cell", "3,5-duoprism", "small stellated 120-cell"}) {
+        const auto polytope = shared(name);
+        for (const auto& [kindName, kind] : kElementKinds) {
+            const Element element{kind, random() % elementCount(polytope, kind)};
+            const geometry::Rotation orientation = support::randomRotation(random);
+            const auto [least, most] = rangeOfW(polytope, orientation, element);
+            const auto heights = heightsOf(*polytope, element, orientation);
+            const auto expected = std::ranges::minmax(heights);
+            EXPECT_NEAR(least, expected.min, 1e-12 * polytope->circumradius) << name << ", " << kindName;
+            EXPECT_NEAR(most, expected.max, 1e-12 * polytope->circumradius) << name << ", " << kindName;
+        }
+    }
+}
+
 TEST(VertexHeights, AreThoseOfCoxetersSections) {
     struct Case {
         const char* name;

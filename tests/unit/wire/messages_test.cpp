@@ -281,6 +281,12 @@ TEST(OtherMessages, FitTheirSchemas) {
               json::parse(R"({"type":"measured","revision":0,"length":2,"center":[1,2,3,4],"unit":"m"})"));
     EXPECT_EQ(fitting(wire::answerMessage(wire::Measured{0, {}, {}, {}, glm::dvec4(1, 2, 3, 4)}, {})),
               json::parse(R"({"type":"measured","revision":0,"center":[1,2,3,4]})"));
+    wire::Measured withHighlight{2, 2.0, {}, {}, glm::dvec4(1, 2, 3, 4)};
+    withHighlight.highlight = slicing::PartsShowingElement{{17}, {41}, {8, 12}};
+    withHighlight.range = glm::dvec2(-1, 0.5);
+    EXPECT_EQ(fitting(wire::answerMessage(withHighlight, 6)),
+              json::parse(R"({"type":"measured","id":6,"revision":2,"length":2,"center":[1,2,3,4],)"
+                          R"("highlight":{"vertices":[17],"edges":[41],"own_vertices":[8,12]},"range":[-1,0.5]})"));
 
     const json welcome =
         fitting(wire::welcomeMessage("k3v", "secret", R"({"message":8388608,"shown_timeout":1.5})", 1));

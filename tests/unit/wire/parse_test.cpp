@@ -101,6 +101,9 @@ TEST(Parse, GetAndShown) {
     const auto measure = std::get<Measure>(parsed(R"({"type":"measure","element":"edge","number":17})").body);
     EXPECT_EQ(measure.element, slicing::ElementKind::edge);
     EXPECT_EQ(measure.number, 17U);
+    EXPECT_FALSE(measure.highlight);
+    EXPECT_TRUE(std::get<Measure>(parsed(R"({"type":"measure","element":"edge","number":17,"highlight":true})").body)
+                    .highlight);
     EXPECT_TRUE(std::holds_alternative<Ping>(parsed(R"({"type":"ping"})").body));
     EXPECT_EQ(std::get<PictureShown>(parsed(R"({"type":"shown","revision":7})").body).revision, 7U);
 }
