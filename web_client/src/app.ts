@@ -13,6 +13,7 @@ import { namesOfServerKeys } from "./completion";
 import { ConnectionStatus } from "./connection_status";
 import { download, fileName } from "./download";
 import { byId } from "./element";
+import { ElementMeasurements } from "./element_measurements";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
 import { fieldOfLine, loadOf, type FormulaWithBox } from "./fields";
@@ -130,15 +131,20 @@ export class App {
         this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrixCache.current,
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
-    private readonly pointedLabel = new PointedLabel(
-        this.drawing,
+    private readonly measurements: ElementMeasurements = new ElementMeasurements(
         () => this.state,
-        ({ element, number }) => this.client.request({ type: "measure", element, number }),
+        ({ element, number }) => this.client.request({ type: "measure", element, number, highlight: true }),
+        () => {
+            this.pointedLabel.update();
+            this.pointing.complete();
+        },
     );
+    private readonly pointedLabel = new PointedLabel(this.drawing, () => this.state, this.measurements);
     private readonly pointing: Pointing = new Pointing(
         this.drawing,
         this.stage,
         this.pointedLabel,
+        this.measurements,
         () => this.state,
         (revision) => revision >= this.objectSince,
     );

@@ -151,10 +151,9 @@ function distance(a: Point, b: Point): number {
 }
 
 function descriptionOf(answer: At): ElementDescription | undefined {
-    const { highlight, name, least_w: least, most_w: most, w } = answer;
+    const { highlight, name, w } = answer;
     // A slice that has been zoomed may reach behind a panel of the matrix.
     const isBehindPanel = answer.point !== undefined && answer.in !== "matrix";
     if (!highlight || isBehindPanel) return undefined;
-    const range = least === undefined || most === undefined ? undefined : ([least, most] as const);
-    return { ...highlight, kind: name, range, sliceW: w };
+    return { ...highlight, kind: name, sliceW: w };
 }

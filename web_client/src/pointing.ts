@@ -1,11 +1,15 @@
 // The element under the pointer in the page's own picture: its name is shown beside the pointer, and it is highlighted
-// in all slices, the projection and the parallel coordinates. For the server's pictures, see frame_pointing.ts.
+// in all slices, the projection, the matrix and the parallel coordinates. What was cut from the element itself is
+// highlighted at once; what else shows it, such as the edges of a cell, when the server has answered which parts these
+// are. For the server's pictures, see frame_pointing.ts.
 
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
+import type { ElementMeasurements } from "./element_measurements";
 import { followHover, type Point } from "./hover";
 import { originInFile } from "./origin";
-import { elementOfHit, ElementSources } from "./picture/element_sources";
+import { pointedElements } from "./picture/highlighted_elements";
+import { elementOfHit } from "./picture/hit_test";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
@@ -19,15 +23,19 @@ export class Pointing {
     private at: Point | undefined;
     private scheduled = false;
     private shown: PointedElement | undefined;
-    private sources: ElementSources | undefined;
-    private hitTester: HitTester | undefined; // the hit tester of the picture to which `sources` belongs
+    private isComplete = false; // whether everything that shows the element is highlighted
+    private hitTester: HitTester | undefined; // the hit tester of the picture in which the element was found
     private isTapped = false; // whether the label names what a finger has tapped
 
-    /** `mayShowObject` returns whether the picture of a revision may show the object of the state. */
+    /**
+     * `complete` must be called when there is a new answer in `measurements`. `mayShowObject` returns whether the
+     * picture of a revision may show the object of the state.
+     */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
         private readonly label: PointedLabel,
+        private readonly measurements: ElementMeasurements,
         private readonly state: () => State | undefined,
         private readonly mayShowObject: (revision: number) => boolean,
     ) {
@@ -56,10 +64,8 @@ export class Pointing {
      * changes, because the tap itself moves the focus slice.
      */
     showName(tapped: PointedElement, hitTester: HitTester, at: Point): void {
-        const state = this.state()!;
-        const { ownVertices } = new ElementSources(hitTester.picture, state.polytope).partsShowing(tapped);
         this.isTapped = true;
-        this.label.show(descriptionOf(tapped, [...ownVertices], hitTester, state), at);
+        this.label.show(this.descriptionOf(tapped, hitTester), at);
     }
 
     /** Finds the element under the pointer in the current picture. Returns whether the picture must be drawn again. */
@@ -69,7 +75,6 @@ export class Pointing {
         const found = at && hitTester && this.elementAt(at.x, at.y, hitTester);
         const { shown } = this;
         const isNew = hitTester !== this.hitTester;
-        if (isNew) this.sources = undefined;
         this.hitTester = hitTester;
         if (!found && !shown) return false;
         const isSame = !isNew && found?.element === shown?.element && found?.number === shown?.number;
@@ -82,13 +87,26 @@ export class Pointing {
             this.stage.highlightPointed(undefined);
             this.label.hide();
         } else {
-            const state = this.state()!;
-            this.sources ??= new ElementSources(hitTester!.picture, state.polytope);
-            const lit = this.sources.partsShowing(found);
-            if (!isSame) this.stage.highlightPointed(lit);
-            this.label.show(descriptionOf(found, [...lit.ownVertices], hitTester!, state), at!);
+            if (!isSame) this.highlight(found);
+            this.label.show(this.descriptionOf(found, hitTester!), at!);
         }
         return !isSame;
+    }
+
+    /** Highlights everything that shows the element under the pointer, if the server has answered what this is. */
+    complete(): void {
+        const { at, hitTester, isComplete, shown } = this;
+        if (isComplete || !at || !hitTester || !shown || !this.measurements.of(shown)) return;
+        if (!this.mayShowObject(hitTester.picture.revision)) return; // the answer is about a newer object
+        this.highlight(shown);
+        this.label.show(this.descriptionOf(shown, hitTester), at);
+        this.stage.scheduleRedraw();
+    }
+
+    private highlight(found: PointedElement): void {
+        const highlight = this.measurements.of(found)?.highlight;
+        this.isComplete = highlight !== undefined;
+        this.stage.highlightPointed(pointedElements(found, this.state()!.polytope, highlight));
     }
 
     /** Records where the pointer is, and calls update() at most once per animation frame. */
@@ -104,26 +122,24 @@ export class Pointing {
             if (this.update()) this.stage.drawNow();
         });
     }
-}
 
-function descriptionOf(
-    { element, number, slice }: PointedElement,
-    own: number[],
-    { picture: { coordinates } }: HitTester,
-    state: State,
-): ElementDescription {
-    const { kinds = [] } = state.polytope;
-    const origin = originInFile(state);
-    const placeOf = (v: number): number[] => origin.map((from, axis) => from + coordinates[4 * v + axis]!);
-    const points = coordinates.length > 0 ? own.map(placeOf) : [];
-    const common = { element, number, sliceW: slice && origin[3] + slice.w };
-    if (element === "vertex") return { ...common, coordinates: points[0] };
-    const w = points.map((point) => point[3]!);
-    const [a, b] = points.length === 2 ? points : [];
-    return {
-        ...common,
-        kind: element === "cell" && kinds.length === 1 ? kinds[0]!.name : undefined,
-        length: element === "edge" && a && b ? Math.hypot(...a.map((value, i) => value - b[i]!)) : undefined,
-        range: w.length > 0 ? [Math.min(...w), Math.max(...w)] : undefined,
-    };
+    /** What a picture tells about an element. The length of an edge is known when the server has named its ends. */
+    private descriptionOf(found: PointedElement, { picture: { coordinates } }: HitTester): ElementDescription {
+        const state = this.state()!;
+        const { element, number, slice } = found;
+        const { kinds = [] } = state.polytope;
+        const origin = originInFile(state);
+        const placeOf = (v: number): number[] => origin.map((from, axis) => from + coordinates[4 * v + axis]!);
+        const hasPlaces = coordinates.length > 0;
+        const ends = element === "edge" && hasPlaces ? this.measurements.of(found)?.highlight?.own_vertices : undefined;
+        const [a, b] = ends?.map(placeOf) ?? [];
+        return {
+            element,
+            number,
+            sliceW: slice && origin[3] + slice.w,
+            coordinates: element === "vertex" && hasPlaces ? placeOf(number) : undefined,
+            kind: element === "cell" && kinds.length === 1 ? kinds[0]!.name : undefined,
+            length: a && b && Math.hypot(...a.map((value, i) => value - b[i]!)),
+        };
+    }
 }

@@ -1,7 +1,7 @@
 // What is under the pointer: where elements are in the picture, their label, and their light.
 import assert from "node:assert/strict";
 
-import { openWithScript, presented } from "./browser.mjs";
+import { idle, openWithScript, presented } from "./browser.mjs";
 import { decode, distance, pixelAt } from "./pixels.mjs";
 import { project, worldPoints } from "./scene.mjs";
 
@@ -41,7 +41,8 @@ export const label = (page) =>
         return hidden ? "" : textContent;
     });
 
-export async function labeled(page, pattern) {
+/** Waits until the label matches, even if the page still asks about the element. */
+export async function named(page, pattern) {
     await page.waitForFunction(
         ([source, flags]) => {
             const { hidden, textContent } = document.getElementById("pointed");
@@ -49,6 +50,15 @@ export async function labeled(page, pattern) {
         },
         [pattern.source, pattern.flags],
     );
+    return label(page);
+}
+
+/**
+ * Waits until the label matches and, if it names an element, until the server has answered about the element, so that
+ * the label and the light are complete.
+ */
+export async function labeled(page, pattern) {
+    if ((await named(page, pattern)) !== "") await idle(page);
     return label(page);
 }
 

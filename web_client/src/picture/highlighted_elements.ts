@@ -1,7 +1,7 @@
 // What is drawn in the color of the highlight: the kept element, which the user has clicked and which is the
 // `highlight` of the state, and the element under the pointer.
 
-import type { SceneDescription, Slices, State } from "@oval4d/protocol";
+import type { Highlight, PolytopeElement, SceneDescription, Slices, State } from "@oval4d/protocol";
 
 /** The polytope's numbers of elements. */
 export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">;
@@ -15,6 +15,34 @@ export interface HighlightedElements {
     ownVertices: ReadonlySet<number>;
     /** The cell under the pointer, whose faces are highlighted. The server colors the faces of the kept cell. */
     cell?: number;
+}
+
+/**
+ * The parts of a picture that show the element under the pointer. `highlight` is what the server has answered about it;
+ * until then, they are only those that were cut from the element itself.
+ */
+export function pointedElements(
+    pointed: PolytopeElement,
+    counts: ElementCounts,
+    highlight: Highlight = ownHighlight(pointed, counts),
+): HighlightedElements {
+    return {
+        vertices: new Set(highlight.vertices),
+        edges: new Set(highlight.edges),
+        ownVertices: new Set(highlight.own_vertices),
+        ...(pointed.element === "cell" && { cell: pointed.number }),
+    };
+}
+
+/** What was cut from an element itself; of a cell, only faces were. */
+function ownHighlight({ element, number }: PolytopeElement, { edges, faces }: ElementCounts): Highlight {
+    const own: Record<PolytopeElement["element"], Partial<Highlight>> = {
+        vertex: { vertices: [edges + number], own_vertices: [number] },
+        edge: { vertices: [number], edges: [faces + number] },
+        face: { edges: [number] },
+        cell: {},
+    };
+    return { vertices: [], edges: [], own_vertices: [], ...own[element] };
 }
 
 /** The parts of a picture that show the kept element and the element under the pointer. */

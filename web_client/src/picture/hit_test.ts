@@ -1,8 +1,9 @@
 // Finds which element is drawn at a point of the picture: projects all elements to the screen.
 
-import type { Elements, Slice, Slices, Vector } from "@oval4d/protocol";
+import type { Elements, PolytopeElement, Slice, Slices, Vector } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
+import type { ElementCounts } from "./highlighted_elements";
 import { doubleAreaVector } from "./polygon";
 import type { ViewCamera } from "./view_camera";
 
@@ -16,6 +17,22 @@ export interface Hit {
     source: number;
     /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
+}
+
+/** The element of the polytope that was hit. */
+export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): PolytopeElement {
+    if (kind === "points") {
+        if (source < counts.faces) return { element: "face", number: source };
+        return elementOfHit({ kind: "vertices", source: source - counts.faces }, counts);
+    }
+    const [cut, inside, count] = (
+        {
+            vertices: ["edge", "vertex", counts.edges],
+            edges: ["face", "edge", counts.faces],
+            faces: ["cell", "face", counts.cells],
+        } as const
+    )[kind];
+    return source < count ? { element: cut, number: source } : { element: inside, number: source - count };
 }
 
 /** A slice, or a part of the projection, with its transformation to world space. */
