@@ -37,7 +37,8 @@ struct SlicePlacement {
 /// - Lines: vertex i is in row i / perRow and column i % perRow, and has four vertical lines, for its x, y, z and w.
 ///   Each line extends up or down from the row's zero line; a line of length `amplitude` represents the circumradius.
 /// - A density strip, for more than kMaxVerticesAsLines vertices. It has four vertical axes, at `left` + k · `lineStep`
-///   for axis k (0 … 3), from −circumradius at `zero` − `amplitude` to +circumradius at `zero` + `amplitude`.
+///   for axis k (0 … 3), from −circumradius at `zero` − `amplitude` to +circumradius at `zero` + `amplitude`. The lines
+///   of single vertices (see density_strip_lines.hpp) run from the middle of one axis to the middle of the next.
 /// - A histogram, for a field: the panel of axis k (0 … 3) extends from `left` + k · `lineStep` to the right by
 ///   `panel`, and from `zero` − `amplitude` up to `zero` + `amplitude`.
 struct CoordinatesLayout {

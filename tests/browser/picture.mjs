@@ -7,7 +7,8 @@ import { within } from "./support/hang_limit.mjs";
 import { assertSimilar, assertStreamsAgree, drawBy, picture } from "./support/drawing.mjs";
 import { toggledViews } from "./support/keys.mjs";
 import { below, compare, decode, distance, pixelAt } from "./support/pixels.mjs";
-import { project, rgb, worldPoints } from "./support/scene.mjs";
+import { litAt } from "./support/pointing.mjs";
+import { project, rgb, stripPoint, worldPoints } from "./support/scene.mjs";
 
 const drawing = (page) => page.locator("#drawing");
 
@@ -79,6 +80,35 @@ for (const [polytope, columns] of [
         await close();
     });
 }
+
+test("picture: over a density strip, both streams draw the lines of the highlighted element's vertices", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await script.request({ type: "set", polytope: "120-cell" });
+    const turned = await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
+    await presented(page, turned.revision);
+    const before = await picture(page);
+    const { revision } = await script.request({ type: "set", highlight: { element: "cell", number: 5 } });
+    await presented(page, revision);
+    const geometry = await picture(page);
+    const { width, height } = geometry;
+    const shown = await script.request({ type: "get", what: "slices", width, height });
+    await drawBy(page, "frames");
+    const frames = await picture(page);
+    const own = [...shown.highlight.own_vertices];
+    assert.equal(own.length, 20, "a dodecahedron");
+    for (const v of own) {
+        for (const along of [0.25, 1.5, 2.75]) {
+            const place = stripPoint(shown, v, along, height);
+            assert.ok(litAt(before, geometry, place), `the page draws no line of vertex ${v} at ${along}`);
+            assert.ok(litAt(before, frames, place), `the server draws no line of vertex ${v} at ${along}`);
+        }
+    }
+    const { zero, amplitude } = shown.scene.coordinates;
+    const top = Math.floor((1 - zero - amplitude) * height);
+    assertSimilar(below(geometry, top), below(frames, top), { mean: 3, far: 0.02 });
+    assert.deepEqual(errors, []);
+    await close();
+});
 
 const kViewsInFirefox = [
     ...["the 600-cell", "from another side and nearer", "the single view", "bars alone", "a star", "a perspective projection"],

@@ -5,13 +5,17 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "render/projection.hpp"
+#include "scene/density_strip_lines.hpp"
 
 namespace oval4d::render {
 
@@ -102,8 +106,9 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     addQuantity(scene.histogram.quantity, {leftOf(0), bottom, leftOf(3) + width, top}, size, style, overlay);
 }
 
-/// Adds the labeled axes of the density strip, and a mark for the focus slice on the w axis.
-void addStripAxes(const scene::Scene& scene, Overlay& overlay) {
+/// Adds what is drawn over the density strip: its labeled axes, the lines of the vertices of the highlighted element,
+/// and a mark for the focus slice on the w axis.
+void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
@@ -122,6 +127,14 @@ void addStripAxes(const scene::Scene& scene, Overlay& overlay) {
         overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
                      color);
     }
+    const auto lineWidth = static_cast<float>(std::max(1.0, layout.lineWidth * height));
+    scene::forEachLineOverDensityStrip(scene.highlight.ownVertices, [&](std::uint32_t v) {
+        const glm::dvec4& vertex = scene.slices->rotatedVertices[v];
+        const auto pointOn = [&](int k) {
+            return glm::vec2(static_cast<float>(middleOf(k)), levelOf(vertex[k] / scene.circumradius));
+        };
+        for (int k = 0; k < 3; ++k) overlay.line(pointOn(k), pointOn(k + 1), lineWidth, style.highlight);
+    });
     for (const scene::SlicePlacement& placement : scene.placements) {
         if (!placement.focus || std::abs(placement.w) > scene.circumradius) continue;
         const auto middle = static_cast<float>(middleOf(3)), reach = static_cast<float>(kFocusReach * height);
@@ -200,7 +213,7 @@ void addLabels(const scene::Scene& scene, Overlay& overlay) {
 void addCoordinates(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.look.parts.coordinates) return;
     if (!scene.coordinates.hasLines()) {
-        (scene.coordinates.isDensityStrip ? addStripAxes : addHistogramAxes)(scene, overlay);
+        (scene.coordinates.isDensityStrip ? addStripAxesAndLines : addHistogramAxes)(scene, overlay);
         return;
     }
     const scene::CoordinatesLayout& layout = scene.coordinates;

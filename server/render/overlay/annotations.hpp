@@ -17,8 +17,8 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 void addLabels(const scene::Scene& scene, Overlay& overlay);
 
 /// Adds the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
-/// field is shown instead, adds only its axes and marks; CoordinatesPlot draws the rest. Does nothing if none of these
-/// is shown.
+/// field is shown instead, adds only its axes and marks, and over a density strip the lines of the highlighted element;
+/// CoordinatesPlot draws the rest. Does nothing if none of these is shown.
 void addCoordinates(const scene::Scene& scene, Overlay& overlay);
 
 }  // namespace oval4d::render

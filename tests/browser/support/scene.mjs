@@ -27,6 +27,18 @@ export function worldPoints(scene, slice) {
     return points;
 }
 
+/**
+ * A point of a vertex's line in the density strip, in pixels from the upper left corner. `along` is 0 on the axis x, 1 on
+ * y, 2 on z and 3 on w; in between, the line is straight.
+ */
+export function stripPoint({ coordinates, scene }, vertex, along, height) {
+    const { left, zero, line_step: step, line_width: width, amplitude } = scene.coordinates;
+    const axis = Math.min(Math.floor(along), 2);
+    const [from, to] = [0, 1].map((k) => coordinates[4 * vertex + axis + k] / scene.circumradius);
+    const level = from + (along - axis) * (to - from);
+    return [(left + width / 2 + along * step) * height, (1 - zero - level * amplitude) * height];
+}
+
 export function rgb(color) {
     return [color >> 16, (color >> 8) & 255, color & 255];
 }

@@ -331,6 +331,30 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     EXPECT_EQ(pixelAt(empty, xOf(20), yOf(5)), rgbOf(style.background));
 }
 
+// The line of a vertex joins its coordinates on the axes.
+TEST_F(Pictures, ShowTheLinesOfTheHighlightedVerticesOverTheDensity) {
+    const scene::Viewport viewport{1920, 1080};
+    const geometry::Rotation orientation = randomRotation(22);
+    scene::Look look;
+    const Subject plain("120-cell", orientation, 1, look, viewport);
+    look.highlight = slicing::Element{slicing::ElementKind::cell, 5};
+    const Subject lit("120-cell", orientation, 1, look, viewport);
+    ASSERT_EQ(lit.scene.highlight.ownVertices.size(), 20U) << "a dodecahedron";
+    const image::Image before = plain.draw(renderer()), after = lit.draw(renderer());
+    const scene::CoordinatesLayout& layout = lit.scene.coordinates;
+    const Rgb color = rgbOf(scene::style().highlight);
+    for (const std::uint32_t v : lit.scene.highlight.ownVertices) {
+        const glm::dvec4 at = lit.slices.rotatedVertices[v] / lit.scene.circumradius;
+        for (int k = 0; k < 3; ++k) {
+            const double x = layout.left + layout.lineWidth / 2 + (k + 0.5) * layout.lineStep;
+            const double y = layout.zero + (at[k] + at[k + 1]) / 2 * layout.amplitude;
+            const int column = static_cast<int>(x * viewport.height), row = static_cast<int>(y * viewport.height);
+            EXPECT_LE(difference(pixelAt(after, column, row), color), 3) << "vertex " << v << ", axis " << k;
+            EXPECT_GT(difference(pixelAt(before, column, row), color), 40);
+        }
+    }
+}
+
 TEST(OffscreenGlContextTest, LeavesTheRestOfMemoryAlone) {
     OffscreenGlContext context;
     constexpr int kWidth = 37, kHeight = 21;

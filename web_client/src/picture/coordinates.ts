@@ -1,11 +1,12 @@
 // Draws the parallel coordinates at the bottom of the picture: for each vertex, four vertical lines that show its
 // coordinates. For many vertices, draws a density strip instead: each vertex is a line that joins its coordinates on
-// four axes, and the strip shows how many lines pass through each point. For a field, draws for each axis a histogram
-// of the values along it.
+// four axes, and the strip shows how many lines pass through each point; only highlighted vertices have visible lines.
+// For a field, draws for each axis a histogram of the values along it.
 
 import type { AxisUnits, HistogramScales, SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
+import { drawLinesOverDensityStrip } from "./density_strip_lines";
 import type { HighlightedElements } from "./highlighted_elements";
 import { cssColor, setFontAndMeasureDigits } from "./pen";
 
@@ -25,7 +26,7 @@ export function drawCoordinates(
     highlighted: HighlightedElements,
 ): void {
     if (picture.histogram) drawHistogram(pen, picture, picture.histogram, viewport, leastText);
-    else if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport, leastText);
+    else if (picture.scene.coordinates.columns > 0) drawDensityStrip(pen, picture, viewport, leastText, highlighted);
     else drawLines(pen, picture, viewport, leastText, highlighted);
 }
 
@@ -115,6 +116,7 @@ function drawDensityStrip(
     picture: Slices,
     viewport: Viewport,
     leastText: number,
+    highlighted: HighlightedElements,
 ): void {
     const { height } = viewport;
     const { colors, circumradius, coordinates: layout, text } = picture.scene;
@@ -131,6 +133,7 @@ function drawDensityStrip(
         pen.fillRect(left, zero - amplitude, thickness, 2 * amplitude);
         if (layout.named) drawName(pen, "xyzw"[k]!, left + thickness / 2, zero + amplitude + 1.4 * digits, viewport);
     }
+    drawLinesOverDensityStrip(pen, picture, viewport, highlighted.ownVertices);
     const focus = picture.slices.find((slice) => slice.focus);
     if (!focus || Math.abs(focus.w) > circumradius) return;
     const level = Math.round(zero - (focus.w / circumradius) * amplitude);
