@@ -4,9 +4,16 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec4.hpp>
 
 #include "export/drawing/ascii_text.hpp"
 #include "scene/density_plot.hpp"
+#include "scene/density_strip_lines.hpp"
 #include "slicing/coordinate_histograms.hpp"
 
 namespace oval4d::exports {
@@ -18,6 +25,7 @@ constexpr double kMaxColumn = 48;          // the maximum width of a vertex's co
 constexpr double kMinColumn = 5;           // the minimum width of a vertex's column
 constexpr double kText = 7;                // font size
 constexpr double kNameRoom = 3.2 * kText;  // the width that the label of a vertex needs
+constexpr double kBandOpacity = 0.35;      // the opacity of the bands behind the lines of highlighted vertices
 
 /// Returns about the width of a line of text, from the mean width of characters.
 double estimatedWidth(const std::string& text) {
@@ -64,10 +72,36 @@ Drawing drawStrip(const scene::Scene& scene) {
         axes.shapes.emplace_back(Line{.from = {x, kDrawingMargin}, .to = {x, bottom}, .color = colors[k], .id = name});
         axes.shapes.emplace_back(TextLine{{x, bottom + 1.3 * kText}, kText, kDrawingText, name});
     }
-    return {"Parallel coordinates of the vertices: " + scene.title,
-            kDrawingWidth,
-            bottom + kDrawingMargin + kText,
-            {std::move(strip), std::move(axes)}};
+    Drawing drawing{"Parallel coordinates of the vertices: " + scene.title,
+                    kDrawingWidth,
+                    bottom + kDrawingMargin + kText,
+                    {std::move(strip), std::move(axes)}};
+    if (scene.highlight.empty()) return drawing;
+    ShapeGroup& lines = drawing.groups.emplace_back("highlight", std::vector<DrawnShape>());
+    scene::forEachLineOverDensityStrip(scene.highlight.ownVertices, [&](std::uint32_t v) {
+        const glm::dvec4& vertex = scene.slices->rotatedVertices[v];
+        Polyline line{{}, 1, scene.style().highlight};
+        for (int k = 0; k < 4; ++k) {
+            const double up = kAmplitude * (1 + vertex[k] / scene.circumradius);
+            line.points.emplace_back(kDrawingMargin + k * step, bottom - up);
+        }
+        lines.shapes.emplace_back(std::move(line));
+    });
+    return drawing;
+}
+
+/// Returns the bands behind the lines of the vertices of the highlighted element.
+ShapeGroup highlightBands(const scene::Scene& scene, const VertexColumnLayout& columns) {
+    ShapeGroup bands{"highlight", {}};
+    const double margin = columns.step / 10;  // half the distance from one of the four lines to the next
+    for (const std::uint32_t v : scene.highlight.ownVertices) {
+        const double left = columns.left(v) + margin, right = columns.left(v) + columns.step - margin;
+        const double zero = columns.zero(v / columns.perRow);
+        const double top = zero - kAmplitude, bottom = zero + kAmplitude;
+        bands.shapes.emplace_back(FilledPolygon{
+            {{left, top}, {right, top}, {right, bottom}, {left, bottom}}, scene.style().highlight, kBandOpacity});
+    }
+    return bands;
 }
 
 Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation) {
@@ -137,6 +171,7 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
         zeros.shapes.emplace_back(
             Line{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene.style().zeroLine});
     }
+    if (!scene.highlight.empty()) drawing.groups.push_back(highlightBands(scene, columns));
     const auto& colors = scene.style().axes;
     const double lineStep = columns.step / 5;
     for (int axis = 0; axis < 4; ++axis) {
