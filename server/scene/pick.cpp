@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "scene/density_strip_lines.hpp"
+
 namespace oval4d::scene {
 
 namespace {
@@ -108,8 +110,14 @@ class Picker {
 
     void pickCoordinates() {
         const CoordinatesLayout& layout = scene_.coordinates;
-        if (!scene_.look.parts.coordinates || !layout.hasLines()) return;
+        if (!scene_.look.parts.coordinates) return;
         const glm::dvec2 at = pixel_ / size_.y;
+        if (layout.isDensityStrip) {
+            if (const auto vertex = vertexInDensityStripAt(scene_, at))
+                picked_ = {{ElementKind::vertex, *vertex}, PictureArea::coordinates, 0};
+            return;
+        }
+        if (!layout.hasLines()) return;
         const double first = layout.left - layout.lineStep / 2;
         const double column = std::floor((at.x - first) / layout.columnStep);
         const double row = std::round((layout.zero - at.y) / layout.rowStep);

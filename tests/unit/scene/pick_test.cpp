@@ -1,6 +1,8 @@
 // What a picture shows at a point.
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <random>
@@ -13,6 +15,7 @@
 #include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "scene/composer.hpp"
+#include "scene/density_strip_lines.hpp"
 #include "scene/pick.hpp"
 #include "slicing/slicer.hpp"
 #include "unit/slicing/support.hpp"
@@ -251,6 +254,97 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
         ASSERT_TRUE(hit);
         EXPECT_EQ(hit->area, PictureArea::coordinates);
         EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, static_cast<std::size_t>(i)}));
+    }
+}
+
+// The height of a vertex's line in a density strip, in viewport heights from the lower edge. `along` is 0 on the axis
+// x, 1 on y, 2 on z and 3 on w.
+double lineHeight(const Picture& picture, std::size_t vertex, double along) {
+    const int axis = std::min(static_cast<int>(along), 2);
+    const glm::dvec4 at = picture.slices.rotatedVertices[vertex] / picture.scene.circumradius;
+    const CoordinatesLayout& layout = picture.scene.coordinates;
+    return layout.zero + layout.amplitude * (at[axis] + (along - axis) * (at[axis + 1] - at[axis]));
+}
+
+// Returns the vertex that is found in a density strip at this height, in viewport heights from the lower edge.
+std::optional<std::size_t> vertexInStrip(Picture& picture, double along, double height) {
+    const CoordinatesLayout& layout = picture.scene.coordinates;
+    const double x = layout.left + layout.lineWidth / 2 + along * layout.lineStep;
+    const auto hit = picture.at({x * 720, (1 - height) * 720, 0});
+    if (!hit || hit->area != PictureArea::coordinates) return std::nullopt;
+    EXPECT_EQ(hit->element.kind, ElementKind::vertex);
+    return hit->element.index;
+}
+
+TEST(Pick, FindsTheVertexWithTheNearestLineInADensityStrip) {
+    std::mt19937 random(9);
+    Picture picture("120-cell", {}, support::randomRotation(random));
+    ASSERT_TRUE(picture.scene.coordinates.isDensityStrip);
+    for (std::size_t v = 0; v < 600; v += 37) {
+        for (const double along : {0.0, 0.3, 1.0, 1.5, 2.9, 3.0}) {
+            const double height = lineHeight(picture, v, along);
+            const auto found = vertexInStrip(picture, along, height);
+            ASSERT_TRUE(found) << v << " at " << along;
+            EXPECT_LE(*found, v);  // another vertex is found only if its line is at the same place
+            EXPECT_NEAR(lineHeight(picture, *found, along), height, 2e-6);
+        }
+    }
+    // The line is the nearest at any other height, too.
+    for (const double height : {-0.9, -0.33, 0.0, 0.41, 0.87}) {
+        const double at = picture.scene.coordinates.zero + height * picture.scene.coordinates.amplitude;
+        double least = 1;
+        for (std::size_t v = 0; v < 600; ++v) least = std::min(least, std::abs(lineHeight(picture, v, 1.2) - at));
+        const auto found = vertexInStrip(picture, 1.2, at);
+        ASSERT_EQ(found.has_value(), least <= kLineReach);
+        if (!found) continue;
+        EXPECT_NEAR(std::abs(lineHeight(picture, *found, 1.2) - at), least, 2e-6);
+    }
+}
+
+TEST(Pick, FindsTheFirstOfTheVerticesWithTheSameCoordinateInADensityStrip) {
+    Picture picture("120-cell", {}, {});
+    std::size_t later = 0;
+    for (std::size_t v = 0; v < 600; v += 11) {
+        for (const double along : {0.0, 1.0, 3.0}) {
+            const double height = lineHeight(picture, v, along);
+            std::size_t first = 0;
+            while (std::abs(lineHeight(picture, first, along) - height) > 1e-9) ++first;
+            EXPECT_EQ(vertexInStrip(picture, along, height), first);
+            later += first < v ? 1 : 0;
+        }
+    }
+    EXPECT_GT(later, 50U);
+}
+
+TEST(Pick, FindsNoVertexBesideADensityStrip) {
+    std::mt19937 random(10);
+    Picture picture("120-cell", {}, support::randomRotation(random));
+    const CoordinatesLayout& layout = picture.scene.coordinates;
+    for (const double side : {-1.0, 1.0}) {
+        EXPECT_FALSE(vertexInStrip(picture, 1.5, layout.zero + side * (layout.amplitude + 1.1 * kLineReach)));
+        const double beyond = 1.5 + side * (1.5 + 1.1 * kLineReach / layout.lineStep);
+        EXPECT_FALSE(vertexInStrip(picture, beyond, lineHeight(picture, 5, 1.5 + side * 1.5)));
+    }
+    Look hidden;
+    hidden.parts.coordinates = false;
+    Picture without("120-cell", hidden, {});
+    EXPECT_FALSE(vertexInStrip(without, 1.5, layout.zero));
+}
+
+TEST(Pick, PrefersTheLinesThatAreDrawnOverADensityStrip) {
+    std::mt19937 random(11);
+    const geometry::Rotation orientation = support::randomRotation(random);
+    Look look;
+    Picture plain("120-cell", look, orientation);
+    look.highlight = slicing::Element{ElementKind::vertex, 123};
+    Picture lit("120-cell", look, orientation);
+    const double height = lineHeight(lit, 123, 0.6), width = lit.scene.coordinates.lineWidth;
+    for (const double above : {-0.9, 0.9}) {
+        EXPECT_NE(vertexInStrip(plain, 0.6, height + above * width), 123U) << "another line is nearer";
+        EXPECT_EQ(vertexInStrip(lit, 0.6, height + above * width), 123U);
+    }
+    for (const double above : {-1.1, 1.1}) {
+        EXPECT_EQ(vertexInStrip(lit, 0.6, height + above * width), vertexInStrip(plain, 0.6, height + above * width));
     }
 }
 

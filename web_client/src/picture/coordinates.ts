@@ -6,7 +6,7 @@
 import type { AxisUnits, HistogramScales, SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
 import { DensityImage } from "./density_image";
-import { drawLinesOverDensityStrip } from "./density_strip_lines";
+import { drawLinesOverDensityStrip, vertexInDensityStripAt } from "./density_strip_lines";
 import type { HighlightedElements } from "./highlighted_elements";
 import { cssColor, setFontAndMeasureDigits } from "./pen";
 
@@ -31,14 +31,16 @@ export function drawCoordinates(
 }
 
 /**
- * The vertex in whose band the pixel (x, y) lies; undefined if there is none, or if no lines are drawn. The band of a
- * vertex is the rectangle around its four lines that drawLines() fills to highlight it. Picker::pickCoordinates() in
- * pick.cpp finds the same vertex.
+ * The vertex whose parallel coordinates are at the pixel (x, y); undefined if there is none, or if a histogram or nothing
+ * is drawn. In a density strip, see vertexInDensityStripAt(). Else it is the vertex in whose band the pixel lies: the
+ * rectangle around its four lines that drawLines() fills to highlight it. Picker::pickCoordinates() in pick.cpp finds the
+ * same vertex.
  */
 export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
     const { columns, per_row: perRow, rows, amplitude, ...layout } = scene.coordinates;
-    if (!scene.shown.coordinates || columns > 0) return undefined;
+    if (!scene.shown.coordinates || layout.panel > 0) return undefined;
+    if (columns > 0) return vertexInDensityStripAt(picture, x / height, 1 - y / height);
     const fromFirst = x / height - (layout.left - layout.line_step / 2);
     const column = Math.floor(fromFirst / layout.column_step);
     const belowTop = layout.zero - (1 - y / height); // the distance below the zero line of the first row

@@ -7,6 +7,10 @@ import { cssColor } from "./pen";
 
 // The maximum number of lines that are drawn over a density strip, as in density_strip_lines.hpp.
 const kMaxLinesOverDensityStrip = 400;
+// The distance within which a point is on a line, and the difference below which distances count as equal; both in
+// viewport heights, as in density_strip_lines.hpp and density_strip_lines.cpp.
+const kLineReach = 0.006;
+const kEqual = 1e-6;
 
 /**
  * Those of the vertices of highlighted elements whose lines are drawn: all of them or, if they are more than
@@ -43,4 +47,44 @@ export function drawLinesOverDensityStrip(
     pen.stroke();
     pen.lineCap = "butt";
     pen.lineJoin = "miter";
+}
+
+/**
+ * The vertex to which a point of the density strip belongs; undefined if no line is near. The point is measured in
+ * viewport heights from the lower left corner. vertexInDensityStripAt() in density_strip_lines.hpp, which says how lines
+ * are chosen, finds the same vertex.
+ */
+export function vertexInDensityStripAt(picture: Slices, atX: number, atY: number): number | undefined {
+    const { coordinates: values, highlight, scene } = picture;
+    const { amplitude, left, line_step: step, line_width: width, zero } = scene.coordinates;
+    const right = atX - (left + width / 2); // the distance from the middle of the axis x
+    if (step <= 0 || right < -kLineReach || right > 3 * step + kLineReach) return undefined;
+    const along = Math.min(Math.max(right / step, 0), 3);
+    const axis = Math.min(Math.floor(along), 2);
+    const unit = amplitude / scene.circumradius;
+    const distanceOf = (v: number): number => {
+        const [from, to] = [values[4 * v + axis]!, values[4 * v + axis + 1]!];
+        return Math.abs(zero + (from + (along - axis) * (to - from)) * unit - atY);
+    };
+    return (
+        nearestOf(verticesWithLines(highlight?.own_vertices ?? []), distanceOf, width) ??
+        nearestOf(Array(values.length / 4).keys(), distanceOf, kLineReach)
+    );
+}
+
+/**
+ * The first of the vertices, which are in ascending order, with the least distance; undefined if this is more than
+ * `reach`.
+ */
+function nearestOf(
+    vertices: Iterable<number>,
+    distanceOf: (vertex: number) => number,
+    reach: number,
+): number | undefined {
+    let [nearest, least]: [number | undefined, number] = [undefined, Infinity];
+    for (const v of vertices) {
+        const distance = distanceOf(v);
+        if (distance < least - kEqual) [nearest, least] = [v, distance];
+    }
+    return least <= reach ? nearest : undefined;
 }

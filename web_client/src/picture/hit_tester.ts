@@ -62,7 +62,7 @@ export class HitTester {
     }
 
     /**
-     * The vertex whose parallel coordinates are drawn at a point of the picture, in pixels; undefined if there is none.
+     * The vertex whose parallel coordinates are at a point of the picture, in pixels; undefined if there is none.
      */
     vertexInCoordinatesAt(x: number, y: number, size: Viewport): number | undefined {
         return this.panelAt(x, y, size) ? undefined : vertexInCoordinatesAt(this.picture, size, x, y);

@@ -1,0 +1,57 @@
+#include "scene/density_strip_lines.hpp"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <glm/vec4.hpp>
+
+namespace oval4d::scene {
+
+namespace {
+
+// Finds the line that is nearest to a point, among lines that are given in ascending order of their vertices.
+class NearestLine {
+  public:
+    void add(std::size_t vertex, double distance) {
+        if (distance >= distance_ - kEqual) return;
+        vertex_ = vertex;
+        distance_ = distance;
+    }
+
+    // Returns the vertex of the line; an empty optional if its distance is greater than `reach`.
+    std::optional<std::size_t> within(double reach) const {
+        return distance_ <= reach ? std::optional(vertex_) : std::nullopt;
+    }
+
+  private:
+    // Distances that differ by less, in viewport heights, count as equal, so that the page finds the same line:
+    // coordinates are rounded in messages, which changes the distances by less than this.
+    static constexpr double kEqual = 1e-6;
+    std::size_t vertex_ = 0;
+    double distance_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2 at) {
+    const CoordinatesLayout& layout = scene.coordinates;
+    const double right = at.x - (layout.left + layout.lineWidth / 2);  // the distance from the middle of the axis x
+    if (layout.lineStep <= 0 || right < -kLineReach || right > 3 * layout.lineStep + kLineReach) return std::nullopt;
+    const double along = std::clamp(right / layout.lineStep, 0.0, 3.0);
+    const int axis = std::min(static_cast<int>(along), 2);
+    const double unit = layout.amplitude / scene.circumradius;
+    const std::vector<glm::dvec4>& vertices = scene.slices->rotatedVertices;
+    const auto distanceOf = [&](std::size_t v) {
+        const double value = std::lerp(vertices[v][axis], vertices[v][axis + 1], along - axis);
+        return std::abs(layout.zero + value * unit - at.y);
+    };
+    NearestLine drawn;
+    forEachLineOverDensityStrip(scene.highlight.ownVertices, [&](std::uint32_t v) { drawn.add(v, distanceOf(v)); });
+    if (const auto vertex = drawn.within(layout.lineWidth)) return vertex;
+    NearestLine nearest;
+    for (std::size_t v = 0; v < vertices.size(); ++v) nearest.add(v, distanceOf(v));
+    return nearest.within(kLineReach);
+}
+
+}  // namespace oval4d::scene
