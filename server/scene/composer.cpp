@@ -28,6 +28,29 @@ void findCells(const Object& object, const slicing::Visibilities& visibilities, 
     for (const auto& face : faces) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(face)));
 }
 
+// Adds the filled faces `from` of a slice of `slices` to `out.fill`, as those of part `part` of the projection, which
+// shows this slice magnified by `magnification`. Parts from this one on must have no filled faces.
+void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, int slice, double magnification,
+                      std::size_t part, ObjectProjection& out) {
+    slicing::FilledFaces& fill = out.fill;
+    const std::uint32_t firstLoop = slices.faceBegin[slice], newFirstLoop = out.elements.faceBegin[part];
+    for (std::uint32_t f = from.faceBegin[slice]; f < from.faceBegin[slice + 1]; ++f) {
+        slicing::FilledFaces::Face face = from.faces[f];
+        face.offset *= magnification;
+        face.firstLoop = face.firstLoop - firstLoop + newFirstLoop;
+        face.endLoop = face.endLoop - firstLoop + newFirstLoop;
+        fill.faces.push_back(face);
+        for (std::uint32_t k = from.pieceBegin[f]; k < from.pieceBegin[f + 1]; ++k) {
+            for (std::uint32_t c = from.cornerBegin[k]; c < from.cornerBegin[k + 1]; ++c)
+                fill.corners.push_back(magnification * from.corners[c]);
+            fill.cornerBegin.push_back(static_cast<std::uint32_t>(fill.corners.size()));
+        }
+        fill.pieceBegin.push_back(static_cast<std::uint32_t>(fill.cornerBegin.size() - 1));
+    }
+    for (std::size_t p = part + 1; p < fill.faceBegin.size(); ++p)
+        fill.faceBegin[p] = static_cast<std::uint32_t>(fill.faces.size());
+}
+
 // Returns the opacity of translucent faces: `own` times Look::opacity. The result is always below 1, because 1 tells
 // clients that faces may cross each other; the greatest result looks opaque.
 double translucent(double own, const Look& look) {
@@ -194,6 +217,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const bool perspective = look.projection.kind == ProjectionKind::perspective;
     const double eye = look.projection.eye;
     const int focusSlice = focus - slices.planes.first;
+    const bool isField = slicing::fieldIn(object) != nullptr;
     const bool all = look.parts.allSections;
     const slicing::Projector::Options options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
                                               .cells = look.parts.projectionFaces,
@@ -207,6 +231,13 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.fill.clear();
     if (!slicing::hasConvexFaces(object))
         filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
+    // The faces of the focus slice are already filled if they may cross each other.
+    projection.fill.faceBegin.resize(projection.elements.faceBegin.size());
+    if (!out.fill.empty() && focusSlice >= options.firstSlice && focusSlice < options.endSlice) {
+        const auto part = static_cast<std::size_t>(1 + focusSlice - options.firstSlice);
+        const double magnification = options.projection.magnification(slices.planes.w(focusSlice));
+        addFillOfSection(out.fill, slices, focusSlice, magnification, part, projection);
+    }
     projection.fillCells.clear();
     for (const slicing::FilledFaces::Face& face : projection.fill.faces)
         projection.fillCells.push_back(projection.faceCells[face.firstLoop]);
@@ -226,7 +257,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         const bool isFocus = i == focusSlice;
         const double sectionBar = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
-        const bool filled = isFocus && look.parts.faces && !out.needsDepthBuffer;
+        const bool filled = isFocus && look.parts.faces && !isField;
         projection.parts.push_back(
             {isCloud ? 1.02 * pointRadius : sectionBar, sectionBar, color, color, filled ? translucent(0.5, look) : 0});
     }

@@ -41,7 +41,8 @@ struct ObjectProjection {
     std::vector<std::uint32_t> faceCells;   ///< for each face of `elements`, the cell that determines its color
     std::vector<ProjectionPartLook> parts;  ///< for each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
-    /// The filled faces of part 0, whose pieces are drawn instead of its polygons; empty if these are convex.
+    /// The filled faces of the parts whose pieces are drawn instead of their polygons: of part 0 if its polygons need
+    /// not be convex, and of the section of the focus slice if Scene::fill has the faces of this slice.
     slicing::FilledFaces fill;
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines its color
 

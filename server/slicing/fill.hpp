@@ -1,6 +1,6 @@
 #pragma once
-// Filled faces of slices, decomposed into convex polygons. Nonconvex slices, and projections of objects whose 2-faces
-// are not convex, are drawn and exported in this form.
+// Filled faces of slices, decomposed into convex polygons. Nonconvex slices, also in the projection of the object, and
+// projections of objects whose 2-faces are not convex are drawn and exported in this form.
 
 #include <array>
 #include <compare>

@@ -113,6 +113,13 @@ def test_a_drawing_of_the_projection_has_all_edges(server, tmp_path, polytope, v
     assert len(list(root.iter(SVG + "polygon"))) == {"tesseract": 24}.get(polytope, 720)
 
 
+@pytest.mark.parametrize("polytope", ["tesseract", "{5/2,5,3}"])
+def test_a_drawing_of_the_projection_has_the_faces_of_the_focus_section(server, tmp_path, polytope):
+    query = f"polytope={polytope}&{ROTATION}&of=projection"
+    assert len(list(svg_of(server, tmp_path, query).iter(SVG + "polygon"))) >= 4
+    assert not list(svg_of(server, tmp_path, f"{query}&faces=off").iter(SVG + "polygon"))
+
+
 def test_a_drawing_of_the_matrix_has_the_sections(server, tmp_path):
     root = svg_of(server, tmp_path, "polytope=tesseract&of=matrix&point=0.1,0.2,0.3,-0.1")
     groups = {group.get("id"): group for group in root.iter(SVG + "g")}

@@ -103,8 +103,11 @@ async def test_pentagrams_are_filled(server):
         without = png.pixels(await client.request_frame(**SIZE))
         await client.request("set", shown={"cells": True})
         assert png.pixels(await client.request_frame(**SIZE)) != without
-        whole, section = (await projection_of(client))["parts"]
-        assert len(whole["faces"]) == 720 and "fill" not in section
+        slices = await client.request("get", what="slices", **SIZE)
+        whole, section = slices["projection"]["parts"]
+        focus = next(one for one in slices["slices"] if one["focus"])
+        assert len(whole["faces"]) == 720
+        assert section["opacity"] > 0 and section["fill"] == focus["fill"], "an orthogonal projection magnifies nothing"
         points = whole["fill"]["points"]
         filled = sum(area(*(points[i] for i in triangle)) for triangle in whole["fill"]["triangles"])
         enclosed = sum(area(*(whole["vertices"][v] for v in loop)) for loop in whole["faces"])

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 
 namespace oval4d::exports {
 
@@ -67,24 +70,66 @@ class ProjectionDrawer {
         return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
     }
 
+    // Adds the polygon with these corners, which are in the units of the object.
+    void addPolygon(std::span<const glm::dvec3> corners, scene::Color color, double opacity) {
+        FilledPolygon polygon{{}, color, opacity};
+        double depth = 0;
+        for (const glm::dvec3& corner : corners) {
+            const glm::dvec3 p = place(corner);
+            polygon.corners.push_back(onPaper(p));
+            depth += p.z / static_cast<double>(corners.size());
+        }
+        add(depth, std::move(polygon));
+    }
+
+    // Adds a loop of a part as a polygon.
+    void addLoop(std::size_t part, std::uint32_t loop, double opacity) {
+        const SliceSet& set = scene_.projection.elements;
+        corners_.clear();
+        for (std::uint32_t c = set.cornerBegin[loop]; c < set.cornerBegin[loop + 1]; ++c)
+            corners_.push_back(set.vertices[set.vertexBegin[part] + set.corners[c]]);
+        addPolygon(corners_, scene_.cellColors[scene_.projection.faceCells[loop]], opacity);
+    }
+
+    void addFaces(std::size_t part) {
+        const scene::ObjectProjection& projection = scene_.projection;
+        const SliceSet& set = projection.elements;
+        const double opacity = projection.parts[part].faceOpacity;
+        if (opacity == 0) return;
+        const auto opacityOf = [&](std::uint32_t source) {
+            return opacity * slicing::opacityOf(scene_.visibilities.face(source));
+        };
+        if (!projection.drawsPieces(part)) {
+            for (std::uint32_t f = set.faceBegin[part]; f < set.faceBegin[part + 1]; ++f) {
+                if (const double own = opacityOf(set.faceSource[f]); own > 0) addLoop(part, f, own);
+            }
+            return;
+        }
+        // A face with one loop, such as a star, is drawn as this loop: it is filled in the same way as its pieces, but
+        // has no seams between them. Only a face with several loops is drawn in pieces.
+        const slicing::FilledFaces& fill = projection.fill;
+        for (std::uint32_t f = fill.faceBegin[part]; f < fill.faceBegin[part + 1]; ++f) {
+            const slicing::FilledFaces::Face& face = fill.faces[f];
+            const double own = opacityOf(face.source);
+            if (own == 0) continue;
+            if (face.endLoop - face.firstLoop == 1) {
+                addLoop(part, face.firstLoop, own);
+                continue;
+            }
+            for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
+                const std::uint32_t begin = fill.cornerBegin[k], end = fill.cornerBegin[k + 1];
+                addPolygon(std::span(fill.corners).subspan(begin, end - begin),
+                           scene_.cellColors[projection.fillCells[f]], own);
+            }
+        }
+    }
+
     void addPart(std::size_t part) {
         const scene::ProjectionPartLook& look = scene_.projection.parts[part];
         const SliceSet& set = scene_.projection.elements;
         const scene::Style& style = scene_.style();
         const std::uint32_t v0 = set.vertexBegin[part];
-        for (std::uint32_t f = set.faceBegin[part]; look.faceOpacity > 0 && f < set.faceBegin[part + 1]; ++f) {
-            const double seen = slicing::opacityOf(scene_.visibilities.face(set.faceSource[f]));
-            if (seen == 0) continue;
-            // The polygon may be a star. It is filled as ObjectProjection::fill is, but has no seams between pieces.
-            FilledPolygon polygon{{}, scene_.cellColors[scene_.projection.faceCells[f]], look.faceOpacity * seen};
-            double depth = 0;
-            for (std::uint32_t c = set.cornerBegin[f]; c < set.cornerBegin[f + 1]; ++c) {
-                const glm::dvec3 p = place(set.vertices[v0 + set.corners[c]]);
-                polygon.corners.push_back(onPaper(p));
-                depth += p.z / (set.cornerBegin[f + 1] - set.cornerBegin[f]);
-            }
-            add(depth, std::move(polygon));
-        }
+        addFaces(part);
         for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
             const double seen = slicing::opacityOf(scene_.visibilities.edge(set.edgeSource[e]));
             if (seen == 0) continue;
@@ -124,6 +169,7 @@ class ProjectionDrawer {
     double scale_ = 1;            // drawing units per world unit
     std::vector<double> depths_;  // the depth of each of shapes_
     std::vector<DrawnShape> shapes_;
+    std::vector<glm::dvec3> corners_;  // of the current loop
 };
 
 }  // namespace

@@ -1,11 +1,14 @@
-// The filled 2-faces of the projection of the whole object: their areas, and which of them there are.
+// The filled faces of the projection: the areas of the 2-faces of the whole object, which of them are filled, and the
+// section of the focus hyperplane.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <random>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -83,7 +86,7 @@ template <typename AreaOf>
 void expectAreasOfL(const polytopes::Polytope& p, const Scene& s, AreaOf areaOf) {
     const slicing::FilledFaces& fill = s.projection.fill;
     int found = 0;
-    for (std::size_t f = 0; f < fill.faces.size(); ++f) {
+    for (std::size_t f = 0; f < fill.faceBegin[1]; ++f) {
         const auto loop = p.faces[fill.faces[f].source - p.cells.size()];
         if (loop.size() != 6) continue;
         ++found;
@@ -126,8 +129,8 @@ TEST(ProjectionFill, OfAPentagramContainsItsCoreOnceInAnyOrientation) {
         const polytopes::Polytope& p = named(name);
         const Scene s = sceneWithProjectedCells(p, support::randomRotation(random), {});
         const slicing::FilledFaces& fill = s.projection.fill;
-        ASSERT_EQ(fill.faces.size(), p.faces.size());
-        for (std::size_t f = 0; f < fill.faces.size(); ++f) {
+        ASSERT_EQ(fill.faceBegin[1], p.faces.size());
+        for (std::size_t f = 0; f < p.faces.size(); ++f) {
             EXPECT_EQ(fill.faces[f].winding, 2);
             const double enclosed = enclosedAreaOf(s.projection.elements, fill.faces[f].firstLoop);
             ASSERT_NEAR(filledAreaOf(fill, f), quotient * enclosed, 1e-8 * p.circumradius * p.circumradius);
@@ -146,11 +149,11 @@ TEST(ProjectionFill, LeavesOutWhatTheEyeCannotSee) {
     const scene::ObjectProjection& projection = s.projection;
     ASSERT_GT(projection.elements.faceCount(0), 0U);
     EXPECT_LT(projection.elements.faceCount(0), p.faces.size());
-    ASSERT_EQ(projection.fill.faces.size(), projection.elements.faceCount(0));
+    ASSERT_EQ(projection.fill.faceBegin[1], projection.elements.faceCount(0));
     ASSERT_EQ(projection.fillCells.size(), projection.fill.faces.size());
     EXPECT_TRUE(projection.drawsPieces(0));
-    EXPECT_FALSE(projection.drawsPieces(1)) << "the section of the focus hyperplane";
-    for (std::size_t f = 0; f < projection.fill.faces.size(); ++f) {
+    EXPECT_TRUE(projection.drawsPieces(1)) << "the section of the focus hyperplane";
+    for (std::size_t f = 0; f < projection.fill.faceBegin[1]; ++f) {
         const slicing::FilledFaces::Face& face = projection.fill.faces[f];
         EXPECT_EQ(face.source, projection.elements.faceSource[f]);
         const auto& cells = p.faceCells[face.source - p.cells.size()];
@@ -159,8 +162,10 @@ TEST(ProjectionFill, LeavesOutWhatTheEyeCannotSee) {
 }
 
 TEST(ProjectionFill, IsEmptyIfAllFacesAreConvexOrHidden) {
+    scene::Look look;
+    look.parts.faces = false;  // else the section of a star is filled
     for (const char* name : {"24-cell", "icosahedral 120-cell"}) {
-        const Scene s = sceneWithProjectedCells(named(name), {}, {});
+        const Scene s = sceneWithProjectedCells(named(name), {}, look);
         EXPECT_EQ(s.projection.elements.faceCount(0), named(name).faces.size()) << name;
         EXPECT_TRUE(s.projection.fill.empty()) << name;
         EXPECT_FALSE(s.projection.drawsPieces(0)) << name;
@@ -171,7 +176,6 @@ TEST(ProjectionFill, IsEmptyIfAllFacesAreConvexOrHidden) {
     slicing::CellComplexSlicer().slice(p, {}, {0, 1, 1}, slices);
     scene::Composer composer;
     Scene s;
-    scene::Look look;
     look.projection.kind = ProjectionKind::perspective;
     for (const bool cells : {true, false}) {
         look.parts.projectionFaces = cells;
@@ -186,11 +190,13 @@ TEST(ProjectionFill, IsRoughBeyondTheLimitWhichItSharesWithTheSlices) {
     std::mt19937 random(13);
     const geometry::Rotation turn = support::randomRotation(random);
     const auto roughFaces = [](const Scene& s) {
-        return std::ranges::count(s.projection.fill.faces, 0, &slicing::FilledFaces::Face::winding);
+        const slicing::FilledFaces& fill = s.projection.fill;
+        return std::ranges::count(std::span(fill.faces).first(fill.faceBegin[1]), 0,
+                                  &slicing::FilledFaces::Face::winding);
     };
     const Scene rough = sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, 0);
     EXPECT_EQ(roughFaces(rough), static_cast<std::ptrdiff_t>(p.faces.size()));
-    EXPECT_EQ(rough.projection.fill.cornerBegin.size() - 1, 5 * p.faces.size()) << "a triangle for each side";
+    EXPECT_EQ(rough.projection.fill.pieceBegin[p.faces.size()], 5 * p.faces.size()) << "a triangle for each side";
     // As many steps as the projection takes are enough for it if the slices have no faces to fill, but not otherwise.
     slicing::FilledFaces fill;
     const std::size_t limit = 100'000'000;
@@ -201,6 +207,59 @@ TEST(ProjectionFill, IsRoughBeyondTheLimitWhichItSharesWithTheSlices) {
     withoutFaces.parts.faces = false;
     EXPECT_EQ(roughFaces(sceneWithProjectedCells(p, turn, withoutFaces, ProjectionKind::orthogonal, steps)), 0);
     EXPECT_GT(roughFaces(sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, steps)), 0);
+}
+
+TEST(ProjectionFill, OfTheFocusSectionHasThePiecesOfItsSlice) {
+    std::mt19937 random(14);
+    for (const char* name : {"grand 600-cell", "icosahedral 120-cell", "great stellated 120-cell"}) {
+        SCOPED_TRACE(name);
+        const polytopes::Polytope& p = named(name);
+        const geometry::Rotation turn = support::randomRotation(random);
+        const double w = 0.3 * p.circumradius;
+        slicing::SliceSet slices;
+        slicing::CellComplexSlicer().slice(p, turn, {-1, 3, w}, slices);
+        scene::Composer composer;
+        Scene s;
+        scene::Look look;
+        look.projection.kind = ProjectionKind::perspective;
+        const double eye = look.projection.eye * p.circumradius, magnification = eye / (eye - w);
+        for (const bool all : {false, true}) {
+            look.parts.allSections = all;
+            composer.compose(support::objectOf(p), turn, slices, 1, look, {}, s);
+            const slicing::FilledFaces &from = s.fill, &to = s.projection.fill;
+            const slicing::SliceSet& elements = s.projection.elements;
+            const std::size_t focus = all ? 3 : 1;
+            ASSERT_EQ(s.projection.parts.size(), all ? 4U : 2U);
+            ASSERT_EQ(s.projection.fillCells.size(), to.faces.size());
+            for (std::size_t part = 0; part < s.projection.parts.size(); ++part) {
+                EXPECT_EQ(s.projection.drawsPieces(part), part == focus);
+                EXPECT_EQ(s.projection.parts[part].faceOpacity > 0, part == 0 || part == focus);
+            }
+            const std::uint32_t begin = to.faceBegin[focus], count = to.faceBegin[focus + 1] - begin;
+            ASSERT_GT(count, 0U);
+            ASSERT_EQ(count, from.faceBegin[3] - from.faceBegin[2]);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const slicing::FilledFaces::Face &face = to.faces[begin + i], &own = from.faces[from.faceBegin[2] + i];
+                ASSERT_EQ(face.source, own.source);
+                ASSERT_EQ(face.endLoop - face.firstLoop, own.endLoop - own.firstLoop);
+                for (std::uint32_t loop = face.firstLoop; loop < face.endLoop; ++loop)
+                    ASSERT_EQ(elements.faceSource[loop], face.source);
+                ASSERT_EQ(s.projection.fillCells[begin + i], s.projection.faceCells[face.firstLoop]);
+                ASSERT_NEAR(filledAreaOf(to, begin + i),
+                            magnification * magnification * filledAreaOf(from, from.faceBegin[2] + i),
+                            1e-9 * p.circumradius * p.circumradius);
+                const std::uint32_t first = elements.corners[elements.cornerBegin[face.firstLoop]];
+                const std::array points{to.corners[to.cornerBegin[to.pieceBegin[begin + i]]],
+                                        elements.vertices[elements.vertexBegin[focus] + first]};
+                for (const glm::dvec3& point : points)
+                    ASSERT_NEAR(glm::dot(face.normal, point), face.offset, 1e-8 * p.circumradius);
+            }
+        }
+        look.parts.faces = false;
+        composer.compose(support::objectOf(p), turn, slices, 1, look, {}, s);
+        EXPECT_TRUE(s.projection.fill.empty());
+        EXPECT_EQ(s.projection.parts[3].faceOpacity, 0);
+    }
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ TEST(SlicesMessage, AllEncodingsSayTheSame) {
 
 TEST(SlicesMessage, HasTheTrianglesOfAProjectedStar) {
     const Picture picture = pictureOf({"polytope small stellated 120-cell", "set slices=5", "rotate xw,yz 0.7 1.1",
-                                       "rotate yw 0.3", "project orthogonal", "set cells=on"});
+                                       "rotate yw 0.3", "project orthogonal", "set cells=on faces=off"});
     const std::size_t faces = picture.polytope->faces.size();
     const json parts = fitting(messageOf(picture, Encoding::json)).at("projection").at("parts");
     ASSERT_EQ(parts.size(), 2U);
@@ -166,6 +166,30 @@ TEST(SlicesMessage, HasTheTrianglesOfAProjectedStar) {
     const json ofConvex = fitting(messageOf(convex, Encoding::json)).at("projection").at("parts").at(0);
     EXPECT_EQ(ofConvex.at("faces").size(), 96U);
     EXPECT_FALSE(ofConvex.contains("fill"));
+}
+
+TEST(SlicesMessage, HasTheTrianglesOfTheFocusSectionOfAStar) {
+    const Picture picture = pictureOf({"polytope icosahedral 120-cell", "set slices=5", "rotate xw,yz 0.7 1.1",
+                                       "project perspective", "set sections=on"});
+    const json message = fitting(messageOf(picture, Encoding::json));
+    const json& parts = message.at("projection").at("parts");
+    ASSERT_EQ(parts.size(), 6U);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        EXPECT_EQ(parts[part].contains("fill"), part == 3);
+        EXPECT_EQ(parts[part].at("opacity") == 0.5, part == 3);
+    }
+    const json& fill = parts[3].at("fill");
+    const json& own = message.at("slices").at(2).at("fill");
+    ASSERT_FALSE(own.at("triangles").empty());
+    for (const char* member : {"triangles", "tints"}) EXPECT_EQ(fill.at(member), own.at(member));
+    EXPECT_EQ(fill.at("points"), own.at("points")) << "the hyperplane w = 0 is not magnified";
+    const auto triangles = static_cast<std::uint32_t>(own.at("triangles").size());
+    for (const Encoding encoding : binaryEncodings()) {
+        const json columns = decodedMessageOf(picture, encoding).at("projection").at("parts").at("fill");
+        EXPECT_EQ(integersOf(columns.at("counts").at("triangles")),
+                  (std::vector<std::uint32_t>{0, 0, 0, triangles, 0, 0}));
+        EXPECT_EQ(json(integersOf(columns.at("tints"))), own.at("tints"));
+    }
 }
 
 TEST(SlicesMessage, GivesIdsBackAsTheyWere) {

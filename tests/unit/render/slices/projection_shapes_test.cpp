@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include <gtest/gtest.h>
 
@@ -18,6 +19,7 @@ std::size_t countFacesOf(const ShapeBatch& shapes) {
 TEST(ProjectionShapes, AreTheConvexPiecesOfFacesThatAreNotConvex) {
     scene::Look look;
     look.parts.projectionFaces = true;
+    look.parts.faces = false;
     look.projection.kind = scene::ProjectionKind::orthogonal;
     const Subject subject("small stellated 120-cell", randomRotation(41), 1, look, {320, 240});
     ProjectionShapeCollector::Layers layers;
@@ -31,12 +33,25 @@ TEST(ProjectionShapes, AreTheConvexPiecesOfFacesThatAreNotConvex) {
 TEST(ProjectionShapes, AreTheFacesThemselvesIfTheyAreConvex) {
     scene::Look look;
     look.parts.projectionFaces = true;
+    look.parts.faces = false;  // else the section of this star is filled
     look.projection.kind = scene::ProjectionKind::orthogonal;
-    // The section of this star is not filled.
     const Subject subject("icosahedral 120-cell", randomRotation(42), 1, look, {320, 240});
     ProjectionShapeCollector::Layers layers;
     ProjectionShapeCollector().collect(subject.scene, layers);
     EXPECT_EQ(countFacesOf(layers.translucent), subject.polytope->faces.size());
+}
+
+TEST(ProjectionShapes, HaveThePiecesOfTheFocusSectionOfAStar) {
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    const Subject subject("small stellated 120-cell", randomRotation(43), 3, look, {320, 240});
+    const slicing::FilledFaces& fill = subject.scene.fill;
+    const std::uint32_t pieces = fill.pieceBegin[fill.faceBegin[2]] - fill.pieceBegin[fill.faceBegin[1]];
+    ASSERT_GT(pieces, 0U);
+    ProjectionShapeCollector::Layers layers;
+    ProjectionShapeCollector().collect(subject.scene, layers);
+    EXPECT_EQ(countFacesOf(layers.solid), 0U);
+    EXPECT_EQ(countFacesOf(layers.translucent), pieces);
 }
 
 }  // namespace
