@@ -1394,7 +1394,7 @@ export interface ShownParts {
      */
     labels?: boolean;
     /**
-     * Whether the projection of the whole polytope shows the 2-faces that bound its cells.
+     * Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
      */
     cells?: boolean;
     /**

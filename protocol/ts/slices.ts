@@ -45,6 +45,7 @@ export interface SceneDescription {
     light: { direction: Vector; ambient: number; diffuse: number; specular: number; shininess: number };
     /**
      * Colors as 0xRRGGBB: `zero` is for the zero lines of the parallel coordinates, and `cells` has one for each cell.
+     * For a surface whose 2-faces the projection shows, it has one for each 2-face, or a single one for all.
      */
     colors: {
         background: number;

@@ -212,7 +212,10 @@ void CellPainter::updateCellColors(const slicing::Object& object, Coloring color
     if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
-        if (changed) setDirectionsToCenters(object);
+        if (changed) {
+            slicing::findCellCenters(object, directions_);
+            scaleDirections(info.circumradius);
+        }
         colorByDirection(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
     } else if (coloring == Coloring::light) {
         if (changed) setDirectionsToNormals(object);
@@ -221,13 +224,33 @@ void CellPainter::updateCellColors(const slicing::Object& object, Coloring color
     }
 }
 
-// Sets directions_ to the cells' centers, scaled so that the farthest one has length 1.
-void CellPainter::setDirectionsToCenters(const slicing::Object& object) {
-    slicing::findCellCenters(object, directions_);
+void CellPainter::updateFaceColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                                   const geometry::Rotation& orientation, std::vector<Color>& out) {
+    const geometry::ObjectInfo& info = slicing::infoOf(object);
+    const std::size_t count = coloring == Coloring::w ? slicing::elementCounts(object)[2] : 1;
+    const bool changed =
+        assignedFor_ != info.serial || coloring_ != coloring || scheme_ != scheme || out.size() != count;
+    assignedFor_ = info.serial;
+    coloring_ = coloring;
+    scheme_ = scheme;
+    out.resize(count);
+    if (coloring != Coloring::w) {
+        if (changed) out[0] = plainColor(scheme);
+        return;
+    }
+    if (changed) {
+        slicing::findFaceCenters(object, directions_);
+        scaleDirections(info.circumradius);
+    }
+    colorByDirection(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+}
+
+// Scales directions_, which are centers of cells or 2-faces, so that the longest one has length 1.
+void CellPainter::scaleDirections(double circumradius) {
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
-    // If all cell centers are at the origin, all directions become 0, and all cells get the color of w = 0.
-    const bool anyAway = farthest > 1e-9 * slicing::infoOf(object).circumradius;
+    // If all centers are at the origin, all directions become 0, and everything gets the color of w = 0.
+    const bool anyAway = farthest > 1e-9 * circumradius;
     for (glm::dvec4& center : directions_) center *= anyAway ? 1 / farthest : 0;
 }
 
@@ -241,8 +264,8 @@ void CellPainter::setDirectionsToNormals(const slicing::Object& object) {
     }
 }
 
-// Gives each cell the color of `scale` at the dot product of the cell's entry in directions_ and `axis`, a unit vector
-// in coordinates before the rotation.
+// Gives each cell or 2-face the color of `scale` at the dot product of its entry in directions_ and `axis`, a unit
+// vector in coordinates before the rotation.
 void CellPainter::colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis,
                                    std::vector<Color>& out) const {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));

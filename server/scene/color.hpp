@@ -66,16 +66,23 @@ class CellPainter {
     void updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
                           const geometry::Rotation& orientation, std::vector<Color>& out);
 
+    /// Writes the colors of the 2-faces of a surface, which has no cells, to `out`: with Coloring::w, one per 2-face,
+    /// the divergingColor() of the w of its center, as for cells; otherwise a single one for all 2-faces, plainColor().
+    /// `out` must be the vector of updateCellColors().
+    void updateFaceColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+                          const geometry::Rotation& orientation, std::vector<Color>& out);
+
   private:
-    void setDirectionsToCenters(const slicing::Object& object);
+    void scaleDirections(double circumradius);
     void setDirectionsToNormals(const slicing::Object& object);
     void colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
 
-    std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells were last colored
+    std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells or 2-faces were last colored
     Coloring coloring_ = Coloring::cell;
     Scheme scheme_ = Scheme::dark;
-    std::vector<glm::dvec4> directions_;  // per cell, before the rotation: with Coloring::w, its center divided by the
-                                          // greatest distance of a center; with Coloring::light, its unit normal
+    // Per cell or 2-face, before the rotation: with Coloring::w, its center divided by the greatest distance of a
+    // center; with Coloring::light, its unit normal.
+    std::vector<glm::dvec4> directions_;
 };
 
 }  // namespace oval4d::scene

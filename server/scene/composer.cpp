@@ -126,7 +126,12 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.axisUnits = isField ? fields::pictureUnits(*field, orientation) : fields::PictureUnits();
     out.visibilities = visibilities_;
     removeHighlightColor(out);
-    cellPainter_.updateCellColors(object, look.coloring, schemeOn(look.background), orientation, out.cellColors);
+    const Scheme scheme = schemeOn(look.background);
+    if (isSurface && look.parts.projectionFaces) {
+        cellPainter_.updateFaceColors(object, look.coloring, scheme, orientation, out.cellColors);
+    } else {
+        cellPainter_.updateCellColors(object, look.coloring, scheme, orientation, out.cellColors);
+    }
     highlight(object, objectChanged, out);
     nameSection(object, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
@@ -226,8 +231,14 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                               .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
-    // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.
-    for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
+    const auto counts = slicing::elementCounts(object);
+    const bool isSurface = counts[2] > 0 && counts[3] == 0;
+    if (!isSurface) {
+        // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.
+        for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
+    } else if (out.cellColors.size() == 1) {
+        std::ranges::fill(projection.faceCells, 0U);
+    }
     projection.fill.clear();
     if (!slicing::hasConvexFaces(object))
         filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
@@ -251,8 +262,10 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     // this radius, too (see Scene::drawnBallRadius()).
     const bool isCloud = !projection.elements.ballScale.empty();
     const double pointRadius = look.parts.balls ? ball : bar;
+    // A line of sight meets a surface less often than the 2-faces between cells, so a surface may be denser.
+    const double faceOpacity = translucent(isSurface ? 0.5 : 0.25, look);
     projection.parts.push_back({look.parts.balls || isCloud ? pointRadius : barRadius, barRadius,
-                                look.parts.balls ? styles.ball : styles.bar, styles.bar, translucent(0.25, look)});
+                                look.parts.balls ? styles.ball : styles.bar, styles.bar, faceOpacity});
     for (int i = options.firstSlice; i < options.endSlice; ++i) {
         const bool isFocus = i == focusSlice;
         const double sectionBar = (isFocus ? kSection : kThinSection) * bar;

@@ -36,15 +36,17 @@ struct ProjectionPartLook {
 /// The projection of the whole object from four to three dimensions, together with the projected sections of the object
 /// by hyperplanes.
 struct ObjectProjection {
-    slicing::SliceSet elements;             ///< the output of slicing::Projector: part 0 is the object, other parts are
-                                            ///< its sections
-    std::vector<std::uint32_t> faceCells;   ///< for each face of `elements`, the cell that determines its color
+    slicing::SliceSet elements;  ///< the output of slicing::Projector: part 0 is the object, other parts are
+                                 ///< its sections
+    /// For each face of `elements`, the index of its color in Scene::cellColors: the cell that determines the color or,
+    /// for a surface, the 2-face, or 0 if all 2-faces have one color.
+    std::vector<std::uint32_t> faceCells;
     std::vector<ProjectionPartLook> parts;  ///< for each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
     /// The filled faces of the parts whose pieces are drawn instead of their polygons: of part 0 if its polygons need
     /// not be convex, and of the section of the focus slice if Scene::fill has the faces of this slice.
     slicing::FilledFaces fill;
-    std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines its color
+    std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the index of its color, as in `faceCells`
 
     /// Returns whether the pieces of `fill` are drawn instead of the polygons of this part.
     bool drawsPieces(std::size_t part) const {
@@ -91,8 +93,10 @@ struct Scene : Layout {
     double circumradius = 1;                                ///< the object's circumradius, in the object's units
     Look look;
     Viewport viewport;
-    double scale = 1;               ///< world units per unit of the object
-    std::vector<Color> cellColors;  ///< one per cell
+    double scale = 1;  ///< world units per unit of the object
+    /// One per cell. For a surface, whose 2-faces only the projection shows: one per 2-face or one for all of them if
+    /// Parts::projectionFaces is true, else none (see CellPainter::updateFaceColors()).
+    std::vector<Color> cellColors;
     /// For each face of `slices`, the cell that determines the face's color. Empty if the list would be equal to
     /// SliceSet::faceSource.
     std::vector<std::uint32_t> faceCells;

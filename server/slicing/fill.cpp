@@ -41,6 +41,25 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
                           FilledFaces& out) {
     FilledFaces::Face face{{}, 0, slices.faceSource[begin], begin, end, 0};
     if (!findPlane(slices, slice, begin, end, face)) return;
+    if (end - begin == 1 && !isFlat(face)) {
+        fillRoughly(slices, begin, end, out);
+    } else {
+        findSides(slices, begin, end);
+        const bool known = spendSteps(sides_.size() * sides_.size());
+        if (known) findLevels();
+        if (known && spendSteps(sides_.size() * levels_.size())) {
+            face.winding = sweep(out);
+        } else {
+            fillRoughly(slices, begin, end, out);
+        }
+    }
+    if (out.cornerBegin.size() - 1 == out.pieceBegin.back()) return;
+    out.faces.push_back(face);
+    out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
+}
+
+// Sets sides_ to the sides of the loops, whose corners are points_.
+void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end) {
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - plane_.origin, plane_.x), glm::dot(p - plane_.origin, plane_.y));
     };
@@ -59,16 +78,17 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
         }
         first += size;
     }
-    const bool known = spendSteps(sides_.size() * sides_.size());
-    if (known) findLevels();
-    if (known && spendSteps(sides_.size() * levels_.size())) {
-        face.winding = sweep(out);
-    } else {
-        fillRoughly(slices, begin, end, out);
+}
+
+// Returns whether points_, the corners of `face`, lie in its plane. The tolerance is far above rounding errors, and far
+// below what can be seen.
+bool FaceFiller::isFlat(const FilledFaces::Face& face) const {
+    double size = 0, distance = 0;
+    for (const glm::dvec3& p : points_) {
+        size = std::max(size, glm::distance(p, plane_.origin));
+        distance = std::max(distance, std::abs(glm::dot(face.normal, p) - face.offset));
     }
-    if (out.cornerBegin.size() - 1 == out.pieceBegin.back()) return;
-    out.faces.push_back(face);
-    out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
+    return distance <= 1e-5 * size + 1e3 * epsilon_;
 }
 
 // Subtracts `steps` from stepsLeft_. Returns false, and subtracts nothing, if too few steps are left.

@@ -30,7 +30,7 @@ struct FilledFaces {
         double offset;
         std::uint32_t source;              ///< the source number, as in SliceSet::faceSource
         std::uint32_t firstLoop, endLoop;  ///< the face's loops: faces firstLoop … endLoop − 1 of the SliceSet
-        int winding;                       ///< the maximum of |winding number|; 0 if the face is filled roughly
+        int winding;  ///< the maximum of |winding number|; 0 if the face is filled roughly, or is not flat
     };
     std::vector<std::uint32_t> faceBegin, pieceBegin, cornerBegin;
     std::vector<Face> faces;
@@ -53,7 +53,9 @@ class FaceFiller {
     /// `steps` limits the time for all faces together: a face whose loops have n sides that cross at k points takes at
     /// most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each of its loops
     /// becomes the triangles between the sides of the loop and the mean of its corners. These triangles cover exactly
-    /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are.
+    /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are. A face whose only loop
+    /// is not flat, as of surfaces, is filled with such triangles in any case, and takes no steps: the triangles
+    /// contain the sides of the loop, so neighboring faces meet.
     std::size_t fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps = kNoLimit,
                      std::size_t count = kNoLimit);
 
@@ -92,7 +94,9 @@ class FaceFiller {
     void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, FilledFaces& out);
     bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                    FilledFaces::Face& out);
+    bool isFlat(const FilledFaces::Face& face) const;
     bool spendSteps(std::size_t steps);
+    void findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end);
     void findLevels();
     int sweep(FilledFaces& out);
     void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, FilledFaces& out) const;

@@ -69,6 +69,14 @@ void findCellCenters(const CellComplex& p, std::vector<glm::dvec4>& out) {
     }
 }
 
+void findFaceCenters(const CellComplex& p, std::vector<glm::dvec4>& out) {
+    out.assign(p.faces.size(), glm::dvec4(0));
+    for (std::size_t f = 0; f < out.size(); ++f) {
+        const auto loop = p.faces[f];
+        for (const std::uint32_t v : loop) out[f] += p.vertices[v] / static_cast<double>(loop.size());
+    }
+}
+
 // Returns the vector that is perpendicular to a, b and c, and whose length is the volume of their parallelepiped.
 glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::dvec4& c) {
     const auto minor = [&](int i, int j, int k) {
@@ -184,6 +192,12 @@ double relativeBallRadius(const Object& object) {
 
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out) {
     visitElements(Overloaded{[&](const CellComplex& complex) { findCellCenters(complex, out); },
+                             [&](const PointCloud& /*cloud*/) { out.clear(); }},
+                  object);
+}
+
+void findFaceCenters(const Object& object, std::vector<glm::dvec4>& out) {
+    visitElements(Overloaded{[&](const CellComplex& complex) { findFaceCenters(complex, out); },
                              [&](const PointCloud& /*cloud*/) { out.clear(); }},
                   object);
 }

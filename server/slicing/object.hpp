@@ -93,6 +93,9 @@ double relativeBallRadius(const Object& object);
 /// that contain the vertex. Clears `out` for a point cloud or a surface.
 void findCellCenters(const Object& object, std::vector<glm::dvec4>& out);
 
+/// Sets `out` to the center of each 2-face: the mean of its vertices. Clears `out` for a point cloud.
+void findFaceCenters(const Object& object, std::vector<glm::dvec4>& out);
+
 /// Finds the hyperplane of each cell, before any rotation: sets normals[c] to the outward normal of cell c, and
 /// offsets[c] to the dot product of this normal and any point of the cell. The length of a normal is six times the
 /// volume of the cell. If the signed volume of a cell is 0, as for some self-intersecting cells, the normal and the

@@ -81,8 +81,8 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const auto edges = static_cast<std::uint32_t>(p.edges.size());
         const auto faces = static_cast<std::uint32_t>(p.faces.size());
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
-        const bool culled = options.culled && cells > 0, drawn = options.cells && cells > 0;
-        if (culled || drawn) findFacingCells(object, orientation, projection);
+        const bool culled = options.culled && cells > 0, drawn = options.cells;
+        if (cells > 0 && (culled || drawn)) findFacingCells(object, orientation, projection);
         const CellSelection selection{culled ? &cellIsFacing_ : nullptr};
         numberElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
@@ -101,6 +101,10 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
             for (const std::uint32_t e : p.faceEdges[f]) out.cornerEdges.push_back(edgeNumber_[e]);
             out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
             out.faceSource.push_back(cells + f);
+            if (cells == 0) {
+                faceCells.push_back(f);
+                continue;
+            }
             const auto [first, second] = p.faceCells[f];
             faceCells.push_back(cellIsFacing_[second] && !cellIsFacing_[first] ? second : first);
         }

@@ -32,8 +32,9 @@ class Projector {
   public:
     struct Options {
         ProjectionToHyperplane projection;
-        /// Whether to write the 2-faces of the object, which bound the projected cells. Writes no 2-faces if the object
-        /// has no cells. The loop of a 2-face that is not convex may cross itself; FaceFiller fills it.
+        /// Whether to write the 2-faces of the object: those that bound the projected cells or, of a surface, all. The
+        /// loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat; FaceFiller
+        /// fills it.
         bool cells = false;
         /// Whether to leave out the elements that the 4-D eye cannot see. An element is visible if the eye sees the
         /// outer side of at least one cell that contains the element. Leaves out nothing if the object has no cells.
@@ -47,8 +48,9 @@ class Projector {
     /// edge or 2-face is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
     ///
     /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, this is the cell that determines
-    /// the color of the 2-face: the first of its two cells, unless only the second one is turned toward the eye. For a
-    /// face of a slice, it is the source number of the face. Overwrites `out` and `faceCells`.
+    /// the color of the 2-face: the first of its two cells, unless only the second one is turned toward the eye. If the
+    /// object has no cells, the entry is the index of the 2-face. For a face of a slice, it is the source number of the
+    /// face. Overwrites `out` and `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 

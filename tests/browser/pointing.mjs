@@ -514,6 +514,25 @@ test("pointing: faces in the hyperplane of a slice that is not convex are named 
     await close();
 });
 
+test("pointing: a face of a surface is named in the projection as the server names it", async () => {
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned();
+    const data = "4OFF\n4 1 4 0\n1 1 0 0\n-1 1 0 0\n-1 -1 0 0\n1 -1 0 0\n4 0 1 2 3\n";
+    await script.request({ type: "load", name: "square", format: "off", data, center: "origin" });
+    await script.request({ type: "reset" });
+    const shown = { balls: false, bars: false, coordinates: false, cells: true };
+    const { revision } = await script.request({ type: "set", projection: "orthogonal", shown });
+    await presented(page, revision);
+    const { scene, projection } = await picture();
+    assert.equal(scene.colors.cells.length, 1, "a surface has no cells, but its faces have a color");
+    const at = project(scene, projection.position, size).map(Math.round);
+    const { highlight } = await script.request({ type: "get", what: "at", x: at[0], y: at[1], ...size });
+    assert.deepEqual([highlight.element, highlight.number], ["face", 0]);
+    await moveTo(...at);
+    await labeled(page, /^face 0\b/i);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointing: elements are found far from the middle of the projection and of a slice", async () => {
     const settings = { polytope: "600-cell", view: "single", eye: 1.05 };
     const { page, script, errors, size, picture, moveTo, close } = await openTurned(settings);

@@ -71,6 +71,27 @@ async def test_a_surface_is_drawn_turned_projected_and_highlighted(server):
             last = picture
 
 
+async def test_the_projection_shows_the_faces_of_a_surface(server):
+    text, points = clifford_torus(12, 16)
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="torus", format="off", data=text)
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.3, 1.1])
+        pictures = []
+        for change, faces, colors in (({"projection": "orthogonal"}, 0, 0), ({"shown": {"cells": True}}, 192, 1),
+                                      ({"shown": {"back": False}}, 192, 1), ({"color": "w"}, 192, 192)):
+            await client.request("set", **change)
+            slices = await client.request("get", what="slices", **SIZE)
+            whole, section = slices["projection"]["parts"]
+            assert (len(whole["faces"]), len(section["faces"])) == (faces, 0), change
+            assert len(slices["scene"]["colors"]["cells"]) == colors, change
+            assert whole["of"]["faces"] == list(range(faces)), change
+            assert set(whole.get("tints", whole["of"]["faces"])) == set(range(colors))
+            pictures.append(png.pixels(await client.request_frame(**SIZE)))
+        plain, with_faces, without_back, colored = pictures
+        assert without_back == with_faces, "a surface has no side that the eye cannot see"
+        assert len({hash(picture) for picture in (plain, with_faces, colored)}) == 3
+
+
 async def test_a_surface_has_elements_but_no_cells(server):
     text, _ = clifford_torus(12, 16)
     async with Client(server, stream="none") as client:
@@ -234,3 +255,7 @@ def test_the_command_line_renders_and_exports_a_surface(tmp_path):
     for contents in ("coordinates", "projection", "matrix"):
         done = run_oval4d("export", *turn, "--of", contents, "-o", tmp_path / f"{contents}.svg")
         assert done.returncode == 0, done.stderr
+    for shown, polygons in (("--cells=off", 0), ("--cells=on", 192)):
+        done = run_oval4d("export", *turn, shown, "--of", "projection", "-o", tmp_path / "faces.svg")
+        assert done.returncode == 0, done.stderr
+        assert (tmp_path / "faces.svg").read_text().count("<polygon") == polygons

@@ -50,7 +50,7 @@ export class Pointing {
         if (!this.mayShowObject(revision)) return undefined;
         // A picture that the page has requested may be newer than the state, and of another object. Their numbers of
         // elements then usually differ.
-        if (polytope?.cells !== scene.colors.cells.length) return undefined;
+        if (!polytope || !hasColorsOf(polytope, scene.colors.cells.length)) return undefined;
         if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
         const vertex = hitTester.vertexInCoordinatesAt(x * ratio, y * ratio, size);
@@ -142,4 +142,9 @@ export class Pointing {
             length: a && b && Math.hypot(...a.map((value, i) => value - b[i]!)),
         };
     }
+}
+
+/** Whether a picture of this polytope may have this many colors of cells or, of a surface, of 2-faces. */
+function hasColorsOf({ cells, faces }: State["polytope"], count: number): boolean {
+    return count === cells || (cells === 0 && (count === 1 || count === faces));
 }

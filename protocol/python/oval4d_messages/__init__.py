@@ -356,7 +356,7 @@ class StateShown(_StateShown, total=False):
     """The parts of a picture that can be shown or hidden: the object "shown" in set, state and slices."""
     # Whether the w of each slice is written under it.
     labels: bool
-    # Whether the projection of the whole polytope shows the 2-faces that bound its cells.
+    # Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
     cells: bool
     # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it.
     back: bool
@@ -939,7 +939,7 @@ class ShownParts(TypedDict, total=False):
     coordinates: bool
     # Whether the w of each slice is written under it.
     labels: bool
-    # Whether the projection of the whole polytope shows the 2-faces that bound its cells.
+    # Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
     cells: bool
     # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it.
     back: bool

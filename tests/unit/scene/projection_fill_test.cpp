@@ -11,15 +11,19 @@
 #include <span>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "polytopes/import/import.hpp"
 #include "polytopes/off.hpp"
 #include "scene/composer.hpp"
+#include "slicing/slicer.hpp"
 #include "unit/slicing/support.hpp"
+#include "unit/slicing/surface_meshes.hpp"
 
 namespace {
 
@@ -41,6 +45,18 @@ Scene sceneWithProjectedCells(const polytopes::Polytope& p, const geometry::Rota
     composer.limitFaceFilling(steps);
     Scene s;
     composer.compose(support::objectOf(p), turn, slices, 0, look, {}, s);
+    s.slices = &slicing::kNoSlices;
+    return s;
+}
+
+/// Returns the scene of a surface, without its slices, that shows the projection with its 2-faces.
+Scene sceneWithProjectedSurface(const slicing::SurfacePtr& surface, const geometry::Rotation& turn, scene::Look look) {
+    look.projection.kind = ProjectionKind::perspective;
+    look.parts.projectionFaces = true;
+    slicing::SliceSet slices;
+    slicing::Slicer().sliceWithoutSurfaces(surface, turn, {-1, 3, 0.3}, slices);
+    Scene s;
+    scene::Composer().compose(surface, turn, slices, 0, look, {}, s);
     s.slices = &slicing::kNoSlices;
     return s;
 }
@@ -207,6 +223,70 @@ TEST(ProjectionFill, IsRoughBeyondTheLimitWhichItSharesWithTheSlices) {
     withoutFaces.parts.faces = false;
     EXPECT_EQ(roughFaces(sceneWithProjectedCells(p, turn, withoutFaces, ProjectionKind::orthogonal, steps)), 0);
     EXPECT_GT(roughFaces(sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, steps)), 0);
+}
+
+TEST(ProjectedSurface, HasItsFlatFacesInOneColor) {
+    std::mt19937 random(15);
+    const slicing::SurfacePtr torus = support::cliffordTorus(8, 6);
+    const Scene s = sceneWithProjectedSurface(torus, support::randomRotation(random), {});
+    EXPECT_EQ(s.projection.elements.faceCount(0), 48U);
+    EXPECT_TRUE(s.projection.fill.empty());
+    EXPECT_DOUBLE_EQ(s.projection.parts[0].faceOpacity, 0.5);
+    EXPECT_EQ(s.cellColors, std::vector{scene::plainColor()});
+    EXPECT_EQ(s.projection.faceCells, std::vector<std::uint32_t>(48, 0));
+}
+
+TEST(ProjectedSurface, IsColoredByTheWOfItsFaces) {
+    const slicing::SurfacePtr torus = support::cliffordTorus(8, 6);
+    scene::Look look;
+    look.coloring = scene::Coloring::w;
+    scene::Composer composer;
+    slicing::SliceSet slices;
+    Scene s;
+    look.projection.kind = ProjectionKind::orthogonal;
+    std::mt19937 random(16);
+    for (const bool faces : {true, false, true}) {
+        const geometry::Rotation turn = support::randomRotation(random);
+        slicing::Slicer().sliceWithoutSurfaces(torus, turn, {0, 1, 1}, slices);
+        look.parts.projectionFaces = faces;
+        composer.compose(torus, turn, slices, 0, look, {}, s);
+        ASSERT_EQ(s.cellColors.size(), faces ? 48U : 0U);
+        ASSERT_EQ(s.projection.faceCells.size(), s.cellColors.size());
+        for (std::uint32_t f = 0; f < s.cellColors.size(); ++f) {
+            EXPECT_EQ(s.projection.faceCells[f], f);
+            glm::dvec4 center(0);
+            for (const std::uint32_t v : torus->faces[f]) center += 0.25 * torus->vertices[v];
+            // All centers are equally far from the origin.
+            const scene::Color expected = scene::divergingColor(turn(center).w / glm::length(center));
+            for (const int shift : {0, 8, 16}) {
+                const auto channel = [shift](scene::Color color) { return static_cast<int>(color >> shift & 255U); };
+                EXPECT_NEAR(channel(s.cellColors[f]), channel(expected), 4) << "a step of the scale";
+            }
+        }
+    }
+}
+
+TEST(ProjectedSurface, IsFilledUpToTheSidesOfFacesThatAreNotFlat) {
+    std::mt19937 random(17);
+    const slicing::SurfacePtr bottle = support::kleinBottle(12, 8);
+    ASSERT_FALSE(bottle->convexFaces);
+    const Scene s = sceneWithProjectedSurface(bottle, support::randomRotation(random), {});
+    const slicing::FilledFaces& fill = s.projection.fill;
+    const slicing::SliceSet& elements = s.projection.elements;
+    ASSERT_EQ(fill.faces.size(), 96U);
+    ASSERT_EQ(s.projection.fillCells, std::vector<std::uint32_t>(96, 0));
+    std::size_t skew = 0;
+    for (std::uint32_t f = 0; f < 96; ++f) {
+        ASSERT_EQ(fill.faces[f].source, f);
+        const std::uint32_t begin = fill.pieceBegin[f], end = fill.pieceBegin[f + 1];
+        if (end - begin != 4) continue;
+        ++skew;
+        for (std::uint32_t i = 0; i < 4; ++i) {
+            const std::uint32_t corner = elements.corners[elements.cornerBegin[f] + i];
+            EXPECT_EQ(fill.corners[fill.cornerBegin[begin + i] + 1], elements.vertices[corner]);
+        }
+    }
+    EXPECT_GT(skew, 48U);
 }
 
 TEST(ProjectionFill, OfTheFocusSectionHasThePiecesOfItsSlice) {

@@ -150,6 +150,29 @@ TEST(FaceFiller, FillsTheFirstSlicesAndReturnsTheStepsThatAreLeft) {
     EXPECT_EQ(FaceFiller().fill(slices, 1, rough, 9), 9U) << "a face that is filled roughly takes no steps";
 }
 
+TEST(FaceFiller, FillsALoopThatIsNotFlatUpToItsSides) {
+    const std::vector<glm::dvec2> square{{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    SliceSet saddle = flat({square}, {1, 0, 0}, {0, 1, 0});
+    for (std::size_t i = 0; i < 4; ++i) saddle.vertices[i].z += i % 2 == 0 ? 0.5 : -0.5;
+    const std::size_t steps = 1000;
+    FilledFaces fill;
+    EXPECT_EQ(FaceFiller().fill(saddle, 2, fill, steps), steps) << "it takes no steps";
+    ASSERT_EQ(fill.faces.size(), 1U);
+    EXPECT_EQ(fill.faces[0].winding, 0);
+    ASSERT_EQ(fill.cornerBegin.size() - 1, 4U);
+    const glm::dvec3 middle = fill.corners[0];
+    for (std::size_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(fill.corners[3 * i], middle);
+        EXPECT_EQ(fill.corners[3 * i + 1], saddle.vertices[i]);
+        EXPECT_EQ(fill.corners[3 * i + 2], saddle.vertices[(i + 1) % 4]);
+    }
+    EXPECT_LT(glm::distance(middle, glm::dvec3(0.3, -0.2, 0.1)), 1e-12);
+    // A loop that is flat but for rounding is a single piece.
+    for (std::size_t i = 0; i < 4; ++i) saddle.vertices[i].z *= 1e-12;
+    EXPECT_LT(FaceFiller().fill(saddle, 2, fill, steps), steps);
+    EXPECT_EQ(fill.cornerBegin.size() - 1, 1U);
+}
+
 TEST(FaceFiller, LeavesAHoleBetweenOppositeLoops) {
     std::vector<glm::dvec2> inner{{-1, -1}, {-1, 1}, {1, 1}, {1, -1}};
     const std::vector<glm::dvec2> outer{{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};

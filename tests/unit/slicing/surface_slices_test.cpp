@@ -1,5 +1,6 @@
 // Slices of surfaces in R⁴.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
@@ -248,20 +249,30 @@ TEST(SurfaceSlices, AlternateWithPolytopes) {
     EXPECT_EQ(slices.cornerBegin.back(), 0U);
 }
 
-TEST(Surface, IsProjectedAsVerticesAndEdges) {
+TEST(Surface, IsProjectedWithAllItsElements) {
     const SurfacePtr torus = cliffordTorus(8, 6);
     const SliceSet slices = cut(torus, {}, {-1, 3, 0.3});
-    for (const bool culled : {false, true}) {
-        SliceSet projected;
-        std::vector<std::uint32_t> faceCells;
-        Projector().project(torus, {}, slices,
-                            {.projection = {0.2}, .cells = true, .culled = culled, .firstSlice = 0, .endSlice = 3},
-                            projected, faceCells);
-        EXPECT_EQ(projected.vertexBegin[1], 48U);
-        EXPECT_EQ(projected.edgeBegin[1], 96U);
-        EXPECT_EQ(projected.faceBegin.back(), 0U);
-        EXPECT_TRUE(faceCells.empty());
-        EXPECT_EQ(projected.vertexBegin.size(), 5U);
+    for (const bool faces : {false, true}) {
+        for (const bool culled : {false, true}) {
+            SliceSet projected;
+            std::vector<std::uint32_t> faceCells;
+            Projector().project(torus, {}, slices,
+                                {.projection = {0.2}, .cells = faces, .culled = culled, .firstSlice = 0, .endSlice = 3},
+                                projected, faceCells);
+            EXPECT_EQ(projected.vertexBegin[1], 48U);
+            EXPECT_EQ(projected.edgeBegin[1], 96U);
+            EXPECT_EQ(projected.faceBegin[1], faces ? 48U : 0U);
+            EXPECT_EQ(projected.faceBegin.back(), projected.faceBegin[1]) << "slices are curves";
+            EXPECT_EQ(projected.vertexBegin.size(), 5U);
+            ASSERT_EQ(faceCells.size(), projected.faceSource.size());
+            for (std::uint32_t f = 0; f < faceCells.size(); ++f) {
+                EXPECT_EQ(faceCells[f], f);
+                EXPECT_EQ(projected.faceSource[f], f);
+                const std::vector<std::uint32_t> loop(projected.corners.begin() + projected.cornerBegin[f],
+                                                      projected.corners.begin() + projected.cornerBegin[f + 1]);
+                EXPECT_TRUE(std::ranges::equal(loop, torus->faces[f]));
+            }
+        }
     }
 }
 
