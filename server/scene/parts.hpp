@@ -11,7 +11,7 @@ struct Parts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
     /// In the projection of the whole object: the 2-faces, which bound the projected cells or form the surface.
     bool projectionFaces = false;
-    bool back = true;          ///< in the projection: the elements that cells hide from the 4-D eye
+    bool back = true;  ///< in the projection: the elements that belong only to cells turned away from the 4-D eye
     bool allSections = false;  ///< in the projection: the sections of all slices, not only of the focus slice
     bool operator==(const Parts&) const = default;
 };

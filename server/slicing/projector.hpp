@@ -36,8 +36,10 @@ class Projector {
         /// loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat; FaceFiller
         /// fills it.
         bool cells = false;
-        /// Whether to leave out the elements that the 4-D eye cannot see. An element is visible if the eye sees the
-        /// outer side of at least one cell that contains the element. Leaves out nothing if the object has no cells.
+        /// Whether to leave out the elements that belong only to cells whose outer sides are turned away from the 4-D
+        /// eye. Of a convex object, these are exactly the elements that the eye cannot see. Of any other, the eye does
+        /// not see all that is left, because cells that face it may lie behind others. Leaves out nothing if the object
+        /// has no cells.
         bool culled = false;
         int firstSlice = 0, endSlice = 0;  ///< the slices to project are firstSlice … endSlice − 1 of the set
     };
