@@ -245,6 +245,11 @@ export interface ObjectProjection {
     /** The world position of the center of the projection: a vertex p is drawn at position + scale · p. */
     position: Vector;
     scale: number;
+    /**
+     * For a field whose surfaces are shown: the surface of the focus slice is also drawn in the projection, its point p
+     * at position + surface_scale · p. Absent otherwise.
+     */
+    surface_scale?: number;
     /** The whole object; then the section by the focus hyperplane or, if shown.sections is true, by each hyperplane. */
     parts: (Elements & ProjectionLook)[];
 }

@@ -295,18 +295,21 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
 // Draws the fog behind balls and bars. Must be called when the opaque surfaces, but no balls and bars, have been drawn.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
-    for (const std::uint32_t slice : surfaces.slicesFarToNear())
-        fogPainter->draw(scene, slice, FogPainter::FogPart::behind);
+    for (const SurfaceBatch::Place& place : surfaces.placesFarToNear()) {
+        if (!place.isProjection) fogPainter->draw(scene, place.slice, FogPainter::FogPart::behind);
+    }
 }
 
-// Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
+// Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog. The projection of
+// the whole object shows no fog.
 void Renderer::Impl::drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths) {
     surfaceProgram.load(depths, surfaces, surfaces.translucentIndices());
     std::size_t begin = 0;
-    for (std::size_t i = 0; i < surfaces.slicesFarToNear().size(); ++i) {
+    for (std::size_t i = 0; i < surfaces.placesFarToNear().size(); ++i) {
         const std::size_t end = surfaces.translucentEnds()[i];
         surfaceProgram.drawPart(begin, end);
-        fogPainter->draw(scene, surfaces.slicesFarToNear()[i], FogPainter::FogPart::in_front);
+        const SurfaceBatch::Place& place = surfaces.placesFarToNear()[i];
+        if (!place.isProjection) fogPainter->draw(scene, place.slice, FogPainter::FogPart::in_front);
         begin = end;
     }
 }

@@ -244,9 +244,10 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
     // The faces of the focus slice are already filled if they may cross each other.
     projection.fill.faceBegin.resize(projection.elements.faceBegin.size());
-    if (!out.fill.empty() && focusSlice >= options.firstSlice && focusSlice < options.endSlice) {
+    const bool hasFocus = focusSlice >= options.firstSlice && focusSlice < options.endSlice;
+    const double magnification = hasFocus ? options.projection.magnification(slices.planes.w(focusSlice)) : 1;
+    if (!out.fill.empty() && hasFocus) {
         const auto part = static_cast<std::size_t>(1 + focusSlice - options.firstSlice);
-        const double magnification = options.projection.magnification(slices.planes.w(focusSlice));
         addFillOfSection(out.fill, slices, focusSlice, magnification, part, projection);
     }
     projection.fillCells.clear();
@@ -254,6 +255,11 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         projection.fillCells.push_back(projection.faceCells[face.firstLoop]);
 
     projection.scale = out.projectionPlacement.objectRadius / out.circumradius;
+    projection.focusSurface.reset();
+    if (!out.surfaces.empty() && hasFocus) {
+        projection.focusSurface =
+            ObjectProjection::FocusSurface{static_cast<std::size_t>(focusSlice), projection.scale * magnification};
+    }
     const double ball = out.projectionPlacement.ballRadius, bar = out.projectionPlacement.barRadius;
     const Style& styles = out.style();
     projection.parts.clear();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,13 @@ struct ObjectProjection {
     /// not be convex, and of the section of the focus slice if Scene::fill has the faces of this slice.
     slicing::FilledFaces fill;
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the index of its color, as in `faceCells`
+
+    /// The surface of the focus slice of a field, at its place in the projection.
+    struct FocusSurface {
+        std::size_t slice;  ///< the index in SliceSet::surfaces
+        double scale;       ///< world units per unit of the object: as the projection magnifies the hyperplane
+    };
+    std::optional<FocusSurface> focusSurface;  ///< empty if no surfaces are drawn
 
     /// Returns whether the pieces of `fill` are drawn instead of the polygons of this part.
     bool drawsPieces(std::size_t part) const {

@@ -261,6 +261,7 @@ void SlicesMessageWriter::writeProjection(W& w, const Scene& scene) {
     w.member("eye", scene.look.projection.eye);
     writeNumbers(w, "position", {position.x, position.y, position.z});
     w.member("scale", scene.projection.scale);
+    if (scene.projection.focusSurface) w.member("surface_scale", scene.projection.focusSurface->scale);
     w.key("parts");
     list_.writeProjection(w, scene);
     w.endObject();

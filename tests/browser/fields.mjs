@@ -39,6 +39,11 @@ const views = [
     { name: "values on surfaces and caps", formula: "x^2 + y^2 - z^2 < w", values: "y", settings: { caps: "value" } },
     { name: "without caps", formula: "x^2 + y^2 - z^2 < w", settings: { caps: "open" } },
     { name: "colored by w, with a projection", formula: kTiger, settings: { color: "w", projection: "perspective" } },
+    {
+        name: "translucent levels in slices and in the projection",
+        formula: "x^2 + y^2 + z^2 + w^2",
+        settings: { levels: [0.5, 2], projection: "orthogonal" },
+    },
     { name: "a slice alone", formula: "x^2 + y^2 - z^2 < w", settings: { view: "single" } },
     { name: "the matrix view", formula: "x^2 + y^2 - z^2 < w", settings: { view: "matrix", color: "growth" } },
     { name: "contours in the matrix", formula: kTiger, settings: { view: "matrix", levels: [0, 0.1], point: [0.6, 0.7, 0.5, 0.4] } },

@@ -120,6 +120,19 @@ async def test_pentagrams_are_filled(server):
         assert set(seen["fill"]["tints"]) == set(seen["tints"])
 
 
+async def test_a_field_shows_the_surface_of_the_focus_slice_in_its_box(server):
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="ball", format="formula", data="x^2 + y^2 + z^2 + w^2 < 2")
+        await client.request("set", projection="perspective", eye=2, slices={"w": 0.5})
+        slices = await client.request("get", what="slices", **SIZE)
+        projection, radius = slices["projection"], slices["scene"]["circumradius"]
+        assert projection["surface_scale"] == pytest.approx(projection["scale"] * 2 * radius / (2 * radius - 0.5))
+        shown = png.pixels(await client.request_frame(**SIZE))
+        await client.request("set", shown={"faces": False})
+        assert "surface_scale" not in await projection_of(client)
+        assert png.pixels(await client.request_frame(**SIZE)) != shown
+
+
 async def test_a_cloud_has_points_only(server):
     text, _ = torus_points(50)
     async with Client(server, stream="none") as client:

@@ -253,6 +253,10 @@ class PovWriter {
             addBars(projection.elements, i, part);
             checkBudget();
         }
+        if (projection.focusSurface) {
+            addSurfaces(projection.focusSurface->slice,
+                        {scene_.projectionPlacement.position, projection.focusSurface->scale, 0, 0, 0, 0});
+        }
     }
 
     /// Adds the convex faces of a slice of `set`. `opacity` is the opacity of fully visible faces; `cellOf` returns the

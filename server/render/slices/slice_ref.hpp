@@ -68,8 +68,11 @@ struct SliceRef {
 class SliceTransform {
   public:
     explicit SliceTransform(const SliceRef& slice)
-        : turn_(glm::dmat3(slice.toView) * slice.scene.scale),
-          origin_(slice.toView * glm::dvec4(slice.scene.placements[slice.number].position, 1)) {}
+        : SliceTransform(slice.toView, slice.scene.placements[slice.number].position, slice.scene.scale) {}
+    /// `position` is the origin of the slice in world coordinates, and `scale` is in world units per unit of the
+    /// object.
+    SliceTransform(const glm::dmat4& toView, const glm::dvec3& position, double scale)
+        : turn_(glm::dmat3(toView) * scale), origin_(toView * glm::dvec4(position, 1)) {}
     glm::vec3 operator()(const glm::dvec3& point) const { return turn_ * glm::vec3(point) + origin_; }
 
   private:

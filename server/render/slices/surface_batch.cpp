@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <numeric>
 #include <ranges>
 #include <string>
+#include <tuple>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -34,17 +34,21 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
     if (scene.surfaces.empty() && scene.fog.empty()) return;
     projection_ = Projection::of(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
-    order_.resize(scene.placements.size());
-    std::iota(order_.begin(), order_.end(), 0U);
-    const auto depth = [&](std::uint32_t slice) {
-        return -(toView * glm::dvec4(scene.placements[slice].position, 1)).z;
-    };
-    std::ranges::sort(order_, std::greater<>(), [&](std::uint32_t slice) { return std::pair(depth(slice), slice); });
+    for (std::uint32_t slice = 0; slice < scene.placements.size(); ++slice)
+        order_.push_back({slice, scene.placements[slice].position, scene.scale, false});
+    if (scene.projectionPlacement.shown && scene.projection.focusSurface) {
+        const auto& [slice, scale] = *scene.projection.focusSurface;
+        order_.push_back({static_cast<std::uint32_t>(slice), scene.projectionPlacement.position, scale, true});
+    }
+    const auto depth = [&](const Place& place) { return -(toView * glm::dvec4(place.position, 1)).z; };
+    std::ranges::sort(order_, std::greater<>(),
+                      [&](const Place& place) { return std::tuple(depth(place), place.slice, place.isProjection); });
     if (half != DepthHalf::whole) keepHalf(scene, half);
-    const auto add = [&](std::uint32_t slice, bool opaque) {
+    const auto add = [&](const Place& place, bool opaque) {
+        const std::uint32_t slice = place.slice;
         const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
         if (!scene.placements[slice].drawn || surface.triangles.empty()) return;
-        const SliceTransform transform({*scene.slices, scene, toView, slice});
+        const SliceTransform transform(toView, place.position, place.scale);
         const glm::mat3 turn{glm::dmat3(toView)};
         points_.clear();
         normals_.clear();
@@ -59,25 +63,25 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
         }
     };
     if (!scene.surfaces.empty()) {
-        for (const std::uint32_t slice : order_ | std::views::reverse) add(slice, true);
+        for (const Place& place : order_ | std::views::reverse) add(place, true);
     }
     fringesBegin_ = opaqueIndices_.size();
     opaqueIndices_.insert(opaqueIndices_.end(), fringes_.begin(), fringes_.end());
     const bool isOpaque =
         std::ranges::all_of(scene.surfaces.levels, [](const auto& level) { return level.opacity == 1; });
-    for (const std::uint32_t slice : order_) {
-        if (!isOpaque) add(slice, false);
+    for (const Place& place : order_) {
+        if (!isOpaque) add(place, false);
         translucentEnds_.push_back(translucentIndices_.size());
     }
 }
 
 // Removes the slices that do not belong to `half` from order_.
 void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
-    const auto triangles = [&](std::uint32_t slice) {
-        return scene.placements[slice].drawn ? scene.slices->surfaces[slice].triangles.size() : 0;
+    const auto triangles = [&](const Place& place) {
+        return scene.placements[place.slice].drawn ? scene.slices->surfaces[place.slice].triangles.size() : 0;
     };
     std::size_t all = 0, farther = 0;
-    for (const std::uint32_t slice : order_) all += triangles(slice);
+    for (const Place& place : order_) all += triangles(place);
     auto middle = order_.begin();
     while (middle != order_.end() && 2 * farther < all) farther += triangles(*middle++);
     if (half == DepthHalf::near) {

@@ -28,12 +28,20 @@ class SurfaceBatch {
     /// farther slices have about half of the triangles each.
     enum class DepthHalf : std::uint8_t { whole, near, far };
 
-    /// Collects the surfaces of a scene, or of its nearer or farther slices. Afterward, opaqueIndices() has the opaque
-    /// surfaces, from the nearest slice to the farthest. If caps close a surface, opaqueIndices() omits the triangles
-    /// of this surface that face away from the eye, because the surface hides them. translucentIndices() has the
-    /// translucent surfaces, from the farthest slice to the nearest; within a slice, from the innermost level to the
-    /// outermost; and within a level, first the triangles that face away from the eye. Extends `depths` to include the
-    /// depths of the surfaces.
+    /// The place of the surfaces of a slice in the picture.
+    struct Place {
+        std::uint32_t slice;  ///< the index of the slice
+        glm::dvec3 position;  ///< the origin of the slice, in world coordinates
+        double scale;         ///< world units per unit of the object
+        bool isProjection;    ///< whether this is the focus slice in the projection of the whole object
+    };
+
+    /// Collects the surfaces of a scene, or of its nearer or farther slices. The focus slice in the projection of the
+    /// whole object counts as a further slice. Afterward, opaqueIndices() has the opaque surfaces, from the nearest
+    /// slice to the farthest. If caps close a surface, opaqueIndices() omits the triangles of this surface that face
+    /// away from the eye, because the surface hides them. translucentIndices() has the translucent surfaces, from the
+    /// farthest slice to the nearest; within a slice, from the innermost level to the outermost; and within a level,
+    /// first the triangles that face away from the eye. Extends `depths` to include the depths of the surfaces.
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of them, one pixel wide, whose opacity
     /// decreases outward to 0. Blended with what is behind them, they antialias the silhouettes.
@@ -45,10 +53,10 @@ class SurfaceBatch {
     const std::vector<std::uint32_t>& opaqueIndices() const { return opaqueIndices_; }
     std::size_t fringesBegin() const { return fringesBegin_; }
     const std::vector<std::uint32_t>& translucentIndices() const { return translucentIndices_; }
-    /// Returns the indices of the collected slices, from the farthest to the nearest. Empty if the scene has neither
+    /// Returns the places of the collected slices, from the farthest to the nearest. Empty if the scene has neither
     /// surfaces nor fog.
-    const std::vector<std::uint32_t>& slicesFarToNear() const { return order_; }
-    /// Returns, for each slice of slicesFarToNear(), the end of its triangles: an index in translucentIndices().
+    const std::vector<Place>& placesFarToNear() const { return order_; }
+    /// Returns, for each entry of placesFarToNear(), the end of its triangles: an index in translucentIndices().
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
 
   private:
@@ -68,7 +76,7 @@ class SurfaceBatch {
                           bool ofCap, std::uint32_t point, float alpha) const;
 
     Projection projection_;
-    std::vector<std::uint32_t> order_;  // slices, from the farthest to the nearest
+    std::vector<Place> order_;  // from the farthest to the nearest
     std::vector<std::size_t> translucentEnds_;
     std::vector<glm::vec3> points_, normals_;  // those of the current slice, in view coordinates
     std::vector<std::uint32_t> number_;        // per point of the slice: its index in vertices_, or kNone

@@ -72,11 +72,12 @@ interface Resources {
     buffers: Record<BufferName, { buffer: WebGLBuffer; size: number }>;
 }
 
-/** The surfaces of one slice. */
+/** The surfaces of one slice, at its place in the picture or in the projection of the whole object. */
 interface SliceSurfaces {
     slice: Slice;
     surface: Surface;
     position: Vector;
+    scale: number; // world units per unit of the object
     groups: TrianglesByLevel;
     depth: number; // the distance of the slice's origin from the eye, along the camera's axis
     firstPoint: number;
@@ -100,19 +101,27 @@ export class SurfacePainter {
         this.spare.push(...this.parts.splice(0));
         this.levels = picture.scene.surfaces ?? [];
         this.picture = undefined;
+        const { projection, scene } = picture;
         for (const slice of picture.slices) {
-            const { surface, drawn, position } = slice;
+            const { surface, drawn, position, focus } = slice;
             if (!surface || !drawn) continue;
-            const part = this.spare.pop() ?? emptySliceSurfaces(slice, surface);
-            Object.assign(part, { slice, surface, position });
-            part.groups.update(surface);
-            this.parts.push(part);
+            this.addPart(slice, surface, position, scene.scale);
+            if (focus && projection?.surface_scale !== undefined) {
+                this.addPart(slice, surface, projection.position, projection.surface_scale);
+            }
         }
         if (this.parts.length > 0) {
             this.picture = picture;
             this.upload();
         }
         return picture.scene.surfaces !== undefined;
+    }
+
+    private addPart(slice: Slice, surface: Surface, position: Vector, scale: number): void {
+        const part = this.spare.pop() ?? emptySliceSurfaces(slice, surface);
+        Object.assign(part, { slice, surface, position, scale });
+        part.groups.update(surface);
+        this.parts.push(part);
     }
 
     /** Uploads everything again, after the context has been lost and restored. */
@@ -181,7 +190,7 @@ export class SurfacePainter {
 
     /**
      * Draws the opaque surfaces, or the translucent ones from far to near: of all slices or, if `only` is given, of
-     * this slice.
+     * this slice, also in the projection.
      */
     draw(which: "opaque" | "translucent", viewCamera: ViewCamera, only?: Slice): void {
         const { gl, picture, parts } = this;
@@ -218,8 +227,8 @@ export class SurfacePainter {
     private drawSlice(part: SliceSurfaces, opaque: boolean): void {
         const { gl } = this;
         const { uniforms, buffers } = this.resources!;
-        const { position, firstPoint } = part;
-        gl.uniform4f(uniforms.place, ...position, this.picture!.scene.scale);
+        const { position, scale, firstPoint } = part;
+        gl.uniform4f(uniforms.place, ...position, scale);
         gl.bindBuffer(gl.ARRAY_BUFFER, buffers.points.buffer);
         gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 12 * firstPoint);
         gl.bindBuffer(gl.ARRAY_BUFFER, buffers.normals.buffer);
@@ -294,7 +303,8 @@ function isOpaque({ opacity }: SurfaceLevel): boolean {
 }
 
 function emptySliceSurfaces(slice: Slice, surface: Surface): SliceSurfaces {
-    return { slice, surface, position: [0, 0, 0], groups: new TrianglesByLevel(), depth: 0, firstPoint: 0, firstByte: 0 };
+    const groups = new TrianglesByLevel();
+    return { slice, surface, position: [0, 0, 0], scale: 1, groups, depth: 0, firstPoint: 0, firstByte: 0 };
 }
 
 function makeResources(gl: WebGL2RenderingContext): Resources {

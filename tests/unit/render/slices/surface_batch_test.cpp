@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -10,6 +11,9 @@
 #include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "fields/formula_field.hpp"
 #include "slicing/slicer.hpp"
@@ -62,6 +66,69 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
     EXPECT_GT(compared, triangles / 2);
     EXPECT_LT(different, compared / 100) << "corners of triangles in one wall with the normal of another";
     EXPECT_LT(used.size(), triangles) << "in a mesh, there are about half as many vertices as triangles";
+}
+
+TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionToo) {
+    auto field = fields::fieldFromFormula("test", "x^2 + y^2 + z^2 + w^2 - 2");
+    ASSERT_TRUE(field);
+    const slicing::Object object = std::make_shared<const fields::Field>(std::move(*field));
+    const geometry::Hyperplanes planes{-2, 5, 0.5};
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    const double radius = slicing::infoOf(object).circumradius;
+    slicing::SurfaceDetail detail;
+    slicing::setUniformDetail(radius, planes, slicing::Quality::draft, detail);
+    slicing::SliceSet slices;
+    slicing::Slicer().slice(object, {}, planes, look.field, detail, slices);
+    scene::Scene scene;
+    scene::Composer composer;
+    composer.compose(object, {}, slices, 1, look, {1280, 720}, scene);
+    ASSERT_TRUE(scene.projection.focusSurface);
+    const auto [slice, scale] = *scene.projection.focusSurface;
+    EXPECT_EQ(slice, 3U);
+    const double eye = look.projection.eye * radius;
+    EXPECT_NEAR(scale, scene.projection.scale * eye / (eye - 0.5), 1e-12);
+
+    SurfaceBatch batch;
+    DepthRange depths;
+    const auto clipPoints = [&] {
+        batch.collect(scene, depths);
+        std::set<std::array<float, 3>> points;
+        for (const SurfaceVertex& vertex : batch.vertices()) {
+            const bool isOuterRim = vertex.color >> 24U == 0;  // of a fringe
+            if (!isOuterRim) points.insert(std::array{vertex.clip.x, vertex.clip.y, vertex.clip.z});
+        }
+        return points;
+    };
+    const auto all = clipPoints();
+    EXPECT_EQ(batch.placesFarToNear().size(), 6U);
+    scene.projection.focusSurface.reset();
+    const auto ofSlices = clipPoints();
+    EXPECT_EQ(batch.placesFarToNear().size(), 5U);
+    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const glm::dmat4 toView = scene.camera.view();
+    std::set<std::array<float, 3>> expected;
+    for (const glm::vec3& point : slices.surfaces[3].points) {
+        const glm::dvec3 world = scene.projectionPlacement.position + scale * glm::dvec3(point);
+        const glm::vec3 clip = projection.clipXyw(glm::vec3(toView * glm::dvec4(world, 1)));
+        expected.insert(std::array{clip.x, clip.y, clip.z});
+    }
+    std::size_t added = 0;
+    for (const std::array<float, 3>& point : all) {
+        if (ofSlices.contains(point)) continue;
+        ++added;
+        const auto distance = [&](const std::array<float, 3>& other) {
+            return glm::distance(glm::vec3(other[0], other[1], other[2]), glm::vec3(point[0], point[1], point[2]));
+        };
+        if (added % 16 == 1) {
+            EXPECT_LT(distance(*std::ranges::min_element(expected, {}, distance)), 1e-3F);
+        }
+    }
+    EXPECT_GT(added, expected.size() / 4) << "about half of the points are on the side toward the eye";
+
+    look.parts.faces = false;
+    composer.compose(object, {}, slices, 1, look, {1280, 720}, scene);
+    EXPECT_FALSE(scene.projection.focusSurface);
 }
 
 }  // namespace
