@@ -215,7 +215,7 @@ class Client:
         return self.request("set", **settings)
 
     def restore(self, source) -> Done:
-        """Shows the state in a picture that oval4d has made, but does not start turning. `source` is the path of a PNG
+        """Shows the state in a picture that oval4d has made, but starts no motion. `source` is the path of a PNG
         file or of a state as JSON, the bytes of either, or a state as a dict. Raises ValueError if it has no state."""
         if isinstance(source, (str, os.PathLike)):
             with open(source, "rb") as file:
@@ -227,7 +227,7 @@ class Client:
         if not isinstance(state, dict) or state.get("type") != "state":
             raise ValueError('not a state of oval4d, whose "type" is "state"')
         settings = {name: value for name, value in state.items() if name not in ("type", "id")}
-        return self.request("set", **settings | {"turning": False})
+        return self.request("set", **settings | {"turning": False, "playing": False})
 
     def open_address(self, query: str) -> Done:
         """Shows the view that the query of an address describes, such as "polytope=24-cell&rotate=xw:0.3"."""

@@ -364,7 +364,7 @@ export interface RedoRequest {
     id?: number;
 }
 /**
- * Restores the initial orientation and focus, and stops continuous turning. All other settings stay the same.
+ * Restores the initial orientation and focus, and stops continuous turning and playing. All other settings stay the same.
  */
 export interface ResetRequest {
     type: "reset";
@@ -537,6 +537,14 @@ export interface SetRequest {
      * Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each step is a revision.
      */
     turning?: boolean;
+    /**
+     * Whether the focus moves from the lowest w of the object to the highest and back, again and again, in at most 60 steps per second; each step is a revision. Ended by whatever else sets `focus`, `offset`, `w` or `point`, by another object, and by `reset`.
+     */
+    playing?: boolean;
+    /**
+     * The speed of `playing`: at 1, the focus moves from one end to the other in 8 seconds, at 2 in 4 seconds.
+     */
+    speed?: number;
     /**
      * Which parts are drawn.
      */
@@ -1192,7 +1200,7 @@ export interface State {
      */
     point: [number, number, number, number];
     /**
-     * Whether the polytope moves without further commands: it turns continuously, or an element is on its way to +w.
+     * Whether something moves without further commands: the polytope turns continuously, an element is on its way to +w, or the focus plays.
      */
     moving: boolean;
     /**
@@ -1275,6 +1283,14 @@ export interface State {
      * Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each step is a revision.
      */
     turning: boolean;
+    /**
+     * Whether the focus moves from the lowest w of the object to the highest and back, again and again, in at most 60 steps per second; each step is a revision. Ended by whatever else sets `focus`, `offset`, `w` or `point`, by another object, and by `reset`.
+     */
+    playing: boolean;
+    /**
+     * The speed of `playing`: at 1, the focus moves from one end to the other in 8 seconds, at 2 in 4 seconds.
+     */
+    speed: number;
     color: Coloring;
     background: Background;
     /**

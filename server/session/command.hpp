@@ -131,6 +131,7 @@ struct Set {
     std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:
                                            ///< like `focusW`, but ignored if `focus`, `offset` or `focusW` is present
     std::optional<bool> turning;           ///< whether the object turns continuously
+    std::optional<bool> playing;           ///< State::playing
     std::optional<std::vector<double>> levels;                 ///< FieldSettings::levels; for fields only
     std::optional<fields::Inside> inside;                      ///< FieldSettings::inside; for fields only
     std::optional<std::vector<slicing::FogControlPoint>> fog;  ///< FieldSettings::fog; for fields only

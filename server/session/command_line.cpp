@@ -226,6 +226,23 @@ Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const
     return Command{C{}};
 }
 
+// "play" begins to move the focus to and fro; "play 2" does so at the speed 2.
+Result<Command> playLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+    Set set;
+    if (!rest.empty()) {
+        if (auto done = parseSetting("speed", rest, set); !done) return done.error();
+    }
+    set.playing = true;
+    return Command{std::move(set)};
+}
+
+Result<Command> pauseLine(std::string_view rest, const Words& words, const State& state) {
+    if (auto valid = noArguments<Set>(rest, words, state); !valid) return valid.error();
+    Set set;
+    set.playing = false;
+    return Command{std::move(set)};
+}
+
 // A command of the page's command line: its name, and the function that parses the rest of the line.
 struct Verb {
     std::string_view name;
@@ -238,6 +255,8 @@ constexpr auto kVerbs = std::to_array<Verb>(
      {"toward", towardLine},
      {"view", [](std::string_view rest, const Words&, const State&) { return oneSetting("view", rest); }},
      {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
+     {"play", playLine},
+     {"pause", pauseLine},
      {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
      {"project", [](std::string_view rest, const Words&, const State&) { return oneSetting("projection", rest); }},
      {"highlight", highlightLine},

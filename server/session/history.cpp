@@ -23,10 +23,11 @@ bool isSameStep(const State& a, const State& b) {
     return compared == b;
 }
 
-// Returns whether the change from `before` to `next` is a step of its own. The end of continuous turning belongs to the
-// step that started it.
+// Returns whether the change from `before` to `next` is a step of its own. The end of continuous turning, and that of
+// playing, belong to the step that started them.
 bool isNewStep(State before, const State& next) {
     before.turning = before.turning && next.turning;
+    before.playing = before.playing && next.playing;
     return !isSameStep(before, next);
 }
 
@@ -97,6 +98,7 @@ void replaceCurrent(Session& session, State next, const Limits& limits) {
 void commit(Session& session, State next, const Limits& limits) {
     if (next == session.current) return;
     if (isNewStep(session.current, next)) {
+        session.current.playing = session.current.playing && next.playing;
         addStep(session.undoSteps, session.current);
         while (session.undoSteps.size() > limits.maxUndo) session.undoSteps.pop_front();
         session.redoSteps.clear();

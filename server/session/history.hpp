@@ -17,8 +17,9 @@ namespace oval4d::session {
 //   - Undo followed by redo restores the current state, and so does redo followed by undo.
 
 /// Makes `next` the current state and increases the revision. Adds an undo step and removes all redo steps, unless
-/// `next` differs only by a camera move or by the end of continuous turning. Then removes the oldest undo steps until
-/// the history is within `limits`. Does nothing if `next` equals the current state.
+/// `next` differs only by a camera move or by the end of continuous turning or of playing. If something else has ended
+/// the playing, undo does not begin it again. Then removes the oldest undo steps until the history is within `limits`.
+/// Does nothing if `next` equals the current state.
 void commit(Session& session, State next, const Limits& limits);
 
 /// Like commit(), but `next` becomes a part of the last undo step: undo returns to the state before that step. If there

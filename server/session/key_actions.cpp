@@ -23,7 +23,10 @@ using VoidResult = Result<std::monostate>;
 
 constexpr double kSpacingFactor = 1.1;
 
-void moveFocus(State& state, int to) { state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus); }
+void moveFocus(State& state, int to) {
+    state.slices.focus = std::clamp(to, -kMaxFocus, kMaxFocus);
+    state.playing = false;
+}
 
 // Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. The
 // slices of a point cloud have a thickness, so for a cloud, returns the indices of the hyperplanes that are nearest to
@@ -97,6 +100,7 @@ std::vector<Action> ownActions() {
              c.state.ongoingTurnToward.reset();
              return std::monostate{};
          }},
+        {"play", always<[](ActionContext& c) { c.state.playing = !c.state.playing; }>},
         {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
         {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
         {"focus_zero", always<[](ActionContext& c) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <random>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -75,6 +76,19 @@ std::optional<geometry::Turn> turnOfStep(const State& before, const State& curre
     return whole.turn();
 }
 
+// Moves the focus to and fro for `seconds`; State::playing must be true.
+void moveFocusToAndFro(State& state, double seconds) {
+    const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
+    const double distance = state.playSpeed * seconds * (most - least) / kSecondsFromEndToEnd;
+    const double w = state.focusW() + (state.playsDownward ? -distance : distance);
+    moveFocusTo(state, std::clamp(w, least, most));
+    if (w >= most) {
+        state.playsDownward = true;
+    } else if (w <= least) {
+        state.playsDownward = false;
+    }
+}
+
 // Returns whether a parameter of a query describes the connection or the size of a picture, not the view.
 bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
@@ -137,6 +151,7 @@ class OutcomeOfCommand {
             if (slicing::infoOf(before.object).circumradius == slicing::infoOf(next.object).circumradius) {
                 next.look.focusPoint = before.look.focusPoint;
                 next.slices = before.slices;
+                next.playing = before.playing;
             }
         }
         outcome.loaded->insert_or_assign(command.name, reading->object);
@@ -398,7 +413,10 @@ std::size_t ownObjectMemory(const Session& session) {
 
 void advance(Session& session, double seconds) {
     State& state = session.current;
-    const auto before = std::pair(state.orientation, state.ongoingTurnToward);
+    const auto moving = [&state] {
+        return std::tuple(state.orientation, state.ongoingTurnToward, state.slices, state.playsDownward);
+    };
+    const auto before = moving();
     if (state.ongoingTurnToward) {
         auto& [goal, left] = *state.ongoingTurnToward;
         if (seconds < left) {
@@ -413,7 +431,8 @@ void advance(Session& session, double seconds) {
         state.orientation =
             geometry::Rotation(state.lastTurn->scaled(kRotationRepeatsPerSecond * seconds)) * state.orientation;
     }
-    if (before != std::pair(state.orientation, state.ongoingTurnToward)) ++session.revision;
+    if (state.playing) moveFocusToAndFro(state, seconds);
+    if (before != moving()) ++session.revision;
 }
 
 }  // namespace oval4d::session

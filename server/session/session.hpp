@@ -67,6 +67,7 @@ void visitStoredMembers(serialization::ReadOrWritten<OngoingTurnToward> auto& tu
 struct State {
     static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};  ///< of alpha and beta
     static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};                    ///< of step
+    static constexpr geometry::Range kPlaySpeedRange{1.0 / 16, 16};                             ///< of playSpeed
 
     slicing::Object source;  ///< the object as it was built or loaded; never null
     geometry::ReferenceFrame referenceFrame;
@@ -81,6 +82,11 @@ struct State {
     /// The motion that TurnToward has started; advance() continues it until it ends. Empty if there is none, and always
     /// empty while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
+    /// Whether the focus moves to and fro between the lowest and the highest w of the object, by advance(). Whatever
+    /// else sets the focus or the offset ends this.
+    bool playing = false;
+    bool playsDownward = false;  ///< the direction in which the focus moves, or moves when `playing` becomes true
+    double playSpeed = 1;        ///< at the speed 1, the focus moves from end to end in kSecondsFromEndToEnd
 
     /// Returns pointers to `source` and `object`. Both hold the same object if `referenceFrame` is the default.
     std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
@@ -92,13 +98,15 @@ struct State {
     glm::dvec4 focusPointInFile() const {
         return slicing::infoOf(object).originInFile + glm::dvec4(look.focusPoint, focusW());
     }
-    /// Returns whether the object moves without further commands: continuously, or toward an element.
-    bool isMoving() const { return turning || ongoingTurnToward; }
+    /// Returns whether the object or the focus moves without further commands: the object continuously or toward an
+    /// element, or the focus to and fro.
+    bool isMoving() const { return turning || ongoingTurnToward || playing; }
     bool operator==(const State&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<State> auto& state, auto& visit) {
     // `object` is not stored, because it can be computed from `source` and `frame`.
-    auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing] = state;
+    auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing, playing,
+           playsDownward, playSpeed] = state;
     visit.object(0, source);
     visit.rotation(1, orientation);
     visit.array(3, [&state](auto& angles) {
@@ -112,6 +120,9 @@ void visitStoredMembers(serialization::ReadOrWritten<State> auto& state, auto& v
     visit.member(7, lastTurn);
     visit.addedMember(8, ongoing);
     visit.addedMember(9, frame);
+    visit.addedMember(10, playing);
+    visit.addedMember(11, playsDownward);
+    visit.addedMember(12, playSpeed, State::kPlaySpeedRange);
 }
 
 /// Returns the initial state of a session: the 5-cell in the position that it has in Kageyama's paper.
@@ -168,17 +179,19 @@ bool needsLoading(const Session& session, const Command& command, const Limits& 
 
 /// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is
 /// refused ends the sequence to which it belongs (see Session::pendingKey). Every change adds an undo step, except
-/// moves of the camera, the end of continuous turning, commands with `continues`, and added time steps; see
-/// history.hpp. `loader` builds polytopes and reads files. If it has Mode::deferred, needsLoading() must have returned
-/// false for this session, this command and this loader.
+/// moves of the camera, the end of continuous turning or of playing, commands with `continues`, and added time steps;
+/// see history.hpp. `loader` builds polytopes and reads files. If it has Mode::deferred, needsLoading() must have
+/// returned false for this session, this command and this loader.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kRotationRepeatsPerSecond = 6;
-/// Continues the motion of the object by `seconds`: continuous turning, or a turn toward an element, which ends at its
-/// goal. Adds no undo step, because one undo step covers the whole motion. Increases the revision only if the
-/// orientation or the remaining turn changes: not if the object is at rest, if it turns by the angle 0, or if the step
-/// is lost to rounding.
+/// How long the focus takes from the lowest w of the object to the highest, if State::playSpeed is 1.
+inline constexpr double kSecondsFromEndToEnd = 8;
+/// Continues the motion by `seconds`: continuous turning, or a turn toward an element, which ends at its goal; and then
+/// playing, between the ends of the turned object. A focus beyond an end moves to the end, where it turns back. Adds no
+/// undo step, because one undo step covers the whole motion. Increases the revision only if the state changes: not if
+/// everything is at rest, if the object turns by the angle 0, or if the step is lost to rounding.
 void advance(Session& session, double seconds);
 
 }  // namespace oval4d::session

@@ -130,6 +130,9 @@ void forEachSetting(const Visitor& visit) {
     const auto look = &State::look;
     visitPlain({"view"}, at(look, &Look::view), AcceptsAnyValue{});
     visitWithOwnCode({"turning"}, &Set::turning, NotInState{}, never);
+    visitWithOwnCode({"playing"}, &Set::playing, NotInState{}, never);
+    visitPlain({"speed"}, at(&State::playSpeed),
+               NumberInRange{"the speed", State::kPlaySpeedRange, "", {.perDoubling = 1}});
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     visitPlain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),

@@ -89,6 +89,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         }
         state.slices.focus = *set.focus;
     }
+    if (set.focus || set.offset || set.focusW || set.focusPoint) state.playing = false;
     const double reach = kMaxOffset * radius;
     const glm::dvec4& origin = slicing::infoOf(state.object).originInFile;
     const auto around = [&](double middle) { return geometry::Range{middle - reach, middle + reach}; };
@@ -185,6 +186,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     state.slices.spacing =
         std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
     state.ongoingTurnToward.reset();
+    state.playing = false;
     const fields::Field* field = slicing::fieldIn(object);
     const fields::Field* const before = slicing::fieldIn(state.source);
     const bool hasSecond = field != nullptr && field->second, hadSecond = before != nullptr && before->second;
@@ -207,7 +209,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
 
 void returnToInitialOrientation(State& state) {
     state.orientation = {};
-    state.turning = false;
+    state.turning = state.playing = false;
     state.ongoingTurnToward.reset();
 }
 
@@ -290,6 +292,7 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
         }
         state.look.highlight = *set.highlight;
     }
+    state.playing = set.playing.value_or(state.playing);
     state.turning = set.turning.value_or(state.turning);
     if (set.turning) state.ongoingTurnToward.reset();
     if (state.turning && !state.lastTurn) {
@@ -412,7 +415,10 @@ Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoad
         const double same = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
         w = slicing::nextCriticalW(**sections, state.focusW(), upward, same);
     }
-    if (w) moveFocusTo(state, *w);
+    if (w) {
+        moveFocusTo(state, *w);
+        state.playing = false;
+    }
     return std::monostate{};
 }
 

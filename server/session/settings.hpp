@@ -18,7 +18,7 @@ bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
 
 /// Replaces State::source by `source`, and State::object accordingly; does nothing if State::source is already this
 /// object. Keeps the frame of reference, the orientation, and the ratio of the spacing to
-/// slicing::initialSliceExtent(). Ends a turn toward an element. Sets back the settings that are
+/// slicing::initialSliceExtent(). Ends a turn toward an element, and playing. Sets back the settings that are
 /// ResetOccasion::by_another_object or ResetOccasion::by_reset_or_another_object; the levels of a field, and which side
 /// of them is inside, become those of the new field. If only the new object has a second function, sets
 /// Coloring::value; if only the old object has one, replaces Coloring::value by Coloring::cell. Error: that of

@@ -186,6 +186,7 @@ void writeState(std::string& out, const session::State& state, const slicing::Se
     w.member("vertices", section.vertices);
     w.endObject();
     w.member("turning", state.turning);
+    w.member("playing", state.playing);
     w.member("moving", state.isMoving());
     writeSettings(w, state);
     writeLastTurn(w, state.lastTurn);

@@ -37,7 +37,7 @@ async function outcome(script, initial, { action, needs }, act) {
 test("buttons: each button does what its key does", async () => {
     const { page, script, errors, close } = await openWithScript();
     const initial = await script.state();
-    for (const binding of table.filter(({ client, action }) => !client && action !== "turn")) {
+    for (const binding of table.filter(({ client, action }) => !client && action !== "turn" && action !== "play")) {
         const { key, ctrl = false, action, name, shift } = binding;
         for (const inverse of shift === "inverse" ? [false, true] : [false]) {
             const byKey = await outcome(script, initial, binding, async () => {
@@ -69,6 +69,18 @@ test("buttons: the turn button starts and stops turning, and shows whether the p
     await button.click();
     await script.until((one) => !one.turning, "the turning to stop");
     await page.waitForSelector('[data-action="turn"][aria-pressed="false"]');
+    await close();
+});
+
+test("buttons: the play button starts and stops playing, and shows whether the focus plays", async () => {
+    const { page, script, close } = await openWithScript();
+    const button = page.locator('[data-action="play"]');
+    await button.click();
+    await script.until((one) => one.playing && one.section.w > 0, "the playing to begin");
+    await page.waitForSelector('[data-action="play"][aria-pressed="true"]');
+    await button.click();
+    await script.until((one) => !one.playing, "the playing to stop");
+    await page.waitForSelector('[data-action="play"][aria-pressed="false"]');
     await close();
 });
 
@@ -230,7 +242,7 @@ test("buttons: a link and a script open the view elsewhere", async () => {
 test("buttons: what turns, cuts and shows the polytope is visible without scrolling", async () => {
     const { page, script, close } = await openWithScript({ viewport: { width: 1440, height: 900 } });
     const { keys } = await script.request({ type: "get", what: "keymap" });
-    const below = ["highlight", "camera", "files", "client"];
+    const below = ["play", "highlight", "camera", "files", "client"];
     for (const { action, group } of keys.filter((key) => !below.includes(key.group))) {
         for (const button of await page.locator(`[data-action=${action}]`).all()) {
             const { y, height } = await button.boundingBox();

@@ -2,13 +2,10 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
-import { idle, openWithScript, presented, stateAfter } from "./support/browser.mjs";
+import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { type } from "./support/command_line.mjs";
-import { passTime } from "./support/page_time.mjs";
 
 const kSlider = "#focus-w";
-const kRest = 200; // milliseconds without a turn after which the page requests the exact marks
-const kSweepTime = 8; // seconds from one end of the slider to the other
 const kGolden = (1 + Math.sqrt(5)) / 2;
 
 /** The distinct w of the 600-cell's vertices with a vertex toward +w, in circumradii (Coxeter, table V(iii)). */
@@ -21,7 +18,6 @@ async function openSlider(options) {
     await opened.script.request({ type: "set", polytope: "600-cell" });
     const { revision } = await opened.script.request({ type: "toward", element: "vertex", immediately: true });
     await presented(opened.page, revision);
-    if (options?.isStopped) await passTime(opened.page, kRest);
     // The exact values replace the rounded ones.
     await opened.page.waitForFunction(
         (most) => Math.abs(document.getElementById("focus-w").max - most) < 1e-12,
@@ -57,8 +53,7 @@ const near = (actual, expected, tolerance = 1e-9) => Math.abs(actual - expected)
 const partOf = (w) => (w / kRadius + 1) / 2;
 const valueOf = (page) => page.locator(kSlider).evaluate((one) => one.valueAsNumber);
 const untilAt = (script, w, tolerance, what) => script.until(({ section }) => near(section.w, w, tolerance), what);
-const isPlaying = async (page) => (await page.getAttribute("#focus-play", "aria-pressed")) === "true";
-const play = (page) => page.click("#focus-play");
+const untilPlaying = (page, isOn = true) => page.waitForSelector(`#focus-play[aria-pressed=${isOn}]`);
 
 /** Waits until the slider stands at this w. */
 const untilSliderAt = (page, w) =>
@@ -266,77 +261,54 @@ test("slider: follows keys, undo and other clients", async () => {
     await close();
 });
 
-/** Lets time pass in small steps, as when the page is drawn smoothly. */
-async function passFrames(page, seconds) {
-    const kStep = 50; // milliseconds, less than the page's longest step
-    const steps = Math.round((1000 * seconds) / kStep);
-    await page.evaluate(
-        async ([count, step]) => {
-            for (let i = 0; i < count; ++i) {
-                await window.passTime(step);
-                await new Promise((resolve) => requestAnimationFrame(resolve));
-            }
-        },
-        [steps, kStep],
-    );
-}
-
-test("slider: Play moves the focus to and fro until it is pressed again, and never by itself", async () => {
-    const { page, script, errors, close } = await openSlider({ isStopped: true });
-    await passFrames(page, 1);
-    assert.ok(!(await isPlaying(page)) && near((await stateAfter(page, script)).section.w, 0));
+test("slider: Play moves the focus to and fro until it is pressed again, at the speed that is chosen", async () => {
+    const { page, script, errors, close } = await openSlider();
+    await script.request({ type: "set", slices: { w: 0.95 * kRadius } });
+    await untilSliderAt(page, 0.95 * kRadius);
     assert.equal(await page.locator("#focus-speed").inputValue(), "1");
     await page.focus("#drawing");
-    await play(page);
-    assert.ok(await isPlaying(page));
+    await page.click("#focus-play");
+    await untilPlaying(page);
     assert.equal((await page.locator("#focus-play").innerText()).trim(), "Pause");
     await page.waitForSelector("#drawing:focus"); // a click leaves the focus
-    const perSecond = (2 * kRadius) / kSweepTime;
-    await passFrames(page, 1);
-    await untilAt(script, perSecond, 1e-6, "moving up");
-    await page.selectOption("#focus-speed", "2");
-    await passFrames(page, 1);
-    await untilAt(script, 3 * perSecond, 1e-6, "moving up twice as fast");
-    await passFrames(page, 0.5);
-    await untilAt(script, kRadius, 1e-6, "the top");
-    await passFrames(page, 1);
-    await script.until((one) => one.section.w < 0.9 * kRadius, "moving down");
-    await play(page);
-    assert.ok(!(await isPlaying(page)));
+    await page.selectOption("#focus-speed", "4");
+    await script.until(({ playing, speed }) => playing && speed === 4, "the speed");
+    await script.until(({ section }) => section.w < 0.9 * kRadius, "the way back from the top");
+    await page.click("#focus-play");
+    await untilPlaying(page, false);
     assert.equal((await page.locator("#focus-play").innerText()).trim(), "Play");
-    const { revision } = await stateAfter(page, script);
-    await passFrames(page, 1);
-    assert.equal((await stateAfter(page, script)).revision, revision, "nothing moves any more");
+    const { section, playing } = await stateAfter(page, script);
+    assert.equal(playing, false);
+    await untilSliderAt(page, section.w);
     assert.deepEqual(errors, []);
     await close();
 });
 
-/**
- * Runs in the page: holds its moves of the focus back while `window.isHeld`. The page sends a move when the one before is
- * answered, so once it holds one, none is on its way to the server.
- */
-function holdMoves() {
-    const { send } = WebSocket.prototype;
-    const held = [];
-    WebSocket.prototype.send = function (text) {
-        if (window.isHeld && JSON.parse(text).slices) held.push(() => send.call(this, text));
-        else send.call(this, text);
-    };
-    window.holdsMove = () => held.length > 0;
-    window.release = () => {
-        window.isHeld = false;
-        held.splice(0).forEach((sendNow) => sendNow());
-    };
-}
+test("slider: Play and its speed follow keys and other clients", async () => {
+    const { page, script, close } = await openSlider();
+    const shownSpeed = (text) =>
+        page.waitForFunction((wanted) => {
+            return document.getElementById("focus-speed").selectedOptions[0]?.textContent === wanted;
+        }, text);
+    await script.request({ type: "command", line: "play 3/2" });
+    await untilPlaying(page);
+    await shownSpeed("1.5×");
+    await page.locator("#drawing").press("Shift+F");
+    await script.until(({ speed }) => speed > 1.5, "the next power of two");
+    await script.request({ type: "set", speed: 2 });
+    await shownSpeed("2×");
+    await page.locator("#drawing").press("Shift+P");
+    await untilPlaying(page, false);
+    await close();
+});
 
 /** The w of the focus slice, with the decimals that the page shows. */
 function shownW({ section, slices }) {
     return section.w.toFixed(Math.max(2, Math.ceil(-Math.log10(slices.spacing)) + 1));
 }
 
-test("slider: playing stops at a drag, a key that moves the focus, another client, an export, or when the page is hidden", async () => {
-    const { page, script, close } = await openSlider({ isStopped: true, before: holdMoves });
-    const stopped = () => page.waitForSelector("#focus-play[aria-pressed=false]");
+test("slider: playing stops at a drag, a key that moves the focus, a click, another client, and an export", async () => {
+    const { page, script, close } = await openSlider();
     const ways = {
         async drag() {
             const [x, y] = await pointAt(page, 0.3);
@@ -345,22 +317,10 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         "arrow key": () => page.locator(kSlider).press("ArrowLeft"),
         key: () => page.locator("#drawing").press("h"),
         "click on a slice": () => page.click("#drawing", { position: { x: 60, y: 60 } }),
-        async script() {
-            // The page sees only the newest state, so a move of its own could hide one of another client.
-            await page.evaluate(() => (window.isHeld = true));
-            await page.waitForFunction(() => window.holdsMove());
-            await script.request({ type: "set", slices: { w: -2 } });
-            await stopped();
-            await page.evaluate(() => window.release());
-        },
+        script: () => script.request({ type: "set", slices: { w: -2 } }),
         async export() {
-            await page.evaluate(() => {
-                window.isHeld = true;
-                return window.passTime(100); // so that the move on its way leads to another w
-            });
-            await page.waitForFunction(() => window.holdsMove());
             await page.click("#export-button");
-            await page.evaluate(() => window.release());
+            await untilPlaying(page, false);
             const w = shownW(await stateAfter(page, script)).replace("-", "\u2212");
             await page.waitForSelector(`#export-focus:text-is("w = ${w}")`);
             await page.keyboard.press("Escape");
@@ -368,25 +328,19 @@ test("slider: playing stops at a drag, a key that moves the focus, another clien
         async "export command"() {
             const saving = page.waitForEvent("download");
             await type(page, "export stl");
-            await stopped();
+            await untilPlaying(page, false);
             const w = shownW(await stateAfter(page, script));
             assert.equal((await saving).suggestedFilename(), `600-cell-w-${w}.stl`);
         },
-        hidden: () =>
-            page.evaluate(() => {
-                Object.defineProperty(document, "hidden", { value: true, configurable: true });
-                document.dispatchEvent(new Event("visibilitychange"));
-            }),
     };
     for (const [name, stop] of Object.entries(ways)) {
         const { section } = await script.state();
-        await play(page);
-        await passFrames(page, 0.2);
-        await script.until((one) => one.section.w !== section.w, "playing");
-        assert.ok(await isPlaying(page), name);
+        await page.click("#focus-play");
+        await untilPlaying(page);
+        await script.until((one) => one.playing && one.section.w !== section.w, `${name}: playing`);
         await stop();
-        await stopped().catch((error) => assert.fail(`${name}: ${error.message}`));
-        await idle(page);
+        await untilPlaying(page, false).catch((error) => assert.fail(`${name}: ${error.message}`));
+        assert.equal((await stateAfter(page, script)).playing, false, name);
     }
     await close();
 });

@@ -254,6 +254,7 @@ inline void requireRoundTrip(const session::State& state, const session::LoadedO
             "an object and its frame of reference survive");
     other.current.object = state.object;  // an equal image, made anew
     if (!state.lastTurn) other.current.lastTurn.reset();
+    other.current.playsDownward = state.playsDownward;  // which a message does not contain
     require(other.current == state, "a state survives:", text);
 }
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 SCHEMA = Path(__file__).parents[2] / "protocol/schema"
 
-# Members of a state that no command sets as such: `field` and `turning` follow from the object and the motion, and
-# `last` from the rotations.
-FOLLOWING = {"field", "turning", "last"}
+# Members of a state that no command sets as such: `field`, `turning` and `playing` follow from the object and the
+# motion, and `last` from the rotations.
+FOLLOWING = {"field", "turning", "playing", "last"}
 
 
 def properties(schema):

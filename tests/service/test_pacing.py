@@ -81,6 +81,22 @@ async def test_continuous_turning_is_one_undo_step(server):
             [0.9961946980917455, 0, 0, -0.08715574274765817])
 
 
+async def test_all_clients_see_the_focus_play_and_undo_returns_to_its_start(server):
+    async with Client(server, stream="geometry") as one, Client(server, stream="geometry", **credentials_of(one)) as two:
+        await one.request("set", polytope="24-cell", slices={"w": 0.1})
+        await one.request("command", line="play 2")
+        for client in (one, two):
+            playing = await client.wait_until(
+                lambda: next((s for s in client.states() if s["playing"] and s["section"]["w"] > 0.5), None))
+            assert playing["moving"] and playing["speed"] == 2
+        await two.request("key", key="P")
+        stopped = await one.request("get", what="state")
+        assert not stopped["playing"] and not stopped["moving"]
+        await two.request("undo")
+        undone = await one.request("get", what="state")
+        assert undone["section"]["w"] == pytest.approx(0.1) and not undone["playing"]
+
+
 async def test_continuous_turning_waits_for_acknowledgments():
     with Server("--shown-timeout", LONG_TIME) as server:
         async with Client(server, stream="geometry", acknowledges=False) as client:

@@ -120,6 +120,7 @@ export class App {
     );
     private readonly slider: FocusSlider = new FocusSlider(this.client, {
         pressKey: (key, held) => this.keyboard.send({ key, shift: false, ctrl: false }, held),
+        send: (command) => void this.send(command),
         failed: (error) => this.notice.show(error.message),
     });
     private readonly frameMatrixCache = new FrameMatrixCache(this.client, this.stage);
@@ -184,7 +185,7 @@ export class App {
         (error) => this.notice.show(error.message),
     );
     private readonly fileLoading = new FileLoading(this.client, (state) =>
-        this.request({ ...state, type: "set", turning: false }),
+        this.request({ ...state, type: "set", turning: false, playing: false }),
     );
     private readonly sharing = new Sharing(this.client, this.notice);
     private readonly fieldPanel = new FieldPanel({
@@ -200,7 +201,6 @@ export class App {
     );
     private readonly keyboard: Keyboard = new Keyboard(this.keyRepeatLimiter, {
         send: (command) => void this.send(command),
-        focusMoves: () => this.slider.stop(),
         escape: (event) => this.escape(event),
         camera: (action) => this.orbit.perform(action),
         page: {

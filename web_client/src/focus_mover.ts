@@ -3,8 +3,6 @@
 
 import type { Client, State } from "@oval4d/protocol";
 
-const kSame = 1e-6; // values of w count as equal if they differ by at most this fraction of the distance between slices
-
 interface FocusAtRevision {
     w: number;
     revision: number;
@@ -47,14 +45,9 @@ export class FocusMover {
         this.isUnsent = false;
     }
 
-    /**
-     * Records the focus in the newest state. Returns whether something other than this class has moved the focus to
-     * where it is; false for a state that is older than the last answered move.
-     */
-    recordAndCheckIfMovedElsewhere({ revision, section: { w }, slices }: State): boolean {
+    /** Follows the focus of the session. */
+    update({ revision, section: { w } }: State): void {
         this.seen = { w, revision };
-        const isSame = (other = NaN): boolean => Math.abs(w - other) <= kSame * slices.spacing;
-        return revision >= this.answered.revision && !isSame(this.answered.w) && !isSame(this.inFlight);
     }
 
     /** Forgets the revisions, because a new connection may be to a session whose revisions start at 0. */

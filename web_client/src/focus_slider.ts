@@ -1,7 +1,8 @@
-// The slider below the picture: moves the focus slice from the lowest w of the object to the highest, and plays this
-// motion. Its marks are the critical values of w: where vertices lie, or the body of a field changes its topology.
+// The slider below the picture: moves the focus slice from the lowest w of the object to the highest. Its marks are the
+// critical values of w: where vertices lie, or the body of a field changes its topology. Beside it, Play makes the
+// server move the focus to and fro.
 
-import type { Client, Slices, State } from "@oval4d/protocol";
+import type { Client, Command, Slices, State } from "@oval4d/protocol";
 
 import { type CriticalValue, CriticalValues } from "./critical_values";
 import { byId } from "./element";
@@ -11,6 +12,8 @@ import { formatW } from "./format";
 export interface SliderEvents {
     /** Presses a key of the key table. */
     pressKey(key: string, held: boolean): void;
+    /** Sends a command; shows the error if the server refuses it. */
+    send(command: Command): void;
     failed(error: Error): void;
 }
 
@@ -18,9 +21,6 @@ const kSnapDistance = 4; // pixels: a drag this near to a mark snaps to the mark
 const kKeySteps = 200; // steps of the arrow keys from one end to the other
 const kMaxMarks = 60; // if there are more critical values, their density is shown instead of marks
 const kDensityBins = 80;
-const kSweepTime = 8; // seconds from one end to the other at the speed 1
-// Seconds: a longer time between two animation frames, when the page is busy, counts as this time.
-const kMaxInterval = 0.1;
 
 export class FocusSlider {
     private readonly input = byId<HTMLInputElement>("focus-w");
@@ -28,13 +28,12 @@ export class FocusSlider {
     private readonly section = byId("focus-section");
     private readonly playButton = byId<HTMLButtonElement>("focus-play");
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
+    private readonly otherSpeed = byId<HTMLOptionElement>("focus-speed-other");
     private readonly criticalValues: CriticalValues;
     private readonly mover: FocusMover;
     private state: State | undefined;
     private isDragged = false;
     private mayNotSnap = false; // whether Alt or Shift is held
-    private playedAt: number | undefined; // the time of the last step in milliseconds; undefined while not playing
-    private direction = 1;
 
     constructor(
         client: Client,
@@ -42,10 +41,7 @@ export class FocusSlider {
     ) {
         this.criticalValues = new CriticalValues(client, () => this.showRange());
         this.mover = new FocusMover(client, (error) => {
-            if (error) {
-                this.stop();
-                events.failed(error);
-            }
+            if (error) events.failed(error);
             this.show();
         });
         this.listen();
@@ -53,10 +49,11 @@ export class FocusSlider {
 
     update(state: State): void {
         this.state = state;
-        if (this.mover.recordAndCheckIfMovedElsewhere(state)) this.stop();
+        this.mover.update(state);
         this.criticalValues.update(state);
         const { name, vertices } = state.section;
         this.section.textContent = name || (vertices && `vertices: ${vertices}`);
+        this.showPlaying(state);
         this.show();
     }
 
@@ -68,15 +65,11 @@ export class FocusSlider {
     /** Prepares for the states of a new connection. */
     prepareForNewConnection(): void {
         this.mover.prepareForNewConnection();
-        this.stop();
     }
 
-    /** Stops playing. */
+    /** Stops playing, for all who see the session. */
     stop(): void {
-        if (this.playedAt === undefined) return;
-        this.playedAt = undefined;
-        this.mover.cancelUnsentMove();
-        this.showPlaying();
+        if (this.state?.playing) this.events.send({ type: "set", playing: false });
     }
 
     private listen(): void {
@@ -94,10 +87,14 @@ export class FocusSlider {
         window.addEventListener("pointermove", (event) => this.noteModifiers(event));
         input.addEventListener("input", () => this.slid());
         input.addEventListener("keydown", (event) => this.keydown(event));
-        this.playButton.addEventListener("click", () => (this.playedAt === undefined ? this.play() : this.stop()));
+        this.playButton.addEventListener("click", () => {
+            this.events.send({ type: "set", playing: !this.state?.playing });
+        });
+        this.speed.addEventListener("change", () => {
+            this.events.send({ type: "set", speed: Number(this.speed.value) });
+        });
         // The drawing keeps the focus: if the button got it, the space bar would press the button again.
         this.playButton.addEventListener("mousedown", (event) => event.preventDefault());
-        document.addEventListener("visibilitychange", () => document.hidden && this.stop());
     }
 
     private noteModifiers({ altKey, shiftKey }: PointerEvent): void {
@@ -115,9 +112,8 @@ export class FocusSlider {
         this.show();
     }
 
-    /** Moves the focus after a drag of the slider, or a step by assistive technology. */
+    /** Moves the focus after a drag of the slider, or a step by assistive technology. The move also ends playing. */
     private slid(): void {
-        this.stop();
         this.moveTo(this.snapped(this.input.valueAsNumber));
     }
 
@@ -152,7 +148,6 @@ export class FocusSlider {
         const move = moves[event.key];
         if (!move) return;
         event.preventDefault();
-        this.stop();
         this.mover.begin();
         move();
     }
@@ -162,29 +157,14 @@ export class FocusSlider {
         this.events.pressKey(key, held);
     }
 
-    private play(): void {
-        this.playedAt = performance.now();
-        this.mover.begin();
-        this.showPlaying();
-        requestAnimationFrame((now) => this.playOn(now));
-    }
-
-    private playOn(now: number): void {
-        if (this.playedAt === undefined) return;
-        const seconds = Math.min(kMaxInterval, Math.max(0, now - this.playedAt) / 1000);
-        this.playedAt = now;
-        const [least, most] = this.range;
-        const w = this.mover.w + (this.direction * seconds * Number(this.speed.value) * (most - least)) / kSweepTime;
-        if (w >= most) this.direction = -1;
-        else if (w <= least) this.direction = 1;
-        this.moveTo(w);
-        requestAnimationFrame((next) => this.playOn(next));
-    }
-
-    private showPlaying(): void {
-        const isPlaying = this.playedAt !== undefined;
-        this.playButton.setAttribute("aria-pressed", String(isPlaying));
-        this.playButton.querySelector("span")!.textContent = isPlaying ? "Pause" : "Play";
+    private showPlaying({ playing, speed }: State): void {
+        this.playButton.setAttribute("aria-pressed", String(playing));
+        this.playButton.querySelector("span")!.textContent = playing ? "Pause" : "Play";
+        const isListed = [...this.speed.options].some((one) => one !== this.otherSpeed && Number(one.value) === speed);
+        this.otherSpeed.hidden = isListed;
+        this.otherSpeed.value = isListed ? "" : String(speed);
+        this.otherSpeed.textContent = isListed ? "" : `${Number(speed.toFixed(2))}×`;
+        this.speed.value = String(speed);
     }
 
     private showRange(): void {

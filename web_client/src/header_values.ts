@@ -97,8 +97,8 @@ export class HeaderValues {
         for (const { name, value } of kHeaderValues) this.byName.get(name)!.show(value(state));
         this.state = state;
         this.announced ??= ["", ...announcementsOf(state).slice(1)];
-        // While the polytope turns, new states do not delay the announcement.
-        if (state.turning && this.timer !== undefined) return;
+        // While the polytope turns or the focus plays, new states do not delay the announcement.
+        if ((state.turning || state.playing) && this.timer !== undefined) return;
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.announce(), kSpeechDelay);
     }
@@ -120,11 +120,13 @@ function announcementsOf(state: State): string[] {
     const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
     return [
         state.polytope.name,
-        ...kHeaderValues.map((one) => one.spoken(state)),
-        state.section.name ? `section: ${state.section.name}` : "",
+        // While the focus plays, w and the section change all the time: they are announced when it stops.
+        ...kHeaderValues.map((one) => (state.playing && one.name === "w" ? "" : one.spoken(state))),
+        state.section.name && !state.playing ? `section: ${state.section.name}` : "",
         `${state.view} view`,
-        state.view === "matrix" ? `focus point ${spokenPoint(state)}` : "",
+        state.view === "matrix" && !state.playing ? `focus point ${spokenPoint(state)}` : "",
         state.turning ? "turning" : "at rest",
+        state.playing ? "playing" : "not playing",
         spokenColoring(state),
         spokenKinds(state),
         `${state.background === "auto" ? "automatic" : state.background} background`,

@@ -10,8 +10,6 @@ const kSingleKeysKey = "oval4d.single_keys"; // key in localStorage: whether key
 
 interface KeyActions {
     send: (command: Command) => void;
-    /** Called before a key moves the focus slice. */
-    focusMoves: () => void;
     /** Called when Escape was pressed outside dialogs. */
     escape: (event: KeyboardEvent) => void;
     /** Executes an action of the camera; returns false if the action is not one of the camera. */
@@ -79,7 +77,6 @@ export class Keyboard {
     /** Sends a key to the server. A held key repeats only after the picture of its last press has been presented. */
     send(stroke: KeyStroke, held: boolean): void {
         if (held && !this.repeatLimiter.mayRepeat) return;
-        if (this.keys.some(({ group, key }) => group === "focus" && key.startsWith(stroke.key))) this.actions.focusMoves();
         this.actions.send({ type: "key", ...stroke });
     }
 

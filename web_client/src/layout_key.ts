@@ -11,6 +11,7 @@ import type { State, Viewport } from "@oval4d/protocol";
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;
-    const { camera, alpha, beta, step, highlight, color, background, polytope, field, ...layout } = settings;
+    const { playing, speed, camera, alpha, beta, step, highlight, color, background, ...others } = settings;
+    const { polytope, field, ...layout } = others;
     return JSON.stringify([layout, size]);
 }

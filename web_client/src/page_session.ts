@@ -138,12 +138,12 @@ export class PageSession {
     private async restore(lost: State): Promise<void> {
         try {
             await this.actions.reloadFile(lost.polytope.name);
-            await this.client.request({ ...lost, type: "set", turning: false });
+            await this.client.request({ ...lost, type: "set", turning: false, playing: false });
         } catch (error) {
             throwIfNotConnected(error);
             this.actions.tell([(error as Error).message]);
             const { polytope, slices, point, hidden, faded, highlight, levels, inside, fog, ...rest } = lost;
-            await this.client.request({ ...rest, type: "set", turning: false });
+            await this.client.request({ ...rest, type: "set", turning: false, playing: false });
         }
     }
 }

@@ -30,7 +30,7 @@ export interface ToolSection {
 // The tabs in which sections are grouped on small screens. Groups that are not listed are in the last tab.
 const kTabs = [
     { title: "Turn", groups: ["turn", "toward", "history"] },
-    { title: "Slices", groups: ["angle", "focus", "slices"] },
+    { title: "Slices", groups: ["angle", "focus", "slices", "play"] },
     { title: "Show", groups: ["polytope", "look", "whole", "highlight", "camera", "Colors"] },
 ];
 const kOtherTab = "More";
@@ -44,6 +44,7 @@ const kHoldInterval = 60; // milliseconds between repetitions
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
+    play: (state) => state.playing,
     view: (state) => state.view === "single",
     projection: (state) => state.projection !== "off",
     ...Object.fromEntries(settings.properties.view.enum.map((view) => [view, (state: State) => state.view === view])),

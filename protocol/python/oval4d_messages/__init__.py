@@ -522,7 +522,8 @@ class _State(TypedDict):
     # The focus point, through which the planes of the matrix view pass, in the coordinates of the object's file. Its w
     # is that of the focus slice.
     point: list[float]
-    # Whether the polytope moves without further commands: it turns continuously, or an element is on its way to +w.
+    # Whether something moves without further commands: the polytope turns continuously, an element is on its way to +w,
+    # or the focus plays.
     moving: bool
     # Which parts are drawn.
     shown: StateShown
@@ -556,6 +557,12 @@ class _State(TypedDict):
     # Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each
     # step is a revision.
     turning: bool
+    # Whether the focus moves from the lowest w of the object to the highest and back, again and again, in at most 60
+    # steps per second; each step is a revision. Ended by whatever else sets `focus`, `offset`, `w` or `point`, by
+    # another object, and by `reset`.
+    playing: bool
+    # The speed of `playing`: at 1, the focus moves from one end to the other in 8 seconds, at 2 in 4 seconds.
+    speed: float
     # What the colors of faces show: see the list below this table; for the surfaces of fields, see Fields.
     color: Coloring
     # The background of pictures; the other colors are chosen for it. See Backgrounds.
@@ -859,7 +866,8 @@ class _ResetRequest(TypedDict):
 
 
 class ResetRequest(_ResetRequest, total=False):
-    """Restores the initial orientation and focus, and stops continuous turning. All other settings stay the same."""
+    """Restores the initial orientation and focus, and stops continuous turning and playing. All other settings stay the
+    same."""
     # Chosen by the client; the answer or error has the same id.
     id: float
 
@@ -1003,6 +1011,12 @@ class Settings(TypedDict, total=False):
     # Continuous turning: in each second the object turns by 6 times the angles of the last rotation, in 60 steps; each
     # step is a revision.
     turning: bool
+    # Whether the focus moves from the lowest w of the object to the highest and back, again and again, in at most 60
+    # steps per second; each step is a revision. Ended by whatever else sets `focus`, `offset`, `w` or `point`, by
+    # another object, and by `reset`.
+    playing: bool
+    # The speed of `playing`: at 1, the focus moves from one end to the other in 8 seconds, at 2 in 4 seconds.
+    speed: float
     # Which parts are drawn.
     shown: Union[ShownParts, StateShown]
     # How the viewer has moved the camera from its initial position. Not part of the undo history.

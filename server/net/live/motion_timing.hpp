@@ -1,5 +1,5 @@
 #pragma once
-// Decides when a moving object makes its steps.
+// Decides when a moving object, or a focus that plays, makes its steps.
 
 #include <algorithm>
 #include <chrono>
@@ -7,8 +7,8 @@
 
 namespace oval4d::net {
 
-/// Times the steps of an object that turns continuously or turns toward an element. Each step covers the time since the
-/// previous step: it turns the object by the angle for this time.
+/// Times the steps of a motion: of an object that turns continuously or toward an element, and of a focus that moves to
+/// and fro. Each step covers the time since the previous step: it moves everything as far as it moves in this time.
 class MotionTiming {
   public:
     using Clock = std::chrono::steady_clock;

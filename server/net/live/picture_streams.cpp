@@ -127,8 +127,8 @@ void PictureStreams::scheduleRefinement() {
     });
 }
 
-/// Moves an object that turns continuously or turns toward an element, if the next step is due and a client that has
-/// the current revision can receive the next one.
+/// Continues the motion (see session::advance()), if the next step is due and a client that has the current revision
+/// can receive the next one.
 void PictureStreams::advanceMotion() {
     assertOnStrand();
     if (!session_.current.isMoving()) {

@@ -33,8 +33,8 @@ namespace oval4d::net {
 /// Sends states and pictures to the clients of a session. Each client is sent pictures of the newest state as fast as
 /// workers make them and the client shows them. A session has at most one picture job that is queued or being drawn. A
 /// newer state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture
-/// of a revision is made once and shared by all clients with the same StreamKey. While the object moves, it makes a
-/// step whenever a client can receive the next picture. Every function runs on the session's strand.
+/// of a revision is made once and shared by all clients with the same StreamKey. While the object or the focus
+/// moves, it makes a step whenever a client can receive the next picture. Every function runs on the session's strand.
 class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;

@@ -57,6 +57,7 @@ const effects = {
     ])),
     vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
     vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
+    play: (before, after) => assert.equal(after.playing, !before.playing),
     turn: (before, after) => assert.equal(after.turning, !before.turning),
     spacing_smaller: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing / 1.1)),
     spacing_larger: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing * 1.1)),
@@ -104,7 +105,7 @@ const kShown = {
 
 /** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
 export async function prepare(script, { action }) {
-    await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false });
+    await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false, playing: false });
     await script.request({ type: "reset" });
     await script.request({ type: "set", shown: kShown, highlight: null });
     await script.request({ type: "set", alpha: 0.3, beta: 0.2, slices: { count: 21, spacing: 0.2, focus: 2 } });

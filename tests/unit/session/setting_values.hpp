@@ -102,8 +102,10 @@ inline std::vector<SettingValue> settingValues() {
                 return std::abs(state.focusW() - w) < 1e-12;
             };
         } else {
-            EXPECT_EQ(text, "turning") << "this function must know how to find the setting in a state";
-            value.isIn = [](const State& state) { return state.turning; };
+            EXPECT_TRUE(text == "turning" || text == "playing") << "this function must know where " << text << " is";
+            value.isIn = [flag = text == "turning" ? &State::turning : &State::playing](const State& state) {
+                return state.*flag;
+            };
         }
         values.push_back(std::move(value));
     });

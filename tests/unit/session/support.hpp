@@ -49,6 +49,7 @@ inline void expectNear(const State& a, const State& b, double tolerance) {
     EXPECT_EQ(a.slices.focus, b.slices.focus);
     EXPECT_EQ(a.look, rest.look);
     EXPECT_EQ(a.turning, b.turning);
+    EXPECT_EQ(a.playing, b.playing);
 }
 
 /// Expects that the command succeeds.

@@ -277,6 +277,7 @@ TEST(Codec, RefusesInvalidValues) {
     refused([](State& state) { state.look.thickness = 5; });
     refused([](State& state) { state.look.opacity = 0.2; });
     refused([](State& state) { state.turning = true; });
+    refused([](State& state) { state.playSpeed = 0; });
     refused([](State& state) { state.lastTurn = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
     refused([](State& state) { state.look.cellTypes = {{0}, {0}}; });
     refused([](State& state) { state.referenceFrame.pace = 0; });

@@ -82,6 +82,8 @@ TEST(StateMessage, FitsItsSchemaAndSaysEverything) {
     EXPECT_EQ(message.at("slices").at("focus"), 0);
     EXPECT_EQ(message.at("view"), "oval");
     EXPECT_EQ(message.at("turning"), false);
+    EXPECT_EQ(message.at("playing"), false);
+    EXPECT_EQ(message.at("speed"), 1);
     EXPECT_EQ(message.at("shown"),
               json::parse(R"({"faces":true,"bars":true,"balls":true,"coordinates":true,"labels":true,
                                         "cells":false,"back":true,"sections":false})"));

@@ -133,6 +133,20 @@ TEST_F(PictureStreamsTest, TheObjectTurnsAsFarInASecondAsItsSpeedSays) {
     EXPECT_EQ(steps, 61);
 }
 
+TEST_F(PictureStreamsTest, TheFocusPlaysAsFarInASecondAsItsSpeedSays) {
+    const auto peer = connect(true);
+    change(session::CommandLine{"play"});
+    EXPECT_EQ(steps, 1);
+    server.advance(1s);
+    EXPECT_EQ(steps, 61);
+    EXPECT_EQ(peer->pictures().back(), 62U) << "each step has a picture";
+    const auto [least, most] = slicing::rangeOfW(value.current.object, value.current.orientation);
+    EXPECT_NEAR(value.current.focusW(), (most - least) / session::kSecondsFromEndToEnd * 61 / 60, 1e-6);
+    change(session::CommandLine{"pause"});
+    server.advance(1s);
+    EXPECT_EQ(steps, 61);
+}
+
 TEST_F(PictureStreamsTest, TheObjectWaitsForAcknowledgmentsAndDoesNotJump) {
     const auto peer = connect(false);
     change(kRotation);
