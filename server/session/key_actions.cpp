@@ -44,6 +44,13 @@ std::pair<int, int> nonemptySlices(const State& state) {
             static_cast<int>(std::floor((most + slack - offset) / spacing))};
 }
 
+// Moves the focus point by the spacing along this axis, 0 to 2, within the bounds of the point.
+void moveFocusPoint(State& state, int axis, bool up) {
+    const double reach = kMaxOffset * slicing::infoOf(state.object).circumradius;
+    double& coordinate = state.look.focusPoint[axis];
+    coordinate = std::clamp(coordinate + (up ? state.slices.spacing : -state.slices.spacing), -reach, reach);
+}
+
 void scaleSpacing(State& state, double factor) {
     const double radius = slicing::infoOf(state.object).circumradius;
     state.slices.spacing = std::clamp(state.slices.spacing * factor, kMinSpacing * radius, kMaxSpacing * radius);
@@ -167,6 +174,15 @@ std::vector<Action> allActions() {
             actions.push_back(
                 {(forward ? "highlight_next_" : "highlight_previous_") + std::string(name),
                  [of = kind, forward](ActionContext& c) { return highlightNeighbor(c.state, of, forward); }});
+        }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const bool up : {true, false}) {
+            actions.push_back({std::string("point_") + "xyz"[axis] + (up ? "_up" : "_down"),
+                               [axis, up](ActionContext& c) -> VoidResult {
+                                   moveFocusPoint(c.state, axis, up);
+                                   return std::monostate{};
+                               }});
         }
     }
     for (const scene::ViewRow& row : scene::kViews) {

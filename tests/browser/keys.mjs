@@ -372,6 +372,35 @@ test("keys: a held second key of a sequence repeats the sequence if it may, and 
     await end();
 });
 
+test("keys: the second key of a sequence is not the key of the page, even if it is held and Shift is released", async () => {
+    const { page, script, press, close: end } = await openWithScript();
+    const { slices } = await script.state();
+    const isNear = (x, expected) => Math.abs(x - expected) < 1e-9;
+    await page.keyboard.press("g");
+    for (let times = 1; times <= 3; ++times) {
+        const { revision } = await script.state();
+        await page.keyboard.down("x"); // from the second time on, as the keyboard repeats it
+        const after = await script.until((one) => one.revision > revision, "a step of the point");
+        assert.ok(isNear(after.point[0], times * slices.spacing), `${after.point}`);
+        await presented(page, (await stateAfter(page, script)).revision);
+    }
+    await page.keyboard.up("x");
+    const { point } = await press("g", "Shift+X");
+    assert.ok(isNear(point[0], 2 * slices.spacing), `${point}`);
+    await page.keyboard.press("g");
+    await page.keyboard.down("Shift");
+    await page.keyboard.down("X");
+    await page.keyboard.up("Shift");
+    await page.keyboard.down("x");
+    const { point: later } = await stateAfter(page, script);
+    await page.keyboard.up("x");
+    assert.ok(isNear(later[0], slices.spacing), `${later}`);
+    assert.equal(await page.locator("dialog[open]").count(), 0);
+    await page.keyboard.press("x");
+    await page.waitForSelector("#export[open]");
+    await end();
+});
+
 test("keys: single keys can be turned off, which the browser remembers", async () => {
     const { page, script, close: end } = await openWithScript({ viewport: { width: 1280, height: 800 } });
     const button = () => page.locator("[data-page-tool=single_keys]");

@@ -48,15 +48,18 @@ export class Keyboard {
         if (isForControl(event)) return;
         const action = editingAction(event);
         const stroke = strokeFromEvent(event, this.keys);
+        const isSecond = action === undefined && stroke !== undefined && this.isSecondOfSequence(stroke, event.repeat);
         const binding = this.keys.find((row) =>
-            action ? row.action === action : row.client && row.key === stroke?.key,
+            action ? row.action === action : row.client && !isSecond && row.key === stroke?.key,
         );
         if (!binding && !stroke) return;
         const isSingle = action === undefined && stroke?.key.length === 1 && !stroke.ctrl;
         if (isSingle && !this.usesSingleKeys) return;
         event.preventDefault();
-        if (binding) this.press(binding, false, event.repeat);
-        else if (stroke) this.type(stroke, event.repeat);
+        if (binding) {
+            if (!event.repeat) this.ended = undefined;
+            this.press(binding, false, event.repeat);
+        } else if (stroke) this.type(stroke, event.repeat);
     }
 
     /** Forgets the first key of a sequence of two. To be called when the user does something else. */
@@ -81,12 +84,22 @@ export class Keyboard {
     }
 
     /**
+     * Whether a key that has been typed, or that is held, is the second one of a sequence. A held key remains it when
+     * Shift is released.
+     */
+    private isSecondOfSequence({ key, ctrl }: KeyStroke, held: boolean): boolean {
+        if (ctrl) return false;
+        if (held) return this.ended?.key[1]?.toLowerCase() === key.toLowerCase();
+        return this.keys.some((row) => this.first !== undefined && row.key === this.first.key + key);
+    }
+
+    /**
      * Sends a key that has been typed; the first key of a sequence is sent together with the second one. While the
      * second key is held, the sequence is repeated if its action may repeat; the held key does not act by itself.
      */
     private type(stroke: KeyStroke, held: boolean): void {
         if (held && this.ended) {
-            // If Shift is released first, the held letter is no longer the second key.
+            // If Shift is released first, the held letter does nothing.
             if (this.ended.repeats && this.ended.key[1] === stroke.key) this.press(this.ended, false, held);
             return;
         }

@@ -31,7 +31,7 @@ export interface ToolSection {
 const kTabs = [
     { title: "Turn", groups: ["turn", "toward", "history"] },
     { title: "Slices", groups: ["angle", "focus", "slices", "play"] },
-    { title: "Show", groups: ["polytope", "look", "whole", "highlight", "camera", "Colors"] },
+    { title: "Show", groups: ["polytope", "look", "whole", "point", "highlight", "camera", "Colors"] },
 ];
 const kOtherTab = "More";
 

@@ -23,6 +23,12 @@ const adds = (angle, sign) => (before, after) => assert.ok(close(after[angle], b
 
 const moves = (before, after) => assert.ok(after.moving || !isNear(after.orientation, before.orientation));
 
+const movesPoint = (axis, sign) => (before, after) =>
+    after.point.forEach((coordinate, i) => {
+        const by = i === axis ? sign * before.slices.spacing : 0;
+        assert.ok(close(coordinate, before.point[i] + by), `${before.point} to ${after.point}`);
+    });
+
 const highlights = (element) => (before, after) => {
     assert.equal(before.highlight, null);
     assert.equal(after.highlight.element, element);
@@ -57,6 +63,10 @@ const effects = {
     ])),
     vertex_next: (before, after) => assert.ok(after.section.w > before.section.w && after.section.vertices !== ""),
     vertex_previous: (before, after) => assert.ok(after.section.w < before.section.w && after.section.vertices !== ""),
+    ...Object.fromEntries(["x", "y", "z"].flatMap((name, axis) => [
+        [`point_${name}_up`, movesPoint(axis, 1)],
+        [`point_${name}_down`, movesPoint(axis, -1)],
+    ])),
     play: (before, after) => assert.equal(after.playing, !before.playing),
     turn: (before, after) => assert.equal(after.turning, !before.turning),
     spacing_smaller: (before, after) => assert.ok(close(after.slices.spacing, before.slices.spacing / 1.1)),

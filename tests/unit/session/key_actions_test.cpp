@@ -272,6 +272,24 @@ TEST(Keys, TwoGsGoToTheFirstPointsOfACloud) {
     EXPECT_EQ(session.current.slices.focus, 10) << "the slice below has no point";
 }
 
+TEST(Keys, MoveTheFocusPointByTheSpacingWithinItsBounds) {
+    Session session;
+    line(session, "polytope 8-cell");
+    line(session, "set spacing=0.25 focus=1");
+    press(session, "P");
+    press(session, "gxgxgYgzgX");
+    EXPECT_EQ(session.current.look.focusPoint, glm::dvec3(0.25, -0.25, 0.25));
+    EXPECT_EQ(session.current.focusW(), 0.25);
+    EXPECT_TRUE(session.current.playing) << "the focus slice goes on";
+    press(session, "u");
+    EXPECT_EQ(session.current.look.focusPoint, glm::dvec3(0.5, -0.25, 0.25)) << "each key is a step";
+    for (int i = 0; i < 200; ++i) press(session, "gz");
+    EXPECT_EQ(session.current.look.focusPoint.z, kMaxOffset * infoOf(session.current).circumradius);
+    const auto revision = session.revision;
+    press(session, "gz");
+    EXPECT_EQ(session.revision, revision) << "a key that changes nothing is not a change";
+}
+
 TEST(Keys, AnglesStayWithinAFullTurn) {
     Session session;
     line(session, "set step=1");
