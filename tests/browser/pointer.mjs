@@ -268,6 +268,40 @@ test("pointer: dragging two fingers rolls the 4-D ball, twisting them turns in z
     await close();
 });
 
+test("pointer: dragging three fingers rolls the ball of every slice, twisting them turns in xy, neither zooms", async () => {
+    const { page, script, press, errors, close } = await openWithScript({ hasTouch: true });
+    const send = await touchOf(page);
+    const { orientation: start, camera } = await script.state();
+    const around = (x, y, angle = 0, radius = 60) =>
+        [0, 1, 2].map((k) => {
+            const direction = angle + (k * 2 * Math.PI) / 3;
+            return [x + radius * Math.cos(direction), y + radius * Math.sin(direction)];
+        });
+    await send("touchStart", ...around(460, 300));
+    for (let x = 5; x <= 100; x += 5) await send("touchMove", ...around(460 + x, 300));
+    await send("touchEnd");
+    const dragged = await stateAfter(page, script);
+    const part = await perPixel(page);
+    const angle = Math.asin(dragged.orientation[0][2]);
+    assert.ok(angle > 70 * part && angle < 100 * part, `+z moves toward +x by ${angle}`);
+    assert.ok(isNear(dragged.orientation, turned(start, ["xz"], [-angle]), 1e-6));
+    assert.deepEqual(dragged.camera, camera);
+    assertMatrix((await press("u")).orientation, start);
+
+    await send("touchStart", ...around(500, 300));
+    for (let twist = 0.05; twist <= 0.8; twist += 0.05) {
+        await send("touchMove", ...around(500, 300, twist, 60 + 20 * twist));
+    }
+    await send("touchEnd");
+    const twisted = await stateAfter(page, script);
+    const clockwise = -Math.atan2(twisted.orientation[1][0], twisted.orientation[0][0]);
+    assert.ok(clockwise > 0.4 && clockwise < 0.8, `a turn by ${clockwise}`);
+    assert.ok(isNear(twisted.orientation, turned(start, ["xy"], [-clockwise]), 1e-6));
+    assert.deepEqual(twisted.camera, camera, "fingers that spread do not zoom");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("pointer: two fingers that keep their distance are not told that zooming stops", async () => {
     const { page, script, close } = await openWithScript({ hasTouch: true });
     const send = await touchOf(page);

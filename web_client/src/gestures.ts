@@ -1,15 +1,15 @@
 // Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
 // element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right
 // or middle button or with Alt, dragging rolls the 4-D ball or, if Shift is held as well, the 3-D ball of every slice
-// (see rolling_ball.ts). Dragging with two fingers rolls the 4-D ball. In a panel of the matrix, dragging moves the
-// focus point.
+// (see rolling_ball.ts). Dragging with two fingers rolls the 4-D ball, and with three fingers the 3-D ball. In a panel
+// of the matrix, dragging moves the focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { Point } from "./hover";
 import type { OrbitControl } from "./orbit";
 import { type BallKind, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
-import { TwoFingers } from "./two_fingers";
+import { SeveralFingers } from "./several_fingers";
 
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of the wheel
 const kLineHeight = 16; // pixels per line, for wheels that report lines
@@ -37,7 +37,8 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     let isClick = false; // whether the pointer has stayed in its place since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
-    let pair: TwoFingers | undefined;
+    let group: SeveralFingers | undefined; // two or three fingers
+    const moved = new Set<number>(); // the fingers that have moved since the last call of moveGroup()
     let wheelAt = -Infinity; // time of the last wheel event that turned the polytope, in milliseconds
 
     const placeOf = ({ clientX, clientY }: MouseEvent): Point => {
@@ -45,9 +46,9 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         return { x: clientX - left, y: clientY - top };
     };
     const fingersChanged = (): void => {
-        const [a, b] = [...fingers.values()];
-        pair = a && b && fingers.size === 2 ? new TwoFingers(a, b) : undefined;
-        if (pair) rotation.begin();
+        moved.clear();
+        group = fingers.size === 2 || fingers.size === 3 ? new SeveralFingers([...fingers.values()]) : undefined;
+        if (group) rotation.begin();
     };
     const drag = (before: PointerEvent, now: PointerEvent): void => {
         const [dx, dy] = [now.clientX - before.clientX, now.clientY - before.clientY];
@@ -55,11 +56,13 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         else if (movesPoint) focusPoint.dragTo(placeOf(now));
         else orbit.drag(dx, dy);
     };
-    const movePair = (moved: TwoFingers): void => {
-        const [a, b] = [...fingers.values()];
-        const { dx, dy, spread, twist } = moved.update(a!, b!);
-        orbit.zoomBy(spread);
-        rotation.turn({ ...turnsOfDrag("4-D", dx, dy, drawing.clientHeight), ...turnsOfTwist(twist) });
+    const moveGroup = (): void => {
+        if (!group || moved.size === 0) return;
+        moved.clear();
+        const { dx, dy, spread, twist } = group.update([...fingers.values()]);
+        const ball = fingers.size === 2 ? "4-D" : "3-D";
+        if (fingers.size === 2) orbit.zoomBy(spread);
+        rotation.turn({ ...turnsOfDrag(ball, dx, dy, drawing.clientHeight), ...turnsOfTwist(ball, twist) });
     };
     drawing.addEventListener("pointerdown", (event) => {
         if (event.button > kButtons.right) return;
@@ -101,11 +104,16 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         if (isClick && distance < slop) return;
         isClick = false;
         fingers.set(event.pointerId, event);
-        if (pair) movePair(pair);
-        else if (fingers.size === 1) drag(before, event);
+        if (group) {
+            // Fingers that move together have an event each. Before the last one, they seem to spread and to twist.
+            const isAgain = moved.has(event.pointerId);
+            moved.add(event.pointerId);
+            if (isAgain || moved.size === fingers.size) moveGroup();
+        } else if (fingers.size === 1) drag(before, event);
     });
     const removeFinger = (event: PointerEvent): void => {
         clearTimeout(longPress);
+        moveGroup();
         if (fingers.delete(event.pointerId)) fingersChanged();
     };
     for (const end of ["pointerup", "pointercancel", "lostpointercapture"] as const)

@@ -19,6 +19,8 @@ const kGestures = [
     ["Alt + Shift + wheel", "Turn in xy"],
     ["Drag with two fingers", "Turn in xw and yw"],
     ["Twist two fingers", "Turn in zw"],
+    ["Drag with three fingers", "Turn in xz and yz, in every slice"],
+    ["Twist three fingers", "Turn in xy"],
 ] as const;
 
 const kSticks = [

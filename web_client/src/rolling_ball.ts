@@ -31,9 +31,12 @@ export function turnsOfWheel(ball: BallKind, pixels: number): AnglesByPlane {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }
 
-/** The angle in zw for two fingers that twist clockwise by `angle` radians. */
-export function turnsOfTwist(angle: number): AnglesByPlane {
-    return { zw: angle };
+/**
+ * The angle for fingers that twist clockwise by `angle` radians, in a plane in which drags do not turn the ball: zw for
+ * the 4-D ball, xy for the 3-D ball, which follows the fingers.
+ */
+export function turnsOfTwist(ball: BallKind, angle: number): AnglesByPlane {
+    return ball === "4-D" ? { zw: angle } : { xy: -angle };
 }
 
 /**

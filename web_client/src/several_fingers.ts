@@ -1,0 +1,80 @@
+// Two or more fingers on the drawing: how far they have moved together, spread and twisted. A movement or a twist
+// counts only after it has left a dead zone, so that a pinch does not also turn the polytope.
+
+const kMoveDeadZone = 16; // pixels
+const kTwistDeadZone = 0.15; // radians
+
+export interface Finger {
+    clientX: number;
+    clientY: number;
+}
+
+/** A point or a vector in pixels, right and down. */
+interface Vector {
+    x: number;
+    y: number;
+}
+
+interface FingerPlaces {
+    /** The mean of the places of the fingers. */
+    center: Vector;
+    /** From the center to each finger. */
+    arms: Vector[];
+    /** The sum of the lengths of the arms; for two fingers, their distance. */
+    extent: number;
+}
+
+export class SeveralFingers {
+    private last: FingerPlaces;
+    private moved: Vector = { x: 0, y: 0 }; // since the fingers touched the drawing
+    private twisted = 0; // radians since the fingers touched the drawing
+    private moves = false; // whether the movement has left its dead zone
+    private twists = false; // whether the twist has left its dead zone
+
+    constructor(fingers: readonly Finger[]) {
+        this.last = placesOf(fingers);
+    }
+
+    /**
+     * Returns the changes since the last call: the movement of the center in pixels, the new extent divided by the old
+     * one (`spread`), and the clockwise rotation in radians (`twist`). A movement or a twist that has not left its dead
+     * zone counts as 0. The fingers must be in the same order at each call.
+     */
+    update(fingers: readonly Finger[]): { dx: number; dy: number; spread: number; twist: number } {
+        const { last } = this;
+        const now = (this.last = placesOf(fingers));
+        const [dx, dy] = [now.center.x - last.center.x, now.center.y - last.center.y];
+        const twist = rotationBetween(last.arms, now.arms);
+        const change = {
+            ...(this.moves ? { dx, dy } : { dx: 0, dy: 0 }),
+            spread: now.extent / Math.max(1, last.extent),
+            twist: this.twists ? twist : 0,
+        };
+        this.moved = { x: this.moved.x + dx, y: this.moved.y + dy };
+        this.twisted += twist;
+        this.moves ||= Math.hypot(this.moved.x, this.moved.y) > kMoveDeadZone;
+        this.twists ||= Math.abs(this.twisted) > kTwistDeadZone;
+        return change;
+    }
+}
+
+function placesOf(fingers: readonly Finger[]): FingerPlaces {
+    const mean = (values: number[]): number => values.reduce((sum, value) => sum + value, 0) / values.length;
+    const center = { x: mean(fingers.map((one) => one.clientX)), y: mean(fingers.map((one) => one.clientY)) };
+    const arms = fingers.map(({ clientX, clientY }) => ({ x: clientX - center.x, y: clientY - center.y }));
+    return { center, arms, extent: arms.reduce((sum, { x, y }) => sum + Math.hypot(x, y), 0) };
+}
+
+/**
+ * The clockwise angle of the rotation that leads from the old arms closest to the new ones, by least squares: with
+ * vectors as complex numbers, the argument of the sum of all new · conjugate(old).
+ */
+function rotationBetween(before: readonly Vector[], now: readonly Vector[]): number {
+    let [real, imaginary] = [0, 0];
+    before.forEach((old, i) => {
+        const { x, y } = now[i]!;
+        real += x * old.x + y * old.y;
+        imaginary += y * old.x - x * old.y;
+    });
+    return Math.atan2(imaginary, real);
+}
