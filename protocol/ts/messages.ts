@@ -806,7 +806,7 @@ export interface At {
      */
     kind?: number;
     /**
-     * Of a cell: the name of its kind.
+     * Of a cell: the name of its kind. Of a 2-face: the name of its polygon, such as square, quadrilateral or pentagram.
      */
     name?: string;
 }
@@ -1074,6 +1074,10 @@ export interface Measured {
      * Of the size of an element of a field's box, such as "m² s", if the units of the axes along which it extends are known.
      */
     unit?: string;
+    /**
+     * Of a 2-face: the name of its polygon, such as square, quadrilateral or pentagram.
+     */
+    name?: string;
     /**
      * If the request asks for it: what every picture draws in the color of the highlight if this element is highlighted, as in `slices`. It depends only on the object.
      */

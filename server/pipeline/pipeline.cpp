@@ -53,7 +53,8 @@ std::string Pipeline::describePoint(const session::State& state, std::uint64_t r
     workspace_.composer.compose(state.object, state.orientation, sliceToPointAt(state), state.slices.focus, state.look,
                                 viewport, workspace_.scene, slicing::Quality::full, scene::ScenePurpose::pointing);
     return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),
-                           scene::matrixPointAt(workspace_.scene, point), workspace_.scene, state.object, revision, id);
+                           scene::matrixPointAt(workspace_.scene, point), workspace_.scene, state.object, state.source,
+                           revision, id);
 }
 
 const slicing::SliceSet& Pipeline::sliceToPointAt(const session::State& state) {

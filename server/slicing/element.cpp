@@ -15,6 +15,7 @@
 
 #include "fields/field.hpp"
 #include "geometry/point_cloud.hpp"
+#include "polytopes/polygon_names.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/overloaded.hpp"
 #include "slicing/slice_set.hpp"
@@ -395,6 +396,14 @@ std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotatio
     };
     visitElements([&](const auto& elements) { visitVertices(elements, element, include); }, object);
     return {least, most};
+}
+
+std::string nameOfFace(const Object& object, std::size_t face) {
+    std::vector<glm::dvec4> corners;
+    const auto addCorner = [&](std::uint32_t v) { corners.push_back(vertexInFile(object, v)); };
+    const Element element{ElementKind::face, face};
+    visitElements([&](const auto& elements) { visitVertexNumbers(elements, element, addCorner); }, object);
+    return polytopes::nameOfPolygon(corners);
 }
 
 std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same) {

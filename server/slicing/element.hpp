@@ -121,6 +121,10 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
 /// time linear in the size of the element. Requires element.index < elementCount(object, element.kind).
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation, const Element& element);
 
+/// Returns the name of the polygon that a 2-face is (see polytopes::nameOfPolygon()), in the coordinates of
+/// vertexInFile(). Requires face < elementCount(object, ElementKind::face).
+std::string nameOfFace(const Object& object, std::size_t face);
+
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
 /// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
 /// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlaneTolerance

@@ -72,8 +72,8 @@ std::string answerMessage(const Answer& answer, std::optional<double> id) {
 }
 
 std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
-                      const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
-                      std::optional<double> id) {
+                      const scene::Scene& scene, const slicing::Object& object, const slicing::Object& source,
+                      std::uint64_t revision, std::optional<double> id) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;
     return message("at", id, [&](JsonWriter& w) {
         w.member("revision", revision);
@@ -85,16 +85,16 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                 w.member("slice", scene.placements[picked->slice].index);
                 w.member("w", origin.w + scene.placements[picked->slice].w);
             }
-            slicing::PartsShowingElement sources;
-            slicing::findPartsShowing(object, picked->element, sources);
+            slicing::PartsShowingElement parts;
+            slicing::findPartsShowing(object, picked->element, parts);
             double least = std::numeric_limits<double>::max(), most = -least;
-            for (const std::uint32_t v : sources.ownVertices) {
+            for (const std::uint32_t v : parts.ownVertices) {
                 least = std::min(least, scene.slices->rotatedVertices[v].w);
                 most = std::max(most, scene.slices->rotatedVertices[v].w);
             }
             w.member("least_w", origin.w + least);
             w.member("most_w", origin.w + most);
-            w.member("vertices", std::uint64_t{sources.ownVertices.size()});
+            w.member("vertices", std::uint64_t{parts.ownVertices.size()});
             if (picked->element.kind == slicing::ElementKind::vertex)
                 writeMember(w, "place", slicing::vertexInFile(object, picked->element.index));
             if (picked->element.kind == slicing::ElementKind::cell) {
@@ -102,6 +102,8 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
                 w.member("kind", std::uint64_t{kind});
                 w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
             }
+            if (picked->element.kind == slicing::ElementKind::face)
+                w.member("name", std::string_view(slicing::nameOfFace(source, picked->element.index)));
         }
         if (point) writeMember(w, "point", origin + *point);
     });

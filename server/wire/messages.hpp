@@ -22,10 +22,11 @@ std::string answerMessage(const Answer& answer, std::optional<double> id);
 
 /// Returns the `at` message, which describes what the picture `scene` of `object` shows at a pixel. `picked`: the
 /// element at this pixel, if there is one. `point`: if a panel of the matrix is at this pixel, the 4-D point that the
-/// panel shows there, in the coordinates of the rotated object.
+/// panel shows there, in the coordinates of the rotated object. `source`: the object before it was transformed to the
+/// frame of reference (see session::State), in which a 2-face has the shape for which it is named.
 std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
-                      const scene::Scene& scene, const slicing::Object& object, std::uint64_t revision,
-                      std::optional<double> id);
+                      const scene::Scene& scene, const slicing::Object& object, const slicing::Object& source,
+                      std::uint64_t revision, std::optional<double> id);
 
 /// Returns the `critical` message: the critical values of w of the object, in the coordinates of the object's file.
 /// `originW`: the w of the object's geometry::ObjectInfo::originInFile.

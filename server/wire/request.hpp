@@ -87,12 +87,13 @@ struct Measured {
     glm::dvec4 center{0};
     std::optional<std::uint64_t> kind = {};  ///< of a cell: its type, as an index into ObjectInfo::cellTypes
     std::optional<std::string> unit = {};    ///< of the length, the area or the volume; absent if unknown
+    std::optional<std::string> name = {};    ///< of a 2-face: that of its polygon
     /// If the request asks for it: what shows the element in pictures, and the least and the greatest w of its vertices
     /// in the coordinates of what is shown.
     std::optional<slicing::PartsShowingElement> highlight = {};
     std::optional<glm::dvec2> range = {};
 };
-BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind, unit, highlight, range))
+BOOST_DESCRIBE_STRUCT(Measured, (), (revision, length, area, volume, center, kind, unit, name, highlight, range))
 
 /// Reports that the client has shown the picture with this revision.
 struct PictureShown {

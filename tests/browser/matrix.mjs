@@ -93,7 +93,7 @@ test("matrix: a point of a section is a 2-face, an edge or a vertex", async () =
     const face = yx.section.of.points[0];
     assert.ok(face < kFaces);
     await moveTo(...yx.place(yx.section.points[0]));
-    assert.match(await labeled(page, /area/), new RegExp(`^Face ${face} · area 1.73 · w −?[\\d.]+ … −?[\\d.]+$`));
+    assert.match(await labeled(page, /area/), new RegExp(`^Face ${face} · triangle · area 1.73 · w −?[\\d.]+ … −?[\\d.]+$`));
 
     const vertices = await exactVertices(script, coordinates);
     /** Moves the focus point, and hovers over it in the panel zw, where it is a point of the section. */

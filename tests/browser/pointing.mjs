@@ -212,7 +212,7 @@ test("pointing: a cell is named with its kind, if there are several, and with it
     const { source, at } = faceIn(seen, size, 1);
     const { kind } = await script.request({ type: "measure", element: "cell", number: source });
     await moveTo(...at);
-    const named = `^Cell ${source} · ${kinds[kind].name} · volume ${["109", "0\\.943"][kind]} · w `;
+    const named = `^Cell ${source} · ${kinds[kind].name}, kind ${kind + 1} of 2 · volume ${["109", "0\\.943"][kind]} · w `;
     await labeled(page, new RegExp(named));
 
     // A moving observer sees another size.
@@ -221,7 +221,43 @@ test("pointing: a cell is named with its kind, if there are several, and with it
     const moving = faceIn(await picture(), size, 1);
     await moveTo(4, 4);
     await moveTo(...moving.at);
-    await labeled(page, new RegExp(`^Cell ${moving.source} · (truncated cube|tetrahedron) · w `));
+    await labeled(page, new RegExp(`^Cell ${moving.source} · (truncated cube, kind 1|tetrahedron, kind 2) of 2 · w `));
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("pointing: a face is named for its polygon, in both modes", async () => {
+    const { page, script, errors, size, picture, moveTo, close } = await openTurned({ polytope: "5,7-duoprism" });
+    const shown = { faces: false, balls: false, coordinates: false };
+    const { revision } = await script.request({ type: "set", shown, view: "single", projection: "off" });
+    await presented(page, revision);
+    const { scene, slices } = await picture();
+    const slice = slices.find(({ focus }) => focus);
+    const points = worldPoints(scene, slice);
+    const names = new Set();
+    const bars = [...slice.of.edges].map((_, e) => {
+        const ends = [...slice.edges.slice(2 * e, 2 * e + 2)].map((v) => project(scene, points[v], size));
+        // Points on the bar, by which other bars can be told to be far away.
+        return Array.from({ length: 101 }, (_, i) => ends[0].map((from, k) => from + (i / 100) * (ends[1][k] - from)));
+    });
+    const isNear = ([x, y]) => ([left, top]) => Math.hypot(x - left, y - top) < 12;
+    for (let e = 0; e < bars.length; ++e) {
+        const [x, y] = bars[e][50].map(Math.round);
+        if (bars.some((bar, other) => other !== e && bar.some(isNear([x, y])))) continue;
+        const { highlight, name } = await script.request({ type: "get", what: "at", x, y, ...size });
+        if (names.has(name)) continue;
+        assert.deepEqual(highlight, { element: "face", number: slice.of.edges[e] });
+        await moveTo(x, y);
+        await labeled(page, new RegExp(`^Face ${highlight.number} · ${name} · area `));
+        await page.locator("[data-page-tool=frames]").dispatchEvent("click");
+        await page.waitForSelector("#drawing[data-drawn-by=frames]");
+        await labeled(page, new RegExp(`^Face ${highlight.number} · ${name} · area `));
+        await page.locator("[data-page-tool=geometry]").dispatchEvent("click");
+        await page.waitForSelector("#drawing[data-drawn-by=geometry]");
+        names.add(name);
+    }
+    assert.ok(names.has("square"), `squares are cut: ${[...names]}`);
+    for (const name of names) assert.match(name, /^(square|pentagon|heptagon)$/);
     assert.deepEqual(errors, []);
     await close();
 });

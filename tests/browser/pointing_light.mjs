@@ -95,7 +95,7 @@ test("pointing light: 2-faces and vertices of a surface are lit like kept ones",
     const points = worldPoints(scene, focus).map((point) => project(scene, point, size));
     const middles = [...focus.of.edges].map((_, e) => middle([points[focus.edges[2 * e]], points[focus.edges[2 * e + 1]]]));
     const { at } = await firstWith(opened, "face", middles);
-    assertColumnsLit(await pointLikeKept(opened, at, /^Face \d+ · area .* · w .* … .* · slice w 0$/), size, 4);
+    assertColumnsLit(await pointLikeKept(opened, at, /^Face \d+ · rectangle · area .* · w .* … .* · slice w 0$/), size, 4);
     assertColumnsLit(await pointLikeKept(opened, columnsOf(scene, size)(7), /^Vertex 7 /), size, 1);
     assert.deepEqual(errors, []);
     await close();

@@ -22,8 +22,8 @@ async def test_regular_polytopes_have_regular_elements(server, polytope, sizes, 
         done = await client.request("set", polytope=polytope)
         for (element, member), size, distance in zip(SIZES.items(), sizes, distances):
             measured = await client.request("measure", element=element, number=7)
-            kind = {"kind"} if element == "cell" else set()
-            assert set(measured) == {"type", "id", "revision", member, "center"} | kind
+            more = {"cell": {"kind"}, "face": {"name"}}.get(element, set())
+            assert set(measured) == {"type", "id", "revision", member, "center"} | more
             assert measured["revision"] == done["revision"]
             assert measured[member] == pytest.approx(size)
             assert math.hypot(*measured["center"]) == pytest.approx(distance)
@@ -39,6 +39,25 @@ async def test_a_cell_has_its_kind(server):
         cube, tetrahedron = ([cell["volume"] for cell in cells if cell["kind"] == kind] for kind in range(2))
         assert cube == pytest.approx(8 * [2**3 * (21 + 14 * math.sqrt(2)) / 3])
         assert tetrahedron == pytest.approx(16 * [math.sqrt(8) / 3])
+
+
+@pytest.mark.parametrize("polytope, names", [
+    ("tesseract", {"square"}), ("600-cell", {"triangle"}), ("120-cell", {"pentagon"}), ("5,7-duoprism", {"pentagon", "heptagon", "square"}),
+    ("small stellated 120-cell", {"pentagram"}), ("great 120-cell", {"pentagon"}), ("3,17-duoprism", {"triangle", "17-gon", "square"}),
+])
+async def test_a_face_has_the_name_of_its_polygon(server, polytope, names):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope=polytope)
+        count = (await client.request("get", what="state"))["polytope"]["faces"]
+        chosen = range(count) if count < 100 else range(0, count, count // 20)
+        found = {(await client.request("measure", element="face", number=number))["name"] for number in chosen}
+        assert found == names
+
+
+async def test_the_faces_of_a_box_are_rectangles(server):
+    async with field_client(server, "x", [[0, 1], [0, 1], [0, 3], [0, 3]]) as client:
+        named = [await client.request("measure", element="face", number=number) for number in range(24)]
+        assert {(face["name"], round(face["area"])) for face in named} == {("square", 1), ("square", 9), ("rectangle", 3)}
 
 
 async def test_neither_a_rotation_nor_a_frame_of_reference_changes_them(server):

@@ -151,9 +151,9 @@ function distance(a: Point, b: Point): number {
 }
 
 function descriptionOf(answer: At): ElementDescription | undefined {
-    const { highlight, name, w } = answer;
+    const { highlight, name, kind, w } = answer;
     // A slice that has been zoomed may reach behind a panel of the matrix.
     const isBehindPanel = answer.point !== undefined && answer.in !== "matrix";
     if (!highlight || isBehindPanel) return undefined;
-    return { ...highlight, kind: name, sliceW: w };
+    return { ...highlight, name, kind, sliceW: w };
 }

@@ -10,8 +10,10 @@ import { spokenReferenceFrame } from "./reference_frame";
 
 /** An element, and what is known of its shape and its place. */
 export interface ElementDescription extends PolytopeElement {
-    /** Of a cell: the name of its kind, if it is known without asking the server. */
-    kind?: string | undefined;
+    /** Of a cell or 2-face: the name of its shape, if it is known without asking the server. */
+    name?: string | undefined;
+    /** Of a cell: the index of its kind in `polytope.kinds` of the state, if it is known without asking the server. */
+    kind?: number | undefined;
     /** Of a vertex: x, y, z, w. */
     coordinates?: readonly number[] | undefined;
     /** Of an edge: its length in the picture, if it is known. */
@@ -76,8 +78,11 @@ function describe(described: ElementDescription, measured: Partial<Measured>, st
     const format = (coordinate: number): string => formatCoordinate(coordinate, spacing);
     const parts = [`${capitalize(element)} ${number}`];
     if (coordinates) parts[0] += ` (${coordinates.map(format).join(", ")})`;
-    const kind = described.kind ?? state?.polytope.kinds?.[measured.kind ?? -1]?.name;
-    if (kind !== undefined) parts.push(kind);
+    const kinds = state?.polytope.kinds ?? [];
+    const kind = described.kind ?? measured.kind;
+    const name = described.name ?? measured.name ?? kinds[kind ?? -1]?.name;
+    const place = kind !== undefined && kinds.length > 1 ? `, kind ${kind + 1} of ${kinds.length}` : "";
+    if (name !== undefined) parts.push(name + place);
     const { length, area, volume }: Partial<Measured> = state && spokenReferenceFrame(state) === "" ? measured : {};
     const sizes = { length: described.length ?? length, area, volume };
     const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // of a field's box, whose sizes are all measured

@@ -138,7 +138,7 @@ export class Pointing {
             number,
             sliceW: slice && origin[3] + slice.w,
             coordinates: element === "vertex" && hasPlaces ? placeOf(number) : undefined,
-            kind: element === "cell" && kinds.length === 1 ? kinds[0]!.name : undefined,
+            name: element === "cell" && kinds.length === 1 ? kinds[0]!.name : undefined,
             length: a && b && Math.hypot(...a.map((value, i) => value - b[i]!)),
         };
     }

@@ -65,7 +65,7 @@ class At(_At, _AtIn, total=False):
     vertices: int
     # Of a cell: the index of its kind in state.polytope.kinds.
     kind: int
-    # Of a cell: the name of its kind.
+    # Of a cell: the name of its kind. Of a 2-face: the name of its polygon, such as square, quadrilateral or pentagram.
     name: str
 
 
@@ -268,6 +268,8 @@ class Measured(_Measured, total=False):
     # Of the size of an element of a field's box, such as "m² s", if the units of the axes along which it extends are
     # known.
     unit: str
+    # Of a 2-face: the name of its polygon, such as square, quadrilateral or pentagram.
+    name: str
     # If the request asks for it: what every picture draws in the color of the highlight if this element is highlighted,
     # as in `slices`. It depends only on the object.
     highlight: MeasuredHighlight

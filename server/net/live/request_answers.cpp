@@ -108,6 +108,7 @@ void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId 
     const slicing::ElementMeasurements found = slicing::measureElement(object, element);
     wire::Measured measured{revision(), found.length, found.area, found.volume, found.center};
     if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typeOfCells(object)[element.index];
+    if (element.kind == slicing::ElementKind::face) measured.name = slicing::nameOfFace(object, element.index);
     if (!found.unit.empty()) measured.unit = found.unit;
     if (measure.highlight) {
         const slicing::Object& shown = session_.current.object;

@@ -281,6 +281,9 @@ TEST(OtherMessages, FitTheirSchemas) {
               json::parse(R"({"type":"measured","id":5,"revision":3,"volume":8,"center":[0,0,0,-1],"kind":0})"));
     EXPECT_EQ(fitting(wire::answerMessage(wire::Measured{0, 2.0, {}, {}, glm::dvec4(1, 2, 3, 4), {}, "m"}, {})),
               json::parse(R"({"type":"measured","revision":0,"length":2,"center":[1,2,3,4],"unit":"m"})"));
+    EXPECT_EQ(
+        fitting(wire::answerMessage(wire::Measured{0, {}, 4.0, {}, glm::dvec4(1, 2, 3, 4), {}, {}, "square"}, {})),
+        json::parse(R"({"type":"measured","revision":0,"area":4,"center":[1,2,3,4],"name":"square"})"));
     EXPECT_EQ(fitting(wire::answerMessage(wire::Measured{0, {}, {}, {}, glm::dvec4(1, 2, 3, 4)}, {})),
               json::parse(R"({"type":"measured","revision":0,"center":[1,2,3,4]})"));
     wire::Measured withHighlight{2, 2.0, {}, {}, glm::dvec4(1, 2, 3, 4)};
