@@ -798,6 +798,10 @@ export interface At {
      */
     place?: [number, number, number, number];
     /**
+     * Of a vertex, but of no field: its coordinates as the picture shows it, after the rotation, in the coordinates of the object's file.
+     */
+    coordinates?: [number, number, number, number];
+    /**
      * The number of the element's vertices.
      */
     vertices?: number;

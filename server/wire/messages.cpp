@@ -95,8 +95,11 @@ std::string atMessage(const std::optional<scene::PickedElement>& picked, const s
             w.member("least_w", origin.w + least);
             w.member("most_w", origin.w + most);
             w.member("vertices", std::uint64_t{parts.ownVertices.size()});
-            if (picked->element.kind == slicing::ElementKind::vertex)
+            if (picked->element.kind == slicing::ElementKind::vertex) {
                 writeMember(w, "place", slicing::vertexInFile(object, picked->element.index));
+                if (slicing::fieldIn(object) == nullptr)
+                    writeMember(w, "coordinates", origin + scene.slices->rotatedVertices[picked->element.index]);
+            }
             if (picked->element.kind == slicing::ElementKind::cell) {
                 const std::uint32_t kind = slicing::typeOfCells(object)[picked->element.index];
                 w.member("kind", std::uint64_t{kind});

@@ -48,6 +48,35 @@ for (const view of ["oval", "matrix"]) {
     });
 }
 
+test("field units: the label of a corner of the box has its coordinates in the box, in both modes", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await load(script);
+    const { revision } = await script.request({ type: "set", view: "single", projection: "perspective", shown: { faces: false } });
+    await presented(page, revision);
+    const box = await page.locator("#drawing").boundingBox();
+    const size = { width: box.width, height: box.height };
+    const { scene, projection } = await script.request({ type: "get", what: "slices", ...size });
+    const [whole] = projection.parts;
+    const points = worldPoints({ scale: projection.scale }, { position: projection.position, vertices: whole.vertices });
+    const far = points.map((point) => Math.hypot(...point.map((value, k) => value - scene.camera.eye[k])));
+    const [x, y] = project(scene, points[far.indexOf(Math.min(...far))], size);
+    const { highlight, place } = await script.request({ type: "get", what: "at", x, y, ...size });
+    assert.equal(highlight.element, "vertex");
+    const rounded = place.map((value) => String(Math.round(value * 1000) / 1000).replace("-", "−"));
+    const [px, py, pz, pw] = rounded;
+    const expected = `Vertex ${highlight.number} (${px} m, ${py} m, ${pz} m, ${pw} s)`;
+    await page.mouse.move(box.x + x, box.y + y);
+    const isShown = (text) => page.waitForFunction((wanted) => document.getElementById("pointed").textContent === wanted, text);
+    await isShown(expected);
+    await page.mouse.move(box.x + 4, box.y + 4);
+    await page.locator("[data-page-tool=frames]").dispatchEvent("click");
+    await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    await page.mouse.move(box.x + x, box.y + y);
+    await isShown(expected);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 test("field units: the label beside the pointer has the units of the sizes of the box", async () => {
     const { page, script, errors, close } = await openWithScript();
     await load(script);

@@ -103,9 +103,9 @@ test("frame pointing: the server names what is under the mouse, with the words o
     assert.ok(Math.hypot(x - at[0], y - at[1]) < 1);
 
     const vertex = 7;
-    const w = rounded(seen.coordinates[4 * vertex + 3]);
+    const numbers = [...seen.coordinates.slice(4 * vertex, 4 * vertex + 4)].map(rounded);
     await hoverAt(...columnsOf(seen.scene, size)(vertex));
-    assert.equal(await labeled(page, /^Vertex/), `Vertex ${vertex} · w ${w}`);
+    assert.equal(await labeled(page, /^Vertex/), `Vertex ${vertex} (${numbers.join(", ")})`);
 
     const [whole] = seen.projection.parts;
     const placed = { position: seen.projection.position, vertices: whole.vertices };
@@ -114,7 +114,7 @@ test("frame pointing: the server names what is under the mouse, with the words o
     const near = points.map((point) => Math.hypot(...point.map((value, k) => value - eye[k])));
     const nearest = near.indexOf(Math.min(...near));
     await hoverAt(...project(seen.scene, points[nearest], size));
-    await labeled(page, new RegExp(`^Vertex ${whole.of.vertices[nearest] - 96} · w −?[\\d.]+$`));
+    await labeled(page, new RegExp(`^Vertex ${whole.of.vertices[nearest] - 96} \\((−?[\\d.]+(, )?){4}\\)$`));
 
     await hoverAt(...kBackground);
     await labeled(page, /^$/);

@@ -166,7 +166,23 @@ async def test_a_script_asks_what_is_at_a_point(server):
         assert (at["least_w"], at["most_w"], at["vertices"], at["name"], at["kind"]) == (-1, 1, 8, "cube", 0)
         await client.request("set", highlight=at["highlight"])
         assert (await client.request("get", what="state"))["highlight"] == at["highlight"]
+        assert "coordinates" not in at and "place" not in at, "of a cell"
         nothing = await client.request("get", what="at", x=1, y=1, **SIZE)
         assert nothing["highlight"] is None and "in" not in nothing
         with pytest.raises(Refused, match="needs /x and /y"):
             await client.request("get", what="at", x=1)
+
+
+async def test_a_vertex_has_its_coordinates_before_and_after_the_rotation(server):
+    async with Client(server, stream="none") as client:
+        await client.request("set", polytope="tesseract")
+        await client.request("rotate", planes=["xw", "yz"], angles=[0.3, 0.7])
+        slices = await client.request("get", what="slices", **SIZE)
+        layout = slices["scene"]["coordinates"]
+        for vertex in (0, 5):
+            x = layout["left"] + vertex % layout["per_row"] * layout["column_step"] + 1.5 * layout["line_step"]
+            y = layout["zero"] - vertex // layout["per_row"] * layout["row_step"]
+            at = await client.request("get", what="at", x=x * SIZE["height"], y=(1 - y) * SIZE["height"], **SIZE)
+            assert at["highlight"] == {"element": "vertex", "number": vertex}
+            assert at["coordinates"] == pytest.approx(list(slices["coordinates"][vertex]), abs=1e-6)
+            assert sorted(map(abs, at["place"])) == pytest.approx([1, 1, 1, 1])

@@ -206,7 +206,7 @@ async def test_what_is_told_of_an_object_is_in_the_coordinates_of_its_file(serve
         x = layout["left"] + 6 * layout["column_step"] + 1.5 * layout["line_step"]
         at = await client.request("get", what="at", x=x * 360, y=(1 - layout["zero"]) * 360, **SIZE)
         assert at["highlight"] == {"element": "vertex", "number": 6}
-        assert at["place"] == [5e6, 0, 0, -4999999] and at["least_w"] == at["most_w"] == -4999999
+        assert at["place"] == at["coordinates"] == [5e6, 0, 0, -4999999] and at["least_w"] == at["most_w"] == -4999999
 
         critical = await client.request("get", what="critical")
         assert [section["w"] for section in critical["sections"]] == [-5000001, -5e6, -4999999]

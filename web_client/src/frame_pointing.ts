@@ -155,5 +155,6 @@ function descriptionOf(answer: At): ElementDescription | undefined {
     // A slice that has been zoomed may reach behind a panel of the matrix.
     const isBehindPanel = answer.point !== undefined && answer.in !== "matrix";
     if (!highlight || isBehindPanel) return undefined;
+    if (highlight.element === "vertex") return { ...highlight, coordinates: answer.coordinates, sliceW: w };
     return { ...highlight, name, kind, sliceW: w };
 }

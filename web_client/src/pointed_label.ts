@@ -14,7 +14,10 @@ export interface ElementDescription extends PolytopeElement {
     name?: string | undefined;
     /** Of a cell: the index of its kind in `polytope.kinds` of the state, if it is known without asking the server. */
     kind?: number | undefined;
-    /** Of a vertex: x, y, z, w. */
+    /**
+     * Of a vertex: x, y, z, w, after the rotation. Without them, the label of a vertex of a field's box has its
+     * coordinates in the box, which the server tells.
+     */
     coordinates?: readonly number[] | undefined;
     /** Of an edge: its length in the picture, if it is known. */
     length?: number | undefined;
@@ -22,6 +25,7 @@ export interface ElementDescription extends PolytopeElement {
     sliceW?: number | undefined;
 }
 
+const kAxes = ["x", "y", "z", "w"] as const;
 const kGap = 14; // pixels between the pointer and the label
 const kMargin = 4; // pixels between the label and the edges of the drawing
 
@@ -71,13 +75,27 @@ export class PointedLabel {
     }
 }
 
+/** The coordinates of a point in the box of a field, each with its unit if it is known: "0.5 m, 0, −2 s". */
+function formatPlaceInBox(place: readonly number[], state: State | undefined): string {
+    const { units, box } = state?.field ?? {};
+    const format = (coordinate: number, axis: number): string => {
+        const [least, most] = box?.[axis] ?? [0, 1];
+        const unit = units?.[kAxes[axis]!];
+        // As if slices were a tenth of the box apart.
+        return formatCoordinate(coordinate, (most - least) / 10) + (unit === undefined ? "" : ` ${unit}`);
+    };
+    return place.map(format).join(", ");
+}
+
 /** The sizes that the server measures are those of the object at rest, so they are omitted for a moving observer. */
 function describe(described: ElementDescription, measured: Partial<Measured>, state: State | undefined): string {
     const { element, number, coordinates, sliceW } = described;
     const spacing = state?.slices.spacing ?? 1; // to which coordinates are rounded
     const format = (coordinate: number): string => formatCoordinate(coordinate, spacing);
     const parts = [`${capitalize(element)} ${number}`];
+    const placeInBox = element === "vertex" && state?.field ? measured.center : undefined;
     if (coordinates) parts[0] += ` (${coordinates.map(format).join(", ")})`;
+    else if (placeInBox) parts[0] += ` (${formatPlaceInBox(placeInBox, state)})`;
     const kinds = state?.polytope.kinds ?? [];
     const kind = described.kind ?? measured.kind;
     const name = described.name ?? measured.name ?? kinds[kind ?? -1]?.name;
@@ -89,7 +107,7 @@ function describe(described: ElementDescription, measured: Partial<Measured>, st
     for (const [name, size] of Object.entries(sizes)) {
         if (size !== undefined) parts.push(`${name} ${formatLength(size)}${unit}`);
     }
-    if (measured.range && !coordinates) {
+    if (measured.range && !coordinates && !placeInBox) {
         const [least, most] = measured.range.map(format);
         parts.push(least === most ? `w ${least}` : `w ${least} … ${most}`);
     }

@@ -137,7 +137,7 @@ export class Pointing {
             element,
             number,
             sliceW: slice && origin[3] + slice.w,
-            coordinates: element === "vertex" && hasPlaces ? placeOf(number) : undefined,
+            coordinates: element === "vertex" && hasPlaces && !state.field ? placeOf(number) : undefined,
             name: element === "cell" && kinds.length === 1 ? kinds[0]!.name : undefined,
             length: a && b && Math.hypot(...a.map((value, i) => value - b[i]!)),
         };

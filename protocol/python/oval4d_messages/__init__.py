@@ -61,6 +61,9 @@ class At(_At, _AtIn, total=False):
     most_w: float
     # Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box.
     place: list[float]
+    # Of a vertex, but of no field: its coordinates as the picture shows it, after the rotation, in the coordinates of
+    # the object's file.
+    coordinates: list[float]
     # The number of the element's vertices.
     vertices: int
     # Of a cell: the index of its kind in state.polytope.kinds.
