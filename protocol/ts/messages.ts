@@ -166,6 +166,10 @@ export interface GetRequest {
      */
     y?: number;
     /**
+     * For `at`, instead of `x` and `y`: a point of a field, whose values are asked, after the rotation and in the coordinates of the object's file, as in `set`.
+     */
+    point?: [number, number, number, number];
+    /**
      * Required for a `file`; see Files.
      */
     format?: string;
@@ -747,7 +751,7 @@ export interface UndoRequest {
     id?: number;
 }
 /**
- * The answer to get with what: "at". Only type, id, revision, highlight and point are present if there is no element.
+ * The answer to get with what: "at". Only type, id, revision, highlight and point are present if there is neither an element nor a surface of a field.
  */
 export interface At {
     type: "at";
@@ -770,7 +774,7 @@ export interface At {
         number: number;
     } | null;
     /**
-     * Where the element is shown.
+     * Where the element or the surface is shown.
      */
     in?: "slice" | "projection" | "coordinates" | "matrix";
     /**
@@ -794,9 +798,25 @@ export interface At {
      */
     most_w?: number;
     /**
-     * Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box.
+     * Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box. Of a point of a field: its coordinates in the box.
      */
     place?: [number, number, number, number];
+    /**
+     * On a surface or a contour of a field: the index of its level in levels of the state.
+     */
+    level?: number;
+    /**
+     * On a surface or a contour of a field: whether the point is on a cap, where the body of the level ends at the boundary of the box.
+     */
+    cap?: boolean;
+    /**
+     * Of a point of a field: the value of the function; on a surface or a contour, but not on a cap, that of the level. Absent if it has none there.
+     */
+    value?: number;
+    /**
+     * Of a point of a field: the value of the second function. Absent if there is none, or if it has none there.
+     */
+    second_value?: number;
     /**
      * Of a vertex, but of no field: its coordinates as the picture shows it, after the rotation, in the coordinates of the object's file.
      */

@@ -6,8 +6,10 @@
 
 #include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
+#include "scene/pick_level.hpp"
 #include "scene/surface_look.hpp"
 #include "slicing/closed_surfaces/closed_surface_slicer.hpp"
+#include "slicing/planar_contours.hpp"
 
 namespace oval4d::pipeline {
 
@@ -65,6 +67,25 @@ double fogSeconds(const session::State& state, double slices, double cubes, doub
     return 1e-9 * sampling + 5e-9 * points + 5e-9 * pixels * std::min(cubes, std::cbrt(points / slices));
 }
 
+/// Returns the estimated time, in seconds, to slice an object, without the surfaces of a field, and to compose its
+/// scene.
+double boxSeconds(const session::State& state) {
+    const double n = elementTotal(state.object);
+    return 1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n);
+}
+
+/// Returns the estimated time, in seconds, to find the surface of a field at a pixel, or the contours of the matrix; 0
+/// for other objects, and if faces are hidden.
+double raySeconds(const session::State& state) {
+    const fields::Field* field = slicing::fieldIn(state.object);
+    if (field == nullptr || !state.look.parts.faces) return 0;
+    constexpr double kSlices = 3;  // that the ray through a pixel meets
+    const double cost = field->function->cost().value;
+    const double contours = std::min(slicing::maxContourTime(slicing::Quality::full),
+                                     6 * slicing::kMaxContourSquares * slicing::kMaxContourSquares * (cost + 3));
+    return 1e-9 * (kSlices * scene::kRaySamples * cost + (state.look.view == scene::View::matrix ? contours : 0));
+}
+
 }  // namespace
 
 EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport, slicing::Quality quality) {
@@ -89,12 +110,16 @@ EstimatedSeconds geometryCost(const session::State& state, slicing::Quality qual
     const double cubes = slicing::cubesAcross(quality);
     const double field = surfaceSeconds(state, state.slices.count, cubes, quality) +
                          fogSeconds(state, state.slices.count, 2 * cubes, 0, quality);
-    return pointCost(state) + EstimatedSeconds(field);
+    return EstimatedSeconds(boxSeconds(state) + field);
 }
 
 EstimatedSeconds pointCost(const session::State& state) {
-    const double n = elementTotal(state.object);
-    return EstimatedSeconds(1e-4 + 1e-7 * n + 1e-7 * state.slices.count * elementsCut(n));
+    return EstimatedSeconds(boxSeconds(state) + raySeconds(state));
+}
+
+EstimatedSeconds sampleCost(const session::State& state) {
+    const fields::Field* field = slicing::fieldIn(state.object);
+    return EstimatedSeconds(1e-5 + (field == nullptr ? 0 : 1e-9 * field->function->cost().value));
 }
 
 EstimatedSeconds focusSectionCost(const session::State& state) {

@@ -23,6 +23,9 @@ EstimatedSeconds geometryCost(const session::State& state, slicing::Quality qual
 /// Returns the estimated time of Pipeline::describePoint().
 EstimatedSeconds pointCost(const session::State& state);
 
+/// Returns the estimated time of slicing::sampleField() for the state's field.
+EstimatedSeconds sampleCost(const session::State& state);
+
 /// Returns the estimated time of Pipeline::nameFocusSection().
 EstimatedSeconds focusSectionCost(const session::State& state);
 

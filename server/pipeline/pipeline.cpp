@@ -4,6 +4,8 @@
 
 #include "pipeline/picture_of_state.hpp"
 #include "scene/pick.hpp"
+#include "scene/pick_level.hpp"
+#include "slicing/field_sample.hpp"
 #include "slicing/slice_edges.hpp"
 #include "wire/messages.hpp"
 
@@ -52,9 +54,18 @@ std::string Pipeline::describePoint(const session::State& state, std::uint64_t r
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     workspace_.composer.compose(state.object, state.orientation, sliceToPointAt(state), state.slices.focus, state.look,
                                 viewport, workspace_.scene, slicing::Quality::full, scene::ScenePurpose::pointing);
-    return wire::atMessage(scene::pickElement(workspace_.scene, state.object, point),
-                           scene::matrixPointAt(workspace_.scene, point), workspace_.scene, state.object, state.source,
-                           revision, id);
+    const scene::Scene& composed = workspace_.scene;
+    wire::PictureAtPixel at;
+    at.element = scene::pickElement(composed, state.object, point);
+    at.panelPoint = scene::matrixPointAt(composed, point);
+    if (const fields::Field* const field = slicing::fieldIn(state.object)) {
+        at.level = scene::pickLevel(composed, *field, state.orientation, point, at.element);
+        if (at.level) {
+            at.element.reset();
+            at.sample = slicing::sampleField(*field, state.orientation, at.level->point);
+        }
+    }
+    return wire::atMessage(at, composed, state.object, state.source, revision, id);
 }
 
 const slicing::SliceSet& Pipeline::sliceToPointAt(const session::State& state) {

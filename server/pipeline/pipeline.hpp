@@ -63,9 +63,10 @@ class Pipeline {
                      slicing::Quality quality = slicing::Quality::full);
 
     /// Returns the `at` message, which says what the picture shows at `point`, in pixels from the upper left corner
-    /// (see scene::pickElement()). `revision` and `id`: see writeSlices(). Slices the object, unless the last call has
-    /// cut the same slices; does not evaluate the function of a field. Throws slicing::TooManySliceEdges as slice()
-    /// does.
+    /// (see scene::pickElement() and scene::pickLevel()). `revision` and `id`: see writeSlices(). Slices the object,
+    /// unless the last call has cut the same slices; extracts no surfaces of a field, but evaluates its function along
+    /// one ray and, in the matrix, for the contours. Throws slicing::TooManySliceEdges and std::runtime_error as
+    /// slice() does.
     std::string describePoint(const session::State& state, std::uint64_t revision, std::optional<double> id,
                               scene::Viewport viewport, glm::dvec2 point);
 

@@ -147,7 +147,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, fillSteps, out);
     if (out.matrix.shown) {
         cutSectionMatrix(object, orientation, focus, out);
-        if (draws) traceContours(object, orientation, quality, out);
+        traceContours(object, orientation, quality, out);
     }
     if (draws && out.showsDensity()) measureDensity(orientation, out);
     if (draws && out.showsHistogram()) measureFieldHistograms(object, orientation, out);

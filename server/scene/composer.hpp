@@ -26,7 +26,7 @@ namespace oval4d::scene {
 /// What a scene is composed for.
 enum class ScenePurpose : std::uint8_t {
     drawing,   ///< to be drawn or written
-    pointing,  ///< only for pickElement() and matrixPointAt(), which need no filled faces, contours, tones or
+    pointing,  ///< only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or
                ///< histograms
 };
 

@@ -170,6 +170,7 @@ class Picker {
             nearest_ = depth;
             picked_ = where;
             picked_->element = element;
+            picked_->depth = depth;
         };
         for (std::uint32_t v = v0; sizes.ball > 0 && v < set.vertexBegin[i + 1]; ++v) {
             if (isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
@@ -260,8 +261,7 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
         picker.pickMatrix();
         return picker.picked();
     }
-    const double bottom = scene.viewport.height * (1 - scene.coordinates.top());
-    if (scene.clearsCoordinatesArea() && point.y >= bottom) return std::nullopt;
+    if (isClearedOfSlices(scene, point)) return std::nullopt;
     picker.pickSlices();
     picker.pickProjection();
     return picker.picked();
@@ -278,6 +278,10 @@ std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point) {
     found[column] = offset.x;
     found[row] = offset.y;
     return found;
+}
+
+bool isClearedOfSlices(const Scene& scene, glm::dvec2 point) {
+    return scene.clearsCoordinatesArea() && point.y >= scene.viewport.height * (1 - scene.coordinates.top());
 }
 
 }  // namespace oval4d::scene

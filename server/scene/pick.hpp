@@ -25,6 +25,7 @@ struct PickedElement {
     slicing::Element element;
     PictureArea area = PictureArea::slice;
     std::size_t slice = 0;  ///< for PictureArea::slice: the index of the slice in the SliceSet
+    double depth = 0;       ///< in slices and in the projection: the distance from the eye along the camera's axis
 };
 
 /// Returns the element of `object` that the picture shows at the point (x, y), in pixels from the upper left corner; an
@@ -40,5 +41,9 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
 /// empty optional outside the panels, on the diagonal, and if the scene shows no matrix. The result is in the object's
 /// units and in the coordinates after the rotation, like SectionMatrix::point.
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point);
+
+/// Returns whether no slices are drawn at the point (x, y), in pixels from the upper left corner, because it is in the
+/// part of the picture that belongs to the parallel coordinates (see Scene::clearsCoordinatesArea()).
+bool isClearedOfSlices(const Scene& scene, glm::dvec2 point);
 
 }  // namespace oval4d::scene

@@ -57,6 +57,41 @@ void writePair(JsonWriter& w, std::string_view name, Number before, Number after
     w.endArray();
 }
 
+// Writes the members of `at` that describe an element; see atMessage().
+void writeElementMembers(JsonWriter& w, const slicing::Element& element, const scene::Scene& scene,
+                         const slicing::Object& object, const slicing::Object& source) {
+    const glm::dvec4& origin = slicing::infoOf(object).originInFile;
+    slicing::PartsShowingElement parts;
+    slicing::findPartsShowing(object, element, parts);
+    double least = std::numeric_limits<double>::max(), most = -least;
+    for (const std::uint32_t v : parts.ownVertices) {
+        least = std::min(least, scene.slices->rotatedVertices[v].w);
+        most = std::max(most, scene.slices->rotatedVertices[v].w);
+    }
+    w.member("least_w", origin.w + least);
+    w.member("most_w", origin.w + most);
+    w.member("vertices", std::uint64_t{parts.ownVertices.size()});
+    if (element.kind == slicing::ElementKind::vertex) {
+        writeMember(w, "place", slicing::vertexInFile(object, element.index));
+        if (slicing::fieldIn(object) == nullptr)
+            writeMember(w, "coordinates", origin + scene.slices->rotatedVertices[element.index]);
+    }
+    if (element.kind == slicing::ElementKind::face)
+        w.member("name", std::string_view(slicing::nameOfFace(source, element.index)));
+    if (element.kind == slicing::ElementKind::cell) {
+        const std::uint32_t kind = slicing::typeOfCells(object)[element.index];
+        w.member("kind", std::uint64_t{kind});
+        w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
+    }
+}
+
+// Writes the members of `at` that describe a point of a field.
+void writeSampleMembers(JsonWriter& w, const slicing::FieldSample& sample) {
+    writeMember(w, "place", sample.place);
+    writePresent(w, "value", sample.value);
+    writePresent(w, "second_value", sample.secondValue);
+}
+
 }  // namespace
 
 std::string answerMessage(const Answer& answer, std::optional<double> id) {
@@ -71,44 +106,41 @@ std::string answerMessage(const Answer& answer, std::optional<double> id) {
         answer);
 }
 
-std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
-                      const scene::Scene& scene, const slicing::Object& object, const slicing::Object& source,
-                      std::uint64_t revision, std::optional<double> id) {
+std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
+                      const slicing::Object& source, std::uint64_t revision, std::optional<double> id) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;
+    const auto writeArea = [&](JsonWriter& w, scene::PictureArea area, std::size_t slice) {
+        w.member("in", text::nameOf(scene::kPictureAreas, area));
+        if (area != scene::PictureArea::slice) return;
+        w.member("slice", scene.placements[slice].index);
+        w.member("w", origin.w + scene.placements[slice].w);
+    };
     return message("at", id, [&](JsonWriter& w) {
         w.member("revision", revision);
         w.key("highlight");
-        writeValue(w, picked ? std::optional(picked->element) : std::nullopt);
-        if (picked) {
-            w.member("in", text::nameOf(scene::kPictureAreas, picked->area));
-            if (picked->area == scene::PictureArea::slice) {
-                w.member("slice", scene.placements[picked->slice].index);
-                w.member("w", origin.w + scene.placements[picked->slice].w);
-            }
-            slicing::PartsShowingElement parts;
-            slicing::findPartsShowing(object, picked->element, parts);
-            double least = std::numeric_limits<double>::max(), most = -least;
-            for (const std::uint32_t v : parts.ownVertices) {
-                least = std::min(least, scene.slices->rotatedVertices[v].w);
-                most = std::max(most, scene.slices->rotatedVertices[v].w);
-            }
-            w.member("least_w", origin.w + least);
-            w.member("most_w", origin.w + most);
-            w.member("vertices", std::uint64_t{parts.ownVertices.size()});
-            if (picked->element.kind == slicing::ElementKind::vertex) {
-                writeMember(w, "place", slicing::vertexInFile(object, picked->element.index));
-                if (slicing::fieldIn(object) == nullptr)
-                    writeMember(w, "coordinates", origin + scene.slices->rotatedVertices[picked->element.index]);
-            }
-            if (picked->element.kind == slicing::ElementKind::cell) {
-                const std::uint32_t kind = slicing::typeOfCells(object)[picked->element.index];
-                w.member("kind", std::uint64_t{kind});
-                w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
-            }
-            if (picked->element.kind == slicing::ElementKind::face)
-                w.member("name", std::string_view(slicing::nameOfFace(source, picked->element.index)));
+        writeValue(w, at.element ? std::optional(at.element->element) : std::nullopt);
+        if (at.element) {
+            writeArea(w, at.element->area, at.element->slice);
+            writeElementMembers(w, at.element->element, scene, object, source);
+        } else if (at.level) {
+            writeArea(w, at.level->area, at.level->slice);
+            w.member("level", std::uint64_t{at.level->level});
+            w.member("cap", at.level->cap);
+            slicing::FieldSample sample = *at.sample;
+            // On the surface, the function has this value up to rounding errors.
+            if (!at.level->cap) sample.value = scene.look.field.levels[at.level->level];
+            writeSampleMembers(w, sample);
         }
-        if (point) writeMember(w, "point", origin + *point);
+        if (at.panelPoint) writeMember(w, "point", origin + *at.panelPoint);
+    });
+}
+
+std::string sampleMessage(const slicing::FieldSample& sample, std::uint64_t revision, std::optional<double> id) {
+    return message("at", id, [&](JsonWriter& w) {
+        w.member("revision", revision);
+        w.key("highlight");
+        writeValue(w, std::optional<slicing::Element>());
+        writeSampleMembers(w, sample);
     });
 }
 

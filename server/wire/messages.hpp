@@ -10,8 +10,10 @@
 
 #include "errors/error.hpp"
 #include "scene/pick.hpp"
+#include "scene/pick_level.hpp"
 #include "session/session.hpp"
 #include "slicing/critical/critical_sections.hpp"
+#include "slicing/field_sample.hpp"
 #include "wire/request.hpp"
 
 namespace oval4d::wire {
@@ -20,13 +22,23 @@ namespace oval4d::wire {
 /// empty optional or an empty list.
 std::string answerMessage(const Answer& answer, std::optional<double> id);
 
-/// Returns the `at` message, which describes what the picture `scene` of `object` shows at a pixel. `picked`: the
-/// element at this pixel, if there is one. `point`: if a panel of the matrix is at this pixel, the 4-D point that the
-/// panel shows there, in the coordinates of the rotated object. `source`: the object before it was transformed to the
-/// frame of reference (see session::State), in which a 2-face has the shape for which it is named.
-std::string atMessage(const std::optional<scene::PickedElement>& picked, const std::optional<glm::dvec4>& point,
-                      const scene::Scene& scene, const slicing::Object& object, const slicing::Object& source,
-                      std::uint64_t revision, std::optional<double> id);
+/// What a picture shows at a pixel.
+struct PictureAtPixel {
+    std::optional<scene::PickedElement> element;  ///< the element there, unless `level` is nearer to the viewer
+    std::optional<scene::PickedLevel> level;      ///< the surface or the contour of a field there
+    std::optional<slicing::FieldSample> sample;   ///< the field at PickedLevel::point; present if `level` is
+    /// If a panel of the matrix is there, the 4-D point that it shows, in the coordinates of the rotated object.
+    std::optional<glm::dvec4> panelPoint;
+};
+
+/// Returns the `at` message, which describes what the picture `scene` of `object` shows at a pixel. `source`: the
+/// object before it was transformed to the frame of reference (see session::State), in which a 2-face has the shape for
+/// which it is named.
+std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
+                      const slicing::Object& source, std::uint64_t revision, std::optional<double> id);
+
+/// Returns the `at` message that answers a request for the values of a field at a point.
+std::string sampleMessage(const slicing::FieldSample& sample, std::uint64_t revision, std::optional<double> id);
 
 /// Returns the `critical` message: the critical values of w of the object, in the coordinates of the object's file.
 /// `originW`: the w of the object's geometry::ObjectInfo::originInFile.

@@ -261,8 +261,12 @@ Get bodyOf(const json& message) {
     choose(message, "background", scene::kBackgrounds, get.background);
     if (const auto highlight = message.find("highlight"); highlight != message.end())
         readValue(*highlight, get.highlight);
-    if (get.what == GetTarget::at) {
-        if (!message.contains("x") || !message.contains("y"))
+    const bool hasX = message.contains("x"), hasY = message.contains("y");
+    if (const auto point = message.find("point"); get.what == GetTarget::at && point != message.end()) {
+        if (hasX || hasY) throw InvalidRequest{"get: give either /point, or /x and /y"};
+        readValue(*point, get.fieldPoint);
+    } else if (get.what == GetTarget::at) {
+        if (!hasX || !hasY)
             throw InvalidRequest{"get: the element at a point needs /x and /y, in pixels from the upper left corner"};
         get.point = {message.at("x").get<double>(), message.at("y").get<double>()};
     }

@@ -67,7 +67,10 @@ struct Get {
     /// For GetTarget::slices and frame: the highlighted element, or an inner optional that is empty for none. If the
     /// outer optional is empty, the element that the session highlights.
     std::optional<std::optional<slicing::Element>> highlight;
-    glm::dvec2 point{0};          ///< for GetTarget::at: pixels from the upper left corner
+    glm::dvec2 point{0};  ///< for GetTarget::at: pixels from the upper left corner
+    /// For GetTarget::at: the point of a field whose values are asked, after the rotation and in the coordinates of the
+    /// object's file, instead of `point`.
+    std::optional<glm::dvec4> fieldPoint;
     exports::ExportRequest file;  ///< the options of the export, for GetTarget::file
     bool operator==(const Get&) const = default;
 };

@@ -32,7 +32,7 @@ class AtHighlight(TypedDict):
     number: int
 
 
-# Where the element is shown.
+# Where the element or the surface is shown.
 _AtIn = TypedDict("_AtIn", {"in": Literal["slice", "projection", "coordinates", "matrix"]}, total=False)
 
 
@@ -45,8 +45,8 @@ class _At(TypedDict):
 
 
 class At(_At, _AtIn, total=False):
-    """The answer to get with what: "at". Only type, id, revision, highlight and point are present if there is no
-    element."""
+    """The answer to get with what: "at". Only type, id, revision, highlight and point are present if there is neither
+    an element nor a surface of a field."""
     # The id of the request that this message answers; absent if it had none.
     id: float
     # In a slice: the index n of the hyperplane.
@@ -59,8 +59,19 @@ class At(_At, _AtIn, total=False):
     least_w: float
     # The largest w of the element's vertices.
     most_w: float
-    # Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box.
+    # Of a vertex: its coordinates in the object's file, before the rotation; of a field, those of the box. Of a point
+    # of a field: its coordinates in the box.
     place: list[float]
+    # On a surface or a contour of a field: the index of its level in levels of the state.
+    level: int
+    # On a surface or a contour of a field: whether the point is on a cap, where the body of the level ends at the
+    # boundary of the box.
+    cap: bool
+    # Of a point of a field: the value of the function; on a surface or a contour, but not on a cap, that of the level.
+    # Absent if it has none there.
+    value: float
+    # Of a point of a field: the value of the second function. Absent if there is none, or if it has none there.
+    second_value: float
     # Of a vertex, but of no field: its coordinates as the picture shows it, after the rotation, in the coordinates of
     # the object's file.
     coordinates: list[float]
@@ -690,6 +701,9 @@ class GetRequest(_GetRequest, total=False):
     x: float
     # A coordinate of the point, for `at`.
     y: float
+    # For `at`, instead of `x` and `y`: a point of a field, whose values are asked, after the rotation and in the
+    # coordinates of the object's file, as in `set`.
+    point: Sequence[float]
     # Required for a `file`; see Files.
     format: str
     # What a `file` contains: the focus slice, all slices, the highlighted element alone, the critical w, the whole

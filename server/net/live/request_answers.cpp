@@ -16,6 +16,7 @@
 #include "session/query.hpp"
 #include "session/settings.hpp"
 #include "slicing/element.hpp"
+#include "slicing/field_sample.hpp"
 #include "wire/messages.hpp"
 
 namespace oval4d::net {
@@ -84,7 +85,11 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
             break;
         case wire::GetTarget::at:
             key.stream = Stream::geometry;
-            co_await answerWithPicture(peer, key, id, get.point);
+            if (get.fieldPoint) {
+                co_await answerWithSample(peer, *get.fieldPoint, id);
+            } else {
+                co_await answerWithPicture(peer, key, id, get.point);
+            }
             break;
         case wire::GetTarget::file:
             co_await answerWithFile(peer, get.file, id);
@@ -225,6 +230,37 @@ asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> pe
         failed = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
     }
     if (failed) sendError(*peer, services_.metrics, *failed, id);
+}
+
+asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> peer, glm::dvec4 point, RequestId id) {
+    const std::uint64_t askedRevision = revision();
+    std::optional<Error> failed;
+    if (slicing::fieldIn(session_.current.object) == nullptr) {
+        failed = Error{ErrorCode::out_of_range,
+                       "the " + slicing::infoOf(session_.current.object).name + " is not a field, so it has no values"};
+    } else {
+        try {
+            peer->send(co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, sampleJob(point, id),
+                                                           streams_->jobQueuesOf(peer->client()).pictures,
+                                                           pipeline::sampleCost(session_.current)));
+        } catch (const parallel::QueueFull&) {
+            failed = kTooManyJobs;
+        } catch (const std::exception& fault) {
+            failed = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
+        }
+    }
+    if (failed) sendError(*peer, services_.metrics, *failed, id);
+}
+
+/// Returns a job that tells the values of the current field at a point, which is in the coordinates of the object's
+/// file after the rotation.
+std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::sampleJob(const glm::dvec4& point,
+                                                                              RequestId id) const {
+    return [state = session_.current, point, askedRevision = revision(), id](pipeline::Pipeline& /*pipeline*/) {
+        const glm::dvec4 fromOrigin = point - slicing::infoOf(state.object).originInFile;
+        return textMessage(wire::sampleMessage(
+            slicing::sampleField(*slicing::fieldIn(state.object), state.orientation, fromOrigin), askedRevision, id));
+    };
 }
 
 /// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows at this

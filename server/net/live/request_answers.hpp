@@ -9,6 +9,7 @@
 #include <string>
 
 #include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
 
 #include "errors/error.hpp"
 #include "export/export_request.hpp"
@@ -46,6 +47,8 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
   private:
     boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
+    boost::asio::awaitable<void> answerWithSample(std::shared_ptr<Peer> peer, glm::dvec4 point, RequestId id);
+    std::function<OutgoingMessage(pipeline::Pipeline&)> sampleJob(const glm::dvec4& point, RequestId id) const;
     boost::asio::awaitable<void> answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id);
     void answerWithViewLink(Peer& peer, RequestId id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,

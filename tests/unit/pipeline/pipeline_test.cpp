@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "pipeline/cost.hpp"
+#include "scene/pick_level.hpp"
 #include "session/session.hpp"
 #include "slicing/slice_edges.hpp"
 #include "unit/polytopes/support.hpp"
@@ -63,8 +64,9 @@ TEST(Pipeline, PointsAtAStateAfterOneWhoseSlicesAreTooLarge) {
     EXPECT_EQ(answersAt(pipeline, small), answers);
 }
 
-// A point of a field shows its box, not its surfaces.
-TEST(Pipeline, PointsAtAFieldWithoutEvaluatingIt) {
+// A point of a field is found on one ray, without the surfaces of the picture, and contours are kept for the next
+// point.
+TEST(Pipeline, PointsAtAFieldAlongOneRay) {
     std::atomic<int> evaluations = 0;
     const auto ball = [&evaluations](const glm::dvec4& p) {
         ++evaluations;
@@ -77,11 +79,21 @@ TEST(Pipeline, PointsAtAFieldWithoutEvaluatingIt) {
     Pipeline pipeline(nullptr, nullptr);
     for (const scene::View view : {scene::View::oval, scene::View::matrix}) {
         state.look.view = view;
-        evaluations = 0;
-        EXPECT_NE(answersAt(pipeline, state, 10).find(R"("in":)"), std::string::npos);
-        EXPECT_EQ(evaluations, 0);
+        const std::string answers = answersAt(pipeline, state, 10);
+        EXPECT_NE(answers.find(R"("level":0,"cap":false,"place":[)"), std::string::npos);
+        EXPECT_NE(answers.find(R"("value":0)"), std::string::npos);
+        EXPECT_NE(answers.find(R"("element":)"), std::string::npos) << "the box is found, too";
+        for (int x = 5; x < kViewport.width; x += 20) {
+            evaluations = 0;
+            pipeline.describePoint(state, 3, {}, kViewport, glm::dvec2(x, kViewport.height / 3.0));
+            EXPECT_LT(evaluations, state.slices.count * (scene::kRaySamples + 500));
+        }
     }
     EXPECT_LT(pointCost(state), geometryCost(state, slicing::Quality::full));
+    state.look.parts.faces = false;
+    evaluations = 0;
+    EXPECT_EQ(answersAt(pipeline, state, 10).find(R"("level")"), std::string::npos);
+    EXPECT_EQ(evaluations, 0) << "no surfaces are shown";
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ Variations variationsOf(std::type_identity<Get> /*type*/) {
              R"({"what": "frame", "width": 200, "height": 200, "background": "white",
                  "highlight": {"element": "cell", "number": 1}})"},
             {R"({"type": "get", "what": "at", "x": 1, "y": 1})", R"({"x": 2, "y": 2})"},
+            {R"({"type": "get", "what": "at", "point": [1, 2, 3, 4]})", R"({"point": [1, 2, 3, 5]})"},
             {R"({"type": "get", "what": "file", "format": "stl"})",
              R"({"format": "3mf", "of": "oval", "body": "skeleton", "size": 10, "label": "engraved", "at": [1],
                  "fit": 3, "exact": true})"}};

@@ -1,0 +1,233 @@
+#include "scene/pick_level.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include "slicing/surfaces/field_section.hpp"
+#include "slicing/surfaces/section_values.hpp"
+
+namespace oval4d::scene {
+
+namespace {
+
+constexpr double kHitDistance = 3;  // pixels: the least distance within which a contour is hit
+
+// The points of a slice on the ray through a pixel: start + depth · direction, in the units of the object.
+struct SliceRay {
+    std::size_t slice = 0;
+    glm::dvec3 start{0}, direction{0};
+    double entry = 0, exit = 0;  // the depths between which the ray is in the box
+    bool beginsAtWall = false;   // whether the ray enters the box at `entry`, so that the eye is outside
+};
+
+// Casts the ray through a pixel.
+class RayCaster {
+  public:
+    RayCaster(const Scene& scene, const fields::Field& field, const geometry::Rotation& orientation, glm::dvec2 point)
+        : scene_(scene), field_(field), toFunction_(field.toFunction * orientation.inverse().matrix()) {
+        const glm::dvec2 size(scene.viewport.width, scene.viewport.height);
+        const glm::dmat4 projection = scene.camera.projection(size.x / size.y);
+        const glm::dvec2 ndc = 2.0 * glm::dvec2(point.x, size.y - point.y) / size - 1.0;
+        const glm::dvec3 ray((ndc.x + projection[2][0]) / projection[0][0],
+                             (ndc.y + projection[2][1]) / projection[1][1], -1);
+        direction_ = glm::transpose(glm::dmat3(scene.camera.view())) * ray;
+    }
+
+    // Finds the nearest point of a surface whose depth is less than `depth`.
+    std::optional<PickedLevel> nearestBefore(double depth) {
+        nearest_ = depth;
+        std::vector<SliceRay> rays;
+        for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
+            if (!scene_.placements[i].drawn) continue;
+            placeSection(i);
+            if (const auto ray = rayThrough(i)) rays.push_back(*ray);
+        }
+        std::ranges::sort(rays, {}, &SliceRay::entry);
+        for (const SliceRay& ray : rays) {
+            if (ray.entry >= nearest_) break;
+            placeSection(ray.slice);
+            cast(ray);
+        }
+        field_.function->releasePages();
+        if (field_.isLost()) throw std::runtime_error("the file of the field can no longer be read");
+        return found_;
+    }
+
+  private:
+    // A point of a ray at which the body of a level begins or ends.
+    struct Crossing {
+        double depth;
+        bool cap;
+    };
+
+    void placeSection(std::size_t slice) {
+        slicing::placeSection(field_, toFunction_, scene_.placements[slice].w, section_);
+    }
+
+    // Returns the ray in a slice, whose section must have been placed; an empty optional if it misses the box.
+    std::optional<SliceRay> rayThrough(std::size_t slice) const {
+        SliceRay ray;
+        ray.slice = slice;
+        ray.start = (scene_.camera.eye - scene_.placements[slice].position) / scene_.scale;
+        ray.direction = direction_ / scene_.scale;
+        const glm::dvec4 start = section_.origin + inFunction(ray.start), along = inFunction(ray.direction);
+        ray.entry = -std::numeric_limits<double>::infinity();
+        ray.exit = scene_.camera.far;
+        for (int axis = 0; axis < 4; ++axis) {
+            const double least = field_.box.min[axis], most = field_.box.max[axis];
+            if (along[axis] == 0) {
+                if (start[axis] < least || start[axis] > most) return std::nullopt;
+                continue;
+            }
+            const double toLeast = (least - start[axis]) / along[axis], toMost = (most - start[axis]) / along[axis];
+            ray.entry = std::max(ray.entry, std::min(toLeast, toMost));
+            ray.exit = std::min(ray.exit, std::max(toLeast, toMost));
+        }
+        ray.beginsAtWall = ray.entry >= scene_.camera.near;
+        ray.entry = std::max(ray.entry, scene_.camera.near);
+        if (!(ray.entry < ray.exit)) return std::nullopt;
+        return ray;
+    }
+    glm::dvec4 inFunction(const glm::dvec3& v) const {
+        return v.x * section_.axes[0] + v.y * section_.axes[1] + v.z * section_.axes[2];
+    }
+
+    // Finds the first point of a surface on the ray; keeps it if it is nearer than nearest_.
+    void cast(const SliceRay& ray) {
+        constexpr double kTime = 1.5e8;  // nanoseconds for the rays through all slices
+        const double affordable =
+            kTime / (static_cast<double>(scene_.placements.size()) * std::max(field_.function->cost().value, 1.0));
+        const double perDiameter = std::clamp(affordable, kMinRaySamples, kRaySamples);
+        const double length = (ray.exit - ray.entry) * glm::length(ray.direction);
+        const auto steps = static_cast<std::size_t>(
+            std::clamp(std::ceil(perDiameter * length / (2 * scene_.circumradius)), 2.0, perDiameter));
+        evaluate(ray, ray.entry, ray.exit, steps);
+        const std::vector<float> values = values_;  // evaluate() overwrites values_
+        const auto depthAt = [&](std::size_t k) {
+            return std::lerp(ray.entry, ray.exit, static_cast<double>(k) / static_cast<double>(steps));
+        };
+        for (const SurfaceLook::LevelLook& level : scene_.surfaces.levels) {
+            if (level.caps && ray.beginsAtWall && isInside(values[0], level)) keep(ray, level, {ray.entry, true});
+        }
+        for (std::size_t k = 0; k < steps && depthAt(k) < nearest_; ++k) {
+            for (const SurfaceLook::LevelLook& level : scene_.surfaces.levels) {
+                if (isInside(values[k], level) == isInside(values[k + 1], level)) continue;
+                const Crossing crossing = refine(ray, level, depthAt(k), depthAt(k + 1));
+                if (!crossing.cap || level.caps) keep(ray, level, crossing);
+            }
+        }
+    }
+
+    // Finds the first place between two depths at which the ray enters or leaves the body of a level. It does so at one
+    // of them.
+    Crossing refine(const SliceRay& ray, const SurfaceLook::LevelLook& level, double from, double to) {
+        constexpr std::size_t kSteps = 32, kRounds = 5;
+        bool cap = false, entering = false;
+        for (std::size_t round = 0; round < kRounds; ++round) {
+            evaluate(ray, from, to, kSteps);
+            const bool before = isInside(values_[0], level);
+            std::size_t k = 0;
+            while (k + 1 < kSteps && isInside(values_[k + 1], level) == before) ++k;
+            cap = std::isnan(values_[k]) || std::isnan(values_[k + 1]);
+            entering = !before;
+            const double step = (to - from) / kSteps, begin = from;
+            from = begin + static_cast<double>(k) * step;
+            to = begin + static_cast<double>(k + 1) * step;
+        }
+        // A point of a cap is where the function has a value: inside the body.
+        return {cap ? (entering ? to : from) : (from + to) / 2, cap};
+    }
+
+    void keep(const SliceRay& ray, const SurfaceLook::LevelLook& level, const Crossing& crossing) {
+        if (crossing.depth >= nearest_) return;
+        nearest_ = crossing.depth;
+        const glm::dvec3 p = ray.start + crossing.depth * ray.direction;
+        found_ = {level.index, crossing.cap, PictureArea::slice, ray.slice,
+                  glm::dvec4(p, scene_.placements[ray.slice].w)};
+    }
+
+    bool isInside(float value, const SurfaceLook::LevelLook& look) const {
+        const double level = scene_.look.field.levels[look.index];
+        return scene_.look.field.inside == fields::Inside::below ? value < level : value > level;
+    }
+
+    // Sets values_ to those of the function at steps + 1 points between two depths of the ray.
+    void evaluate(const SliceRay& ray, double from, double to, std::size_t steps) {
+        points_.clear();
+        for (std::size_t k = 0; k <= steps; ++k) {
+            const double depth = std::lerp(from, to, static_cast<double>(k) / static_cast<double>(steps));
+            points_.push_back(ray.start + depth * ray.direction);
+        }
+        slicing::evaluateInSection(*field_.function, section_, std::span<const glm::dvec3>(points_), values_);
+    }
+
+    const Scene& scene_;
+    const fields::Field& field_;
+    const glm::dmat4 toFunction_;
+    glm::dvec3 direction_{0};        // in world space, of the ray from the eye; one unit is a depth of 1
+    slicing::FieldSection section_;  // without walls and bounds
+    std::vector<glm::dvec3> points_;
+    std::vector<float> values_;
+    double nearest_ = 0;  // the depth of found_
+    std::optional<PickedLevel> found_;
+};
+
+// Returns the point of a line segment that is nearest to the origin.
+glm::dvec2 nearestToOrigin(const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::dvec2 along = to - from;
+    const double length = glm::dot(along, along);
+    return from + (length > 0 ? std::clamp(-glm::dot(from, along) / length, 0.0, 1.0) : 0.0) * along;
+}
+
+// Finds the contour at a pixel of a panel of the matrix. `shown` is the point that the panel shows there.
+std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, const glm::dvec4& shown) {
+    const double height = scene.viewport.height;
+    const auto [row, column] = *scene.matrix.panelAt({point.x / height, 1 - point.y / height});
+    const std::array<int, 2> axes{std::min(row, column), std::max(row, column)};
+    const auto plane = std::ranges::find(slicing::kPlaneAxes, axes) - slicing::kPlaneAxes.begin();
+    const slicing::PlanarContours& contours = scene.sectionMatrix.contours.at(static_cast<std::size_t>(plane));
+    const glm::dvec2 at(shown[axes[0]], shown[axes[1]]);
+    const double pixels = scene.matrix.scale(scene.circumradius) * height;  // per unit of the object
+    double nearest = std::max(scene.matrix.lineWidth / 2 * height, kHitDistance) / pixels;
+    std::optional<PickedLevel> found;
+    for (std::size_t i = 0; i < contours.lineCount(); ++i) {
+        const std::span<const glm::dvec2> line = contours.line(i);
+        for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+            const glm::dvec2 offset = nearestToOrigin(line[k] - at, line[k + 1] - at);
+            if (glm::length(offset) > nearest) continue;
+            nearest = glm::length(offset);
+            found = {contours.level[i], false, PictureArea::matrix, 0, scene.sectionMatrix.point};
+            found->point[axes[0]] = at.x + offset.x;
+            found->point[axes[1]] = at.y + offset.y;
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& field,
+                                     const geometry::Rotation& orientation, glm::dvec2 point,
+                                     const std::optional<PickedElement>& element) {
+    if (scene.surfaces.empty()) return std::nullopt;
+    const bool isElementInSpace =
+        element && (element->area == PictureArea::slice || element->area == PictureArea::projection);
+    if (element && !isElementInSpace) return std::nullopt;
+    if (const auto shown = matrixPointAt(scene, point)) return pickContour(scene, point, *shown);
+    if (isClearedOfSlices(scene, point)) return std::nullopt;
+    return RayCaster(scene, field, orientation, point)
+        .nearestBefore(element ? element->depth : std::numeric_limits<double>::infinity());
+}
+
+}  // namespace oval4d::scene
