@@ -16,6 +16,7 @@ import { byId } from "./element";
 import { ElementMeasurements } from "./element_measurements";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
+import { FieldSamples } from "./field_samples";
 import { fieldOfLine, loadOf, type FormulaWithBox } from "./fields";
 import { FileLoading } from "./file_loading";
 import { nameOf } from "./files";
@@ -140,7 +141,12 @@ export class App {
             this.pointing.complete();
         },
     );
-    private readonly pointedLabel = new PointedLabel(this.drawing, () => this.state, this.measurements);
+    private readonly samples: FieldSamples = new FieldSamples(
+        () => this.state,
+        (point) => this.client.request({ type: "get", what: "at", point }),
+        () => this.pointedLabel.update(),
+    );
+    private readonly pointedLabel = new PointedLabel(this.drawing, () => this.state, this.measurements, this.samples);
     private readonly pointing: Pointing = new Pointing(
         this.drawing,
         this.stage,

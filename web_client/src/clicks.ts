@@ -7,7 +7,7 @@ import { capitalize } from "./format";
 import type { Point } from "./hover";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
-import type { Pointing } from "./pointing";
+import { isElement, type Pointing } from "./pointing";
 
 const kLeastDisc = 12; // pixels: a click this near to the center of a slice hits the slice, however small the slice is
 
@@ -43,10 +43,10 @@ export class Clicks {
 
     /**
      * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
-     * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click near a slice makes that
-     * slice the focus slice and keeps the highlight, and a click on the background removes the highlight. The point is
-     * in pixels of the drawing. `isTap` tells that the click was made by a finger; the element's name is then shown,
-     * too.
+     * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click on the surface of a
+     * field in a slice, or near a slice, makes that slice the focus slice and keeps the highlight, and a click on the
+     * background removes the highlight. The point is in pixels of the drawing. `isTap` tells that the click was made by
+     * a finger; the name of the element or surface is then shown, too.
      */
     async click({ x, y }: Point, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;
@@ -54,14 +54,15 @@ export class Clicks {
         const hitTester = await this.actions.hitTester();
         this.actions.began();
         if (!hitTester) return;
-        const pointed = this.pointing.elementAt(x, y, hitTester);
-        if (!pointed && this.actions.moveFocusPoint({ x, y })) return;
+        const pointed = this.pointing.partAt(x, y, hitTester);
+        const element = pointed && isElement(pointed) ? pointed : undefined;
+        if (!element && this.actions.moveFocusPoint({ x, y })) return;
         if (pointed && isTap) this.pointing.showName(pointed, hitTester, { x, y });
         const slice = pointed
             ? pointed.slice
             : hitTester.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
         const kept = this.actions.state()?.highlight ?? null;
-        const highlight = pointed ? { element: pointed.element, number: pointed.number } : slice ? kept : null;
+        const highlight = element ? { element: element.element, number: element.number } : slice ? kept : null;
         const isKept = highlight?.element === kept?.element && highlight?.number === kept?.number;
         const change = {
             ...(slice && !slice.focus && { slices: { focus: slice.index } }),
@@ -73,8 +74,8 @@ export class Clicks {
     /** Highlights the element at a point of the drawing; opens its menu. Resolves to false if no element is there. */
     async highlightAndOpenMenu(at: Point): Promise<boolean> {
         const hitTester = await this.actions.hitTester();
-        const pointed = hitTester && this.pointing.elementAt(at.x, at.y, hitTester);
-        if (!pointed) return false;
+        const pointed = hitTester && this.pointing.partAt(at.x, at.y, hitTester);
+        if (!pointed || !isElement(pointed)) return false;
         const { element, number, slice } = pointed;
         this.actions.send({ type: "set", highlight: { element, number } });
         const command = (label: string, line: string): MenuItem => ({

@@ -1,5 +1,6 @@
-// The element under the pointer in the pictures that the server draws. The page asks the server which element it is, and
-// for a picture in which this element is highlighted, which it shows while the pointer is there.
+// What is under the pointer in the pictures that the server draws. The page asks the server which element or which
+// surface of a field it is, and for a picture in which this element is highlighted, which it shows while the pointer is
+// there.
 //
 // The server handles the messages of a page one after the other, so a key that is pressed meanwhile waits until the
 // answer is complete. The page therefore asks about one point at a time, and only while the picture rests and no
@@ -7,6 +8,7 @@
 
 import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
+import type { LevelDescription } from "./field_samples";
 import { followHover, type Point } from "./hover";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
 import type { Stage } from "./picture/stage";
@@ -109,13 +111,14 @@ export class FramePointing {
     private async answered(answer: At, at: Point): Promise<void> {
         const { pointer } = this;
         if (answer.revision !== this.revision || !pointer) return;
-        const element = descriptionOf(answer);
+        const described = descriptionOf(answer);
         if (distance(pointer, at) > kNear) {
             this.asked = ""; // so that the page asks again if the pointer returns to this pixel
-        } else if (element) {
+        } else if (described) {
             this.named = at;
-            this.label.show(element, pointer);
-            await this.light(element);
+            this.label.show(described, pointer);
+            if ("element" in described) await this.light(described);
+            else this.endLight();
         } else {
             this.hide();
         }
@@ -137,9 +140,13 @@ export class FramePointing {
         if (frame) this.stage.showPointedFrame(frame, () => lit === this.lit).catch(() => undefined);
     }
 
-    private hide(): void {
+    private endLight(): void {
         this.lit = "";
         this.stage.hidePointedFrame();
+    }
+
+    private hide(): void {
+        this.endLight();
         if (!this.named) return; // a label that is visible now belongs to pointing.ts, in a picture that the page draws
         this.named = undefined;
         this.label.hide();
@@ -150,8 +157,9 @@ function distance(a: Point, b: Point): number {
     return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-function descriptionOf(answer: At): ElementDescription | undefined {
-    const { highlight, name, kind, w } = answer;
+function descriptionOf(answer: At): ElementDescription | LevelDescription | undefined {
+    const { highlight, name, kind, w, level, cap = false } = answer;
+    if (level !== undefined) return { level, cap, sliceW: w, revision: answer.revision, known: answer };
     // A slice that has been zoomed may reach behind a panel of the matrix.
     const isBehindPanel = answer.point !== undefined && answer.in !== "matrix";
     if (!highlight || isBehindPanel) return undefined;

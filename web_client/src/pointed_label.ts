@@ -1,10 +1,12 @@
-// The label beside the pointer, which names an element of the polytope.
+// The label beside the pointer, which names an element of the polytope, or a level of a field with the values at a
+// point.
 
 import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 
 import { byId } from "./element";
 import type { ElementMeasurements } from "./element_measurements";
-import { capitalize, formatCoordinate, formatLength } from "./format";
+import type { FieldPoint, FieldSamples, LevelDescription } from "./field_samples";
+import { capitalize, formatCoordinate, formatFieldValue, formatLength } from "./format";
 import type { Point } from "./hover";
 import { spokenReferenceFrame } from "./reference_frame";
 
@@ -29,37 +31,48 @@ const kAxes = ["x", "y", "z", "w"] as const;
 const kGap = 14; // pixels between the pointer and the label
 const kMargin = 4; // pixels between the label and the edges of the drawing
 
+type Description = ElementDescription | LevelDescription;
+
 export class PointedLabel {
     private readonly label = byId("pointed");
-    private shown: ElementDescription | undefined;
+    private shown: Description | undefined;
     private pointer: Point = { x: 0, y: 0 };
 
-    /** `update` must be called when there is a new answer in `measurements`. */
+    /** `update` must be called when there is a new answer in `measurements` or `samples`. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly state: () => State | undefined,
         private readonly measurements: ElementMeasurements,
+        private readonly samples: FieldSamples,
     ) {}
 
-    /** Shows the label of an element beside the pointer. The label is complete when the server has answered. */
-    show(element: ElementDescription, pointer: Point): void {
-        this.shown = element;
+    /**
+     * Shows the label of an element, or of a point of a field, beside the pointer. The label is complete when the server
+     * has answered.
+     */
+    show(described: Description, pointer: Point): void {
+        this.shown = described;
         this.pointer = pointer;
         this.label.hidden = false;
         this.update();
-        this.measurements.want(element);
+        this.measurements.want(isLevel(described) ? undefined : described);
+        this.samples.want(isLevel(described) ? described : undefined);
     }
 
     hide(): void {
         this.shown = undefined;
         this.label.hidden = true;
         this.measurements.want(undefined);
+        this.samples.want(undefined);
     }
 
-    /** Writes what is known of the element that is shown. */
+    /** Writes what is known of what is shown. */
     update(): void {
-        if (!this.shown) return;
-        this.label.textContent = describe(this.shown, this.measurements.of(this.shown) ?? {}, this.state());
+        const { shown } = this;
+        if (!shown) return;
+        this.label.textContent = isLevel(shown)
+            ? describeLevel(shown, this.samples.of(shown), this.state())
+            : describe(shown, this.measurements.of(shown) ?? {}, this.state());
         this.place(this.pointer);
     }
 
@@ -87,6 +100,30 @@ function formatPlaceInBox(place: readonly number[], state: State | undefined): s
     return place.map(format).join(", ");
 }
 
+function isLevel(described: Description): described is LevelDescription {
+    return "level" in described;
+}
+
+function describeLevel(
+    { level, cap, sliceW }: LevelDescription,
+    { place, value, second_value: second }: FieldPoint,
+    state: State | undefined,
+): string {
+    const { levels = [], field, slices } = state ?? {};
+    const { quantity = {}, values } = field ?? {};
+    const withUnit = (number: number, unit = ""): string => `${formatFieldValue(number)}${unit && ` ${unit}`}`;
+    const parts = [cap ? "Inside level" : "Level"];
+    if (levels[level] !== undefined) parts[0] += ` ${withUnit(levels[level], quantity.unit)}`;
+    if (place) parts[0] += ` (${formatPlaceInBox(place, state)})`;
+    if (cap && value !== undefined) parts.push(`${quantity.name || "value"} ${withUnit(value, quantity.unit)}`);
+    if (second !== undefined) {
+        const name = values?.quantity?.name || values?.variable || "second value";
+        parts.push(`${name} ${withUnit(second, values?.quantity?.unit)}`);
+    }
+    if (sliceW !== undefined) parts.push(`slice w ${formatCoordinate(sliceW, slices?.spacing ?? 1)}`);
+    return parts.join(" · ");
+}
+
 /** The sizes that the server measures are those of the object at rest, so they are omitted for a moving observer. */
 function describe(described: ElementDescription, measured: Partial<Measured>, state: State | undefined): string {
     const { element, number, coordinates, sliceW } = described;
@@ -98,9 +135,9 @@ function describe(described: ElementDescription, measured: Partial<Measured>, st
     else if (placeInBox) parts[0] += ` (${formatPlaceInBox(placeInBox, state)})`;
     const kinds = state?.polytope.kinds ?? [];
     const kind = described.kind ?? measured.kind;
-    const name = described.name ?? measured.name ?? kinds[kind ?? -1]?.name;
-    const place = kind !== undefined && kinds.length > 1 ? `, kind ${kind + 1} of ${kinds.length}` : "";
-    if (name !== undefined) parts.push(name + place);
+    const shape = described.name ?? measured.name ?? kinds[kind ?? -1]?.name;
+    const kindText = kind !== undefined && kinds.length > 1 ? `, kind ${kind + 1} of ${kinds.length}` : "";
+    if (shape !== undefined) parts.push(shape + kindText);
     const { length, area, volume }: Partial<Measured> = state && spokenReferenceFrame(state) === "" ? measured : {};
     const sizes = { length: described.length ?? length, area, volume };
     const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // of a field's box, whose sizes are all measured

@@ -1,15 +1,17 @@
-// The element under the pointer in the page's own picture: its name is shown beside the pointer, and it is highlighted
-// in all slices, the projection, the matrix and the parallel coordinates. What was cut from the element itself is
-// highlighted at once; what else shows it, such as the edges of a cell, when the server has answered which parts these
-// are. For the server's pictures, see frame_pointing.ts.
+// What is under the pointer in the page's own picture. The name of an element is shown beside the pointer, and the
+// element is highlighted in all slices, the projection, the matrix and the parallel coordinates. What was cut from the
+// element itself is highlighted at once; what else shows it, such as the edges of a cell, when the server has answered
+// which parts these are. Of a surface of a field, the level and the values at the point are shown. For the server's
+// pictures, see frame_pointing.ts.
 
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
 import type { ElementMeasurements } from "./element_measurements";
+import type { LevelDescription } from "./field_samples";
 import { followHover, type Point } from "./hover";
 import { originInFile } from "./origin";
 import { pointedElements } from "./picture/highlighted_elements";
-import { elementOfHit } from "./picture/hit_test";
+import { elementOfHit, type LevelHit } from "./picture/hit_test";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
@@ -19,11 +21,25 @@ export interface PointedElement extends PolytopeElement {
     slice?: Slice;
 }
 
+/** What a picture shows at a point: an element, or a point of a surface or a contour of a field. */
+export type PointedPart = PointedElement | LevelHit;
+
+export function isElement(part: PointedPart): part is PointedElement {
+    return "element" in part;
+}
+
+// Milliseconds without a new picture after which the picture rests, so that the server is asked for values at a point:
+// a key that is pressed meanwhile would wait for the answer.
+const kRest = 200;
+
 export class Pointing {
     private at: Point | undefined;
     private scheduled = false;
-    private shown: PointedElement | undefined;
+    private shown: PointedElement | undefined; // the element that is highlighted
     private isComplete = false; // whether everything that shows the element is highlighted
+    private namesLevel = false; // whether the label names a level of a field
+    private restsAt = 0; // the time at which the picture rests, in milliseconds of performance.now()
+    private resting: ReturnType<typeof setTimeout> | undefined;
     private hitTester: HitTester | undefined; // the hit tester of the picture in which the element was found
     private isTapped = false; // whether the label names what a finger has tapped
 
@@ -42,8 +58,8 @@ export class Pointing {
         followHover(drawing, (at) => this.moveTo(at));
     }
 
-    /** The element at a point of the drawing, in pixels; undefined if there is none. */
-    elementAt(x: number, y: number, hitTester: HitTester): PointedElement | undefined {
+    /** What the picture shows at a point of the drawing, in pixels; undefined if it shows nothing there. */
+    partAt(x: number, y: number, hitTester: HitTester): PointedPart | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
         const { coordinates, revision, scene } = hitTester.picture;
@@ -56,26 +72,45 @@ export class Pointing {
         const vertex = hitTester.vertexInCoordinatesAt(x * ratio, y * ratio, size);
         if (vertex !== undefined) return { element: "vertex", number: vertex };
         const hit = hitTester.hitAt(x * ratio, y * ratio, orbit, size, ratio);
-        return hit && { ...elementOfHit(hit, polytope), ...(hit.slice && { slice: hit.slice }) };
+        if (!hit || "level" in hit) return hit;
+        return { ...elementOfHit(hit, polytope), ...(hit.slice && { slice: hit.slice }) };
     }
 
     /**
-     * Shows the name of the element that a finger has tapped. The name stays until the next touch, even if the picture
-     * changes, because the tap itself moves the focus slice.
+     * Shows the name of the element or the surface that a finger has tapped. The name stays until the next touch, even
+     * if the picture changes, because the tap itself moves the focus slice.
      */
-    showName(tapped: PointedElement, hitTester: HitTester, at: Point): void {
+    showName(tapped: PointedPart, hitTester: HitTester, at: Point): void {
         this.isTapped = true;
-        this.label.show(this.descriptionOf(tapped, hitTester), at);
+        const described = isElement(tapped)
+            ? this.descriptionOf(tapped, hitTester)
+            : descriptionOfLevel(tapped, hitTester, this.state()!, true);
+        this.label.show(described, at);
     }
 
-    /** Finds the element under the pointer in the current picture. Returns whether the picture must be drawn again. */
+    /** Finds what is under the pointer in the current picture. Returns whether the picture must be drawn again. */
     update(): boolean {
         const { at } = this;
         const { hitTester } = this.stage;
-        const found = at && hitTester && this.elementAt(at.x, at.y, hitTester);
-        const { shown } = this;
+        const part = at && hitTester && this.partAt(at.x, at.y, hitTester);
         const isNew = hitTester !== this.hitTester;
+        if (isNew) this.restsAt = performance.now() + kRest;
         this.hitTester = hitTester;
+        const found = part && isElement(part) ? part : undefined;
+        const isRedrawn = this.updateElement(found, isNew);
+        const level = part && !isElement(part) ? part : undefined;
+        if (level) this.nameLevel(level, at!);
+        else if (this.namesLevel && !found) this.label.hide();
+        this.namesLevel = level !== undefined;
+        return isRedrawn;
+    }
+
+    /**
+     * Shows the name of the element under the pointer, and lights it. Without an element, ends both. `isNew` tells that
+     * there is a new picture. Returns whether the picture must be drawn again.
+     */
+    private updateElement(found: PointedElement | undefined, isNew: boolean): boolean {
+        const { at, hitTester, shown } = this;
         if (!found && !shown) return false;
         const isSame = !isNew && found?.element === shown?.element && found?.number === shown?.number;
         if (isSame && found?.slice === shown?.slice) {
@@ -109,12 +144,25 @@ export class Pointing {
         this.stage.highlightPointed(pointedElements(found, this.state()!.polytope, highlight));
     }
 
-    /** Records where the pointer is, and calls update() at most once per animation frame. */
+    /** Names the level under the pointer; when the picture rests, the label also asks for the values at the point. */
+    private nameLevel(level: LevelHit, at: Point): void {
+        clearTimeout(this.resting);
+        const remaining = this.restsAt - performance.now();
+        this.label.show(descriptionOfLevel(level, this.hitTester!, this.state()!, remaining <= 0), at);
+        if (remaining > 0) this.resting = setTimeout(() => this.scheduleUpdate(), remaining);
+    }
+
+    /** Records where the pointer is, and updates what is under it. */
     private moveTo(at: Point | undefined): void {
         if (this.isTapped) this.label.hide();
         this.isTapped = false;
         if (!at && !this.at) return;
         this.at = at;
+        this.scheduleUpdate();
+    }
+
+    /** Calls update() at most once per animation frame. */
+    private scheduleUpdate(): void {
         if (this.scheduled) return;
         this.scheduled = true;
         requestAnimationFrame(() => {
@@ -142,6 +190,18 @@ export class Pointing {
             length: a && b && Math.hypot(...a.map((value, i) => value - b[i]!)),
         };
     }
+}
+
+/** `mayAsk` tells whether the label may ask the server for the values at the point. */
+function descriptionOfLevel(
+    { level, cap, point, slice }: LevelHit,
+    { picture: { revision } }: HitTester,
+    state: State,
+    mayAsk: boolean,
+): LevelDescription {
+    const origin = originInFile(state);
+    const inFile = point.map((value, axis) => value + origin[axis]!) as LevelHit["point"];
+    return { level, cap, sliceW: slice && origin[3] + slice.w, revision, ...(mayAsk && { point: inFile }) };
 }
 
 /** Whether a picture of this polytope may have this many colors of cells or, of a surface, of 2-faces. */

@@ -1,15 +1,18 @@
-// Finds which element is drawn at a point of the picture: projects all elements to the screen.
+// Finds which element, or which surface of a field, is drawn at a point of the picture: projects all elements to the
+// screen, and meets the triangles of the surfaces with the ray through the point.
 
-import type { Elements, PolytopeElement, Slice, Slices, Vector } from "@oval4d/protocol";
+import type { Elements, PolytopeElement, Slice, Slices, SurfaceLevel, Vector } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
 import type { ElementCounts } from "./highlighted_elements";
 import { doubleAreaVector } from "./polygon";
+import { hitOnSurface } from "./surface_hit";
 import type { ViewCamera } from "./view_camera";
 
 /**
- * What was hit in a slice, in the projection or in the matrix of planar sections. A point of a planar section has the
- * kind `points`. An edge of a planar section has the kind `faces`: like a face of a slice, it is cut from a cell.
+ * The element that was hit in a slice, in the projection or in the matrix of planar sections. A point of a planar
+ * section has the kind `points`. An edge of a planar section has the kind `faces`: like a face of a slice, it is cut
+ * from a cell.
  */
 export interface Hit {
     kind: "vertices" | "edges" | "faces" | "points";
@@ -35,6 +38,18 @@ export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): Poly
     return source < count ? { element: cut, number: source } : { element: inside, number: source - count };
 }
 
+/** The point that was hit on a surface of a field in a slice, or on a contour in the matrix of planar sections. */
+export interface LevelHit {
+    /** The index of the level in the `levels` of the state. */
+    level: number;
+    /** Whether the point is on a cap. */
+    cap: boolean;
+    /** x, y, z, w after the rotation, in object units from the object's center. */
+    point: [number, number, number, number];
+    /** The slice that was hit; absent in the matrix. */
+    slice?: Slice;
+}
+
 /** A slice, or a part of the projection, with its transformation to world space. */
 interface PickableMesh {
     elements: Elements;
@@ -45,6 +60,7 @@ interface PickableMesh {
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
+    surfaces: readonly SurfaceLevel[]; // the surfaces of a field that are drawn
     distance: number; // the distance of `position` from the eye
 }
 
@@ -62,11 +78,17 @@ let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element at the pixel (x, y) of the picture. Of the meshes with an element at the pixel, takes the mesh whose
- * center is nearest to the eye, and returns the nearest element of this mesh at the pixel. Undefined if no element is
- * at the pixel. `ratio` is the number of pixels of the picture per CSS pixel.
+ * The element or the surface of a field at the pixel (x, y) of the picture. Of the meshes with an element or a surface
+ * at the pixel, takes the mesh whose center is nearest to the eye, and returns the nearest element or surface of this
+ * mesh at the pixel. Undefined if there is none. `ratio` is the number of pixels of the picture per CSS pixel.
  */
-export function hitAt(picture: Slices, viewCamera: ViewCamera, x: number, y: number, ratio: number): Hit | undefined {
+export function hitAt(
+    picture: Slices,
+    viewCamera: ViewCamera,
+    x: number,
+    y: number,
+    ratio: number,
+): Hit | LevelHit | undefined {
     const meshes = pickableMeshes(picture, viewCamera).sort((a, b) => a.distance - b.distance);
     for (const mesh of meshes) {
         if (!mayContain(mesh, picture, viewCamera, x, y)) continue;
@@ -85,13 +107,14 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
         const hasFaces = shown.faces && !scene.surfaces; // faces of the box of a field are never drawn
-        const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces };
+        const surfaces = scene.surfaces ?? [];
+        const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces, surfaces };
         const placed = { position, scale, magnification: 1, distance: distance(position) };
         meshes.push({ elements: slice, slice, ...placed, ...look });
     }
     for (const part of projection?.parts ?? []) {
         const { position, scale: partScale, kind, eye: eyeW } = projection!;
-        const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0 };
+        const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0, surfaces: [] };
         // The perspective projection from 4-D moves points of the circumscribed sphere away from the center by at most
         // this factor.
         const magnification = kind === "perspective" ? eyeW / Math.sqrt(eyeW ** 2 - 1) : 1;
@@ -115,11 +138,12 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
 }
 
 /**
- * Finds the nearest element of a mesh at the pixel (x, y). `reach` is the least radius of balls and bars, in pixels.
+ * Finds the nearest element or surface of a mesh at the pixel (x, y). `reach` is the least radius of balls and bars, in
+ * pixels.
  */
 class MeshTest {
     private depth = Infinity;
-    private hit: Hit | undefined;
+    private hit: Hit | LevelHit | undefined;
 
     constructor(
         private readonly mesh: PickableMesh,
@@ -131,11 +155,12 @@ class MeshTest {
         this.projectVertices();
     }
 
-    nearest(): Hit | undefined {
-        const { ball, bar, hasFaces } = this.mesh;
+    nearest(): Hit | LevelHit | undefined {
+        const { ball, bar, hasFaces, slice } = this.mesh;
         if (ball > 0) this.testBalls();
         if (bar > 0) this.testBars();
         if (hasFaces) this.testFaces();
+        if (slice?.surface) this.testSurface(slice);
         return this.hit;
     }
 
@@ -196,6 +221,19 @@ class MeshTest {
             const distance = Math.hypot(ax + part * dx - this.x, ay + part * dy - this.y) * perPixel;
             if (distance <= radius) this.keepIfNearest("edges", of.edges[e]!, depth - kBarRise * radius);
         }
+    }
+
+    private testSurface(slice: Slice): void {
+        const { position, scale, surfaces } = this.mesh;
+        const { eye } = this.viewCamera;
+        const [px, py, pz] = position;
+        const [x, y, z]: Vector = [(eye.x - px) / scale, (eye.y - py) / scale, (eye.z - pz) / scale];
+        const [dx, dy, dz] = this.viewCamera.worldRayAt(this.x, this.y).map((value) => value / scale) as Vector;
+        const hit = hitOnSurface(slice.surface!, surfaces, { start: [x, y, z], direction: [dx, dy, dz] });
+        if (!hit || hit.depth >= this.depth) return;
+        const { depth, level, cap } = hit;
+        this.depth = depth;
+        this.hit = { level, cap, point: [x + depth * dx, y + depth * dy, z + depth * dz, slice.w], slice };
     }
 
     /** Tests the faces. Consecutive loops with the same source form a single face, as in Picker in pick.cpp. */

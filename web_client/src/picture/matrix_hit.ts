@@ -1,16 +1,16 @@
-// Finds the point or the edge of a planar section that is drawn at a pixel of its panel.
+// Finds the point, the edge or the contour of a planar section that is drawn at a pixel of its panel.
 
 import type { SceneDescription, SectionMatrix, Viewport } from "@oval4d/protocol";
 
-import type { Hit } from "./hit_test";
+import type { Hit, LevelHit } from "./hit_test";
 import type { MatrixPanel } from "./matrix_panel";
 
 type Pixel = readonly [x: number, y: number];
 
 /**
  * The section's point nearest to the pixel, if a point is drawn at the pixel or is within `reach` pixels of it. If
- * there is no such point, the nearest edge that is drawn at the pixel or is within `reach` pixels of it. Undefined if
- * there is no such edge.
+ * there is no such point, the nearest edge that is drawn at the pixel or is within `reach` pixels of it; else the
+ * nearest such contour. Undefined if there is none.
  */
 export function hitInPanel(
     panel: MatrixPanel,
@@ -19,7 +19,7 @@ export function hitInPanel(
     { height }: Viewport,
     pixel: Pixel,
     reach: number,
-): Hit | undefined {
+): Hit | LevelHit | undefined {
     const { of, points, edges, seen, balls } = panel.section;
     const places = points.map((point) => panel.pixelOf(point));
     let found: Hit | undefined;
@@ -33,19 +33,44 @@ export function hitInPanel(
         const radius = matrix.ball * height * (balls?.scale[i] ?? 1);
         take(Math.hypot(x - pixel[0], y - pixel[1]), radius, { kind: "points", source: of.points[i]! });
     });
-    if (found || !shown.bars) return found;
+    if (found) return found;
     edges.forEach(([from, to], e) => {
-        if (seen?.edges[e] === 0) return;
+        if (!shown.bars || seen?.edges[e] === 0) return;
         const distance = distanceFromSegment(pixel, places[from]!, places[to]!);
         take(distance, (matrix.line_width / 2) * height, { kind: "faces", source: of.edges[e]! });
     });
+    return found ?? contourAt(panel, matrix, pixel, Math.max((matrix.line_width / 2) * height, reach));
+}
+
+/** The nearest contour within `reach` pixels of a pixel; undefined if there is none. */
+function contourAt(panel: MatrixPanel, { point }: SectionMatrix, pixel: Pixel, reach: number): LevelHit | undefined {
+    const { axes, contours = [] } = panel.section;
+    let found: LevelHit | undefined;
+    let nearest = reach;
+    for (const { level, points } of contours) {
+        const places = points.map((one) => panel.pixelOf(one));
+        for (let i = 0; i + 1 < places.length; ++i) {
+            const distance = distanceFromSegment(pixel, places[i]!, places[i + 1]!);
+            if (distance > nearest) continue;
+            nearest = distance;
+            const part = nearestPart(pixel, places[i]!, places[i + 1]!);
+            const at: LevelHit["point"] = [...point];
+            axes.forEach((axis, k) => (at[axis] = points[i]![k]! + part * (points[i + 1]![k]! - points[i]![k]!)));
+            found = { level, cap: false, point: at };
+        }
+    }
     return found;
 }
 
 /** The distance of a pixel from a line segment. */
-export function distanceFromSegment([x, y]: Pixel, [fromX, fromY]: Pixel, [toX, toY]: Pixel): number {
+export function distanceFromSegment(pixel: Pixel, from: Pixel, to: Pixel): number {
+    const part = nearestPart(pixel, from, to);
+    return Math.hypot(from[0] + part * (to[0] - from[0]) - pixel[0], from[1] + part * (to[1] - from[1]) - pixel[1]);
+}
+
+/** Where a line segment is nearest to a pixel: 0 at its start, 1 at its end. */
+function nearestPart([x, y]: Pixel, [fromX, fromY]: Pixel, [toX, toY]: Pixel): number {
     const [dx, dy] = [toX - fromX, toY - fromY];
     const along = ((x - fromX) * dx + (y - fromY) * dy) / (dx * dx + dy * dy || 1);
-    const part = Math.min(1, Math.max(0, along));
-    return Math.hypot(fromX + part * dx - x, fromY + part * dy - y);
+    return Math.min(1, Math.max(0, along));
 }

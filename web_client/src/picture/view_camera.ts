@@ -81,6 +81,14 @@ export class ViewCamera {
         return [((2 * x) / this.width - 1 + f[8]!) / f[0]!, (1 - (2 * y) / this.height + f[9]!) / f[5]!];
     }
 
+    /** The vector from the eye to the point at the depth 1 on the ray through the pixel (x, y), in world space. */
+    worldRayAt(x: number, y: number): [number, number, number] {
+        const [right, up] = this.rayAt(x, y);
+        const view = this.view.elements;
+        const along = (k: number): number => right * view[k]! + up * view[k + 1]! - view[k + 2]!;
+        return [along(0), along(4), along(8)];
+    }
+
     /** The distance of a world position from the eye along the camera's axis; negative behind the eye. */
     depthOf([x, y, z]: readonly [number, number, number]): number {
         const view = this.view.elements;
