@@ -23,8 +23,10 @@ namespace {
 
 constexpr double kHitDistance = 3;  // pixels: the least distance within which a contour is hit
 
-// The points of a slice on the ray through a pixel: start + depth · direction, in the units of the object.
+// The points of a slice, in its own place or in the projection, on the ray through a pixel: start + depth · direction,
+// in the units of the object.
 struct SliceRay {
+    PictureArea area = PictureArea::slice;
     std::size_t slice = 0;
     glm::dvec3 start{0}, direction{0};
     double entry = 0, exit = 0;  // the depths between which the ray is in the box
@@ -48,11 +50,15 @@ class RayCaster {
     std::optional<PickedLevel> nearestBefore(double depth) {
         nearest_ = depth;
         std::vector<SliceRay> rays;
-        for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
-            if (!scene_.placements[i].drawn) continue;
-            placeSection(i);
-            if (const auto ray = rayThrough(i)) rays.push_back(*ray);
-        }
+        const auto addRay = [&](PictureArea area, std::size_t slice, const glm::dvec3& position, double scale) {
+            if (!scene_.placements[slice].drawn) return;
+            placeSection(slice);
+            if (const auto ray = rayThrough(area, slice, position, scale)) rays.push_back(*ray);
+        };
+        for (std::size_t i = 0; i < scene_.placements.size(); ++i)
+            addRay(PictureArea::slice, i, scene_.placements[i].position, scene_.scale);
+        if (const auto& focus = scene_.projection.focusSurface; scene_.projectionPlacement.shown && focus)
+            addRay(PictureArea::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
         std::ranges::sort(rays, {}, &SliceRay::entry);
         for (const SliceRay& ray : rays) {
             if (ray.entry >= nearest_) break;
@@ -76,11 +82,14 @@ class RayCaster {
     }
 
     // Returns the ray in a slice, whose section must have been placed; an empty optional if it misses the box.
-    std::optional<SliceRay> rayThrough(std::size_t slice) const {
+    // `position` and `scale` map the units of the object to world space.
+    std::optional<SliceRay> rayThrough(PictureArea area, std::size_t slice, const glm::dvec3& position,
+                                       double scale) const {
         SliceRay ray;
+        ray.area = area;
         ray.slice = slice;
-        ray.start = (scene_.camera.eye - scene_.placements[slice].position) / scene_.scale;
-        ray.direction = direction_ / scene_.scale;
+        ray.start = (scene_.camera.eye - position) / scale;
+        ray.direction = direction_ / scale;
         const glm::dvec4 start = section_.origin + inFunction(ray.start), along = inFunction(ray.direction);
         ray.entry = -std::numeric_limits<double>::infinity();
         ray.exit = scene_.camera.far;
@@ -153,8 +162,7 @@ class RayCaster {
         if (crossing.depth >= nearest_) return;
         nearest_ = crossing.depth;
         const glm::dvec3 p = ray.start + crossing.depth * ray.direction;
-        found_ = {level.index, crossing.cap, PictureArea::slice, ray.slice,
-                  glm::dvec4(p, scene_.placements[ray.slice].w)};
+        found_ = {level.index, crossing.cap, ray.area, ray.slice, glm::dvec4(p, scene_.placements[ray.slice].w)};
     }
 
     bool isInside(float value, const SurfaceLook::LevelLook& look) const {

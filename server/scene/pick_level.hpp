@@ -14,13 +14,13 @@
 
 namespace oval4d::scene {
 
-/// A point of a field that a picture shows: a point of the surface of a level in a slice, or of a contour in the
-/// matrix.
+/// A point of a field that a picture shows: a point of the surface of a level in a slice or, of the focus slice, in the
+/// projection; or of a contour in the matrix.
 struct PickedLevel {
     std::size_t level = 0;  ///< the index of the level in slicing::FieldSettings::levels
     bool cap = false;       ///< whether the point is on a cap (see slicing::SliceSurface), inside the body of the level
-    PictureArea area = PictureArea::slice;  ///< slice or matrix
-    std::size_t slice = 0;                  ///< for PictureArea::slice: the index of the slice in the SliceSet
+    PictureArea area = PictureArea::slice;  ///< slice, projection or matrix
+    std::size_t slice = 0;                  ///< but for PictureArea::matrix: the index of the slice in the SliceSet
     glm::dvec4 point{0};                    ///< in the units of the object, after the rotation
 };
 
@@ -29,11 +29,11 @@ struct PickedLevel {
 /// this point, is nearer to the viewer. The surface nearest to the viewer is found, also if it is translucent. `scene`
 /// must have the look of the surfaces and the contours, but needs no slices.
 ///
-/// In slices, the level is found on the ray through the pixel from the values of the function: at up to kRaySamples
-/// points in the box, or fewer in slices that are smaller than the box or if the function takes long to evaluate, and
-/// then ever more exactly where the ray enters or leaves the body of a level. Bodies that are thinner along the ray
-/// than the distance of these points may be missed. Contours are found up to 3 pixels from their lines. Throws
-/// std::runtime_error if the samples of the field are in a file that can no longer be read.
+/// In slices and in the projection, the level is found on the ray through the pixel from the values of the function: at
+/// up to kRaySamples points in the box, or fewer in slices that are smaller than the box or if the function takes long
+/// to evaluate, and then ever more exactly where the ray enters or leaves the body of a level. Bodies that are thinner
+/// along the ray than the distance of these points may be missed. Contours are found up to 3 pixels from their lines.
+/// Throws std::runtime_error if the samples of the field are in a file that can no longer be read.
 std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& field,
                                      const geometry::Rotation& orientation, glm::dvec2 point,
                                      const std::optional<PickedElement>& element);

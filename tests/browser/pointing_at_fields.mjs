@@ -1,7 +1,7 @@
 // The label of a field's surfaces, caps and contours: the level, the place in the box and the values there.
 import assert from "node:assert/strict";
 
-import { openWithScript, presented } from "./support/browser.mjs";
+import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { panelOf } from "./support/matrix.mjs";
 import { netcdfWithUnits } from "./support/netcdf.mjs";
 import { labeled } from "./support/pointing.mjs";
@@ -115,6 +115,26 @@ for (const mode of kModes) {
         await click(...panel.at(0.24, 0.32));
         const { point } = await script.until(({ point: [x] }) => Math.abs(x - 0.24) < 0.02, "the focus point");
         assert.ok(Math.abs(point[1] - 0.32) < 0.02, String(point));
+        assert.deepEqual(errors, []);
+        await close();
+    });
+
+    test(`pointing at fields: the surface in the projection tells its level, and a click keeps the highlight: ${mode}`, async () => {
+        const highlight = { element: "cell", number: 3 };
+        const settings = { view: "single", projection: "perspective", levels: [0.64], slices: { focus: 2 }, highlight };
+        const { page, script, errors, size, picture, moveTo, click, close } = await openField(mode, kBall, settings);
+        const { projection, scene, slices } = await picture();
+        const { w: focusW } = slices.find(({ focus }) => focus);
+        const placed = { scene: { ...scene, scale: projection.surface_scale } };
+        const at = facing(placed, projection, Math.sqrt(0.64 - focusW ** 2), size);
+        await moveTo(...at);
+        const place = `\\((${kNumber}), (${kNumber}), (${kNumber}), (${kNumber})\\)`;
+        const text = await labeled(page, new RegExp(`^Level 0\\.64 ${place}$`));
+        const [, x, y, z, w] = numbersIn(text);
+        assert.ok(Math.abs(x * x + y * y + z * z + w * w - 0.64) < 0.01, text);
+        assert.ok(Math.abs(w - focusW) < 0.01, text);
+        await click(...at);
+        assert.deepEqual((await stateAfter(page, script)).highlight, highlight);
         assert.deepEqual(errors, []);
         await close();
     });

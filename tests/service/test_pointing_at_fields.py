@@ -79,6 +79,22 @@ async def test_a_cap_has_the_value_of_the_function(server):
         assert "level" not in through
 
 
+async def test_the_surface_of_the_focus_slice_in_the_projection(server):
+    async with field_client(server, BALL, BOX, stream="none") as client:
+        settings = {"view": "single", "projection": "perspective", "slices": {"spacing": 0.1, "focus": 4}}
+        await client.request("set", levels=[0.64], shown=BARE, **settings)
+        slices = await client.request("get", what="slices", **SIZE)
+        w = next(piece for piece in slices["slices"] if piece["focus"])["w"]
+        projection, scene = slices["projection"], slices["scene"]
+        to_eye = numpy.array(scene["camera"]["eye"]) - projection["position"]
+        point = math.sqrt(0.64 - w**2) * to_eye / numpy.linalg.norm(to_eye)
+        magnified = {**scene, "scale": projection["surface_scale"]}
+        at = await at_point(client, **pixel_of(magnified, projection["position"], point))
+        assert at["highlight"] is None and at["in"] == "projection" and "slice" not in at and "w" not in at
+        assert at["level"] == 0 and at["cap"] is False and at["value"] == 0.64
+        assert at["place"] == pytest.approx([*point, w], abs=1e-3)
+
+
 async def test_the_second_function_is_evaluated_and_hidden_surfaces_are_not_found(server):
     async with Client(server, stream="none") as client:
         await load_field(client, BALL, BOX, values="10 + x - w")

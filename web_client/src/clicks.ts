@@ -44,9 +44,10 @@ export class Clicks {
     /**
      * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
      * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click on the surface of a
-     * field in a slice, or near a slice, makes that slice the focus slice and keeps the highlight, and a click on the
-     * background removes the highlight. The point is in pixels of the drawing. `isTap` tells that the click was made by
-     * a finger; the name of the element or surface is then shown, too.
+     * field in a slice, or near a slice, makes that slice the focus slice and keeps the highlight; a click on the
+     * surface in the projection, which is that of the focus slice, changes nothing; and a click on the background
+     * removes the highlight. The point is in pixels of the drawing. `isTap` tells that the click was made by a finger;
+     * the name of the element or surface is then shown, too.
      */
     async click({ x, y }: Point, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;
@@ -62,7 +63,8 @@ export class Clicks {
             ? pointed.slice
             : hitTester.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);
         const kept = this.actions.state()?.highlight ?? null;
-        const highlight = element ? { element: element.element, number: element.number } : slice ? kept : null;
+        const keeps = pointed !== undefined || slice !== undefined;
+        const highlight = element ? { element: element.element, number: element.number } : keeps ? kept : null;
         const isKept = highlight?.element === kept?.element && highlight?.number === kept?.number;
         const change = {
             ...(slice && !slice.focus && { slices: { focus: slice.index } }),

@@ -11,7 +11,7 @@ export interface LevelDescription {
     level: number;
     /** Whether the point is on a cap, inside the body of the level. */
     cap: boolean;
-    /** The w of the slice in which the point is; undefined in the matrix. */
+    /** The w of the slice in which the point is; undefined in the projection and in the matrix. */
     sliceW?: number | undefined;
     /** What is known of the point without asking the server. */
     known?: FieldPoint;

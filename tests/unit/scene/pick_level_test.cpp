@@ -34,12 +34,13 @@ struct FieldPicture {
     Composer composer;
     Scene scene;
 
-    FieldPicture(std::string_view formula, const Look& look, const geometry::Rotation& turn, const fields::Box& box)
+    FieldPicture(std::string_view formula, const Look& look, const geometry::Rotation& turn, const fields::Box& box,
+                 int focus = 0)
         : field(std::make_shared<const fields::Field>(*fields::fieldFromFormula("test", formula, box))),
           orientation(turn) {
         const slicing::Object object = field;
         slicing::Slicer().sliceWithoutSurfaces(object, turn, {-10, 21, field->circumradius / 15}, slices);
-        composer.compose(object, turn, slices, 0, look, kViewport, scene, slicing::Quality::full,
+        composer.compose(object, turn, slices, focus, look, kViewport, scene, slicing::Quality::full,
                          ScenePurpose::pointing);
     }
 
@@ -48,7 +49,9 @@ struct FieldPicture {
     }
     // Returns the pixel, from the upper left corner, at which a point of a slice is drawn.
     glm::dvec2 pixelOf(std::size_t slice, const glm::dvec3& p) const {
-        const glm::dvec3 world = scene.placements[slice].position + scene.scale * p;
+        return pixelOfWorld(scene.placements[slice].position + scene.scale * p);
+    }
+    glm::dvec2 pixelOfWorld(const glm::dvec3& world) const {
         const double aspect = double(kViewport.width) / kViewport.height;
         const glm::dvec4 clip = scene.camera.projection(aspect) * scene.camera.view() * glm::dvec4(world, 1);
         return {(clip.x / clip.w + 1) / 2 * kViewport.width, (1 - clip.y / clip.w) / 2 * kViewport.height};
@@ -148,6 +151,39 @@ TEST(PickLevel, FindsTheEndOfWhereTheFunctionHasNoValue) {
     ASSERT_TRUE(wall);
     EXPECT_TRUE(wall->cap);
     EXPECT_NEAR(picture.placeOf(*wall).z, 1, 1e-6);
+}
+
+TEST(PickLevel, FindsTheSurfaceOfTheFocusSliceInTheProjection) {
+    std::mt19937 random(14);
+    Look look;
+    look.view = View::single;
+    look.projection.kind = ProjectionKind::perspective;
+    look.field.levels = {0.9};
+    look.parts.balls = look.parts.bars = false;
+    const int focus = 5;
+    FieldPicture picture(kBall, look, support::randomRotation(random), kBox, focus);
+    const Scene& scene = picture.scene;
+    ASSERT_TRUE(scene.projectionPlacement.shown && scene.projection.focusSurface);
+    const double scale = scene.projection.focusSurface->scale;
+    EXPECT_GT(scale, 1.1 * scene.projection.scale) << "the slice is nearer to the 4-D eye than the middle";
+    const std::size_t slice = 10 + focus;
+    const double w = scene.placements[slice].w, radius = std::sqrt(0.9 - w * w);
+    const glm::dvec3 center = scene.projectionPlacement.position;
+    const double distance = glm::distance(scene.camera.eye, center) / scale;
+    const glm::dvec3 toEye = glm::normalize(scene.camera.eye - center);
+    const glm::dvec3 side = glm::normalize(glm::cross(toEye, glm::dvec3(0, 1, 0)));
+    const auto at = [&](const glm::dvec3& p) { return picture.at(picture.pixelOfWorld(center + scale * p)); };
+    const auto hit = at(radius * toEye);
+    ASSERT_TRUE(hit);
+    EXPECT_EQ(hit->area, PictureArea::projection);
+    EXPECT_EQ(hit->slice, slice);
+    EXPECT_FALSE(hit->cap);
+    EXPECT_LT(glm::distance(hit->point, glm::dvec4(radius * toEye, w)), 1e-4);
+    const double along = radius * radius / distance, across = std::sqrt(radius * radius - along * along);
+    for (const double sign : {-1.0, 1.0}) {
+        EXPECT_TRUE(at(along * toEye + sign * 0.99 * across * side));
+        EXPECT_FALSE(at(along * toEye + sign * 1.01 * across * side));
+    }
 }
 
 TEST(PickLevel, LeavesWhatIsInFrontOfTheSurface) {

@@ -38,7 +38,10 @@ export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): Poly
     return source < count ? { element: cut, number: source } : { element: inside, number: source - count };
 }
 
-/** The point that was hit on a surface of a field in a slice, or on a contour in the matrix of planar sections. */
+/**
+ * The point that was hit on a surface of a field in a slice or in the projection, or on a contour in the matrix of
+ * planar sections.
+ */
 export interface LevelHit {
     /** The index of the level in the `levels` of the state. */
     level: number;
@@ -46,7 +49,7 @@ export interface LevelHit {
     cap: boolean;
     /** x, y, z, w after the rotation, in object units from the object's center. */
     point: [number, number, number, number];
-    /** The slice that was hit; absent in the matrix. */
+    /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
 }
 
@@ -60,8 +63,21 @@ interface PickableMesh {
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
-    surfaces: readonly SurfaceLevel[]; // the surfaces of a field that are drawn
+    surface?: PickableSurface; // the surfaces of a field that are drawn with the elements
     distance: number; // the distance of `position` from the eye
+}
+
+/** The surfaces of a field in a slice, with their scale from object units to world space. */
+interface PickableSurface {
+    slice: Slice;
+    scale: number;
+    levels: readonly SurfaceLevel[];
+}
+
+/** What was hit in a mesh, and its distance from the eye along the axis of the camera. */
+interface MeshHit {
+    hit: Hit | LevelHit;
+    depth: number;
 }
 
 export const kReach = 4; // CSS pixels: the pointer hits a ball or bar within this distance, even if it is thinner
@@ -80,7 +96,8 @@ const kStride = 5;
 /**
  * The element or the surface of a field at the pixel (x, y) of the picture. Of the meshes with an element or a surface
  * at the pixel, takes the mesh whose center is nearest to the eye, and returns the nearest element or surface of this
- * mesh at the pixel. Undefined if there is none. `ratio` is the number of pixels of the picture per CSS pixel.
+ * mesh at the pixel. In the projection of a field, the surface, the bars of the box and those of the section count as
+ * one mesh. Undefined if there is none. `ratio` is the number of pixels of the picture per CSS pixel.
  */
 export function hitAt(
     picture: Slices,
@@ -90,12 +107,15 @@ export function hitAt(
     ratio: number,
 ): Hit | LevelHit | undefined {
     const meshes = pickableMeshes(picture, viewCamera).sort((a, b) => a.distance - b.distance);
+    const isField = picture.scene.surfaces !== undefined;
+    let [found, distance]: [MeshHit | undefined, number] = [undefined, Infinity];
     for (const mesh of meshes) {
+        if (found && !(isField && mesh.distance === distance)) break;
         if (!mayContain(mesh, picture, viewCamera, x, y)) continue;
         const hit = new MeshTest(mesh, viewCamera, x, y, kReach * ratio).nearest();
-        if (hit) return hit;
+        if (hit && hit.depth < (found?.depth ?? Infinity)) [found, distance] = [hit, mesh.distance];
     }
-    return undefined;
+    return found?.hit;
 }
 
 function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCamera): PickableMesh[] {
@@ -107,19 +127,23 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
         const { position, vertices, drawn } = slice;
         if (!drawn || vertices.length === 0) continue;
         const hasFaces = shown.faces && !scene.surfaces; // faces of the box of a field are never drawn
-        const surfaces = scene.surfaces ?? [];
-        const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces, surfaces };
+        const surface = scene.surfaces && { slice, scale, levels: scene.surfaces };
+        const look = { ball: slice.balls && !shown.balls ? scene.bar : ball, bar, hasFaces };
         const placed = { position, scale, magnification: 1, distance: distance(position) };
-        meshes.push({ elements: slice, slice, ...placed, ...look });
+        meshes.push({ elements: slice, slice, ...placed, ...look, ...(surface && { surface }) });
     }
-    for (const part of projection?.parts ?? []) {
+    const focus = slices.find((slice) => slice.focus && slice.drawn);
+    for (const [i, part] of (projection?.parts ?? []).entries()) {
         const { position, scale: partScale, kind, eye: eyeW } = projection!;
-        const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0, surfaces: [] };
+        const look = { ball: part.ball, bar: part.bar, hasFaces: part.opacity > 0 };
+        const { surface_scale: surfaceScale } = projection!;
+        const hasSurface = i === 0 && focus && scene.surfaces && surfaceScale !== undefined;
+        const surface = hasSurface && { slice: focus, scale: surfaceScale, levels: scene.surfaces! };
         // The perspective projection from 4-D moves points of the circumscribed sphere away from the center by at most
         // this factor.
         const magnification = kind === "perspective" ? eyeW / Math.sqrt(eyeW ** 2 - 1) : 1;
         const placed = { position, scale: partScale, magnification, distance: distance(position) };
-        meshes.push({ elements: part, ...placed, ...look });
+        meshes.push({ elements: part, ...placed, ...look, ...(surface && { surface }) });
     }
     return meshes;
 }
@@ -155,13 +179,13 @@ class MeshTest {
         this.projectVertices();
     }
 
-    nearest(): Hit | LevelHit | undefined {
-        const { ball, bar, hasFaces, slice } = this.mesh;
+    nearest(): MeshHit | undefined {
+        const { ball, bar, hasFaces, surface } = this.mesh;
         if (ball > 0) this.testBalls();
         if (bar > 0) this.testBars();
         if (hasFaces) this.testFaces();
-        if (slice?.surface) this.testSurface(slice);
-        return this.hit;
+        if (surface) this.testSurface(surface);
+        return this.hit && { hit: this.hit, depth: this.depth };
     }
 
     /** Writes the camera and screen coordinates of the vertices into `projected`. */
@@ -223,17 +247,19 @@ class MeshTest {
         }
     }
 
-    private testSurface(slice: Slice): void {
-        const { position, scale, surfaces } = this.mesh;
+    private testSurface({ slice: { surface, w }, scale, levels }: PickableSurface): void {
+        if (!surface) return;
+        const { position, slice } = this.mesh;
         const { eye } = this.viewCamera;
         const [px, py, pz] = position;
         const [x, y, z]: Vector = [(eye.x - px) / scale, (eye.y - py) / scale, (eye.z - pz) / scale];
         const [dx, dy, dz] = this.viewCamera.worldRayAt(this.x, this.y).map((value) => value / scale) as Vector;
-        const hit = hitOnSurface(slice.surface!, surfaces, { start: [x, y, z], direction: [dx, dy, dz] });
+        const hit = hitOnSurface(surface, levels, { start: [x, y, z], direction: [dx, dy, dz] });
         if (!hit || hit.depth >= this.depth) return;
         const { depth, level, cap } = hit;
         this.depth = depth;
-        this.hit = { level, cap, point: [x + depth * dx, y + depth * dy, z + depth * dz, slice.w], slice };
+        const point: LevelHit["point"] = [x + depth * dx, y + depth * dy, z + depth * dz, w];
+        this.hit = { level, cap, point, ...(slice && { slice }) };
     }
 
     /** Tests the faces. Consecutive loops with the same source form a single face, as in Picker in pick.cpp. */
