@@ -244,7 +244,7 @@ class Exporter {
         return std::string(text::nameOf(slicing::kElementKinds, element_->kind)) + ' ' +
                std::to_string(element_->index);
     }
-    bool isCloud() const { return std::holds_alternative<slicing::CloudPtr>(object_); }
+    slicing::KindProperties kind() const { return slicing::propertiesOf(object_); }
     bool hasCells() const { return slicing::elementCount(object_, slicing::ElementKind::cell) > 0; }
     const glm::dvec4& origin() const { return slicing::infoOf(object_).originInFile; }
 
@@ -292,10 +292,28 @@ class Exporter {
         for (const glm::dvec4& v : slices_.rotatedVertices) box.include(scale_ * glm::dvec3(v));
         const glm::dvec3 size = box.size();
         const double largest = std::max({size.x, size.y, size.z});
-        if (isCloud() || slices_.vertices.empty() || largest > kFewSteps * grid_.step()) return;
+        if (kind().slices == slicing::SliceContent::points || slices_.vertices.empty() ||
+            largest > kFewSteps * grid_.step())
+            return;
         throw ExportRefused{{ExportRefusal::Cause::no_body,
                              message + ": the polytope is too small in comparison with its distance from the origin; "
                                        "load it with center=object"}};
+    }
+
+    /// Throws ExportRefused if the slices of the object have no volume, wherever they are.
+    void refuseSlicesWithoutVolume() const {
+        switch (kind().slices) {
+            case slicing::SliceContent::points:
+                throw ExportRefused{{ExportRefusal::Cause::no_body,
+                                     "points have no volume; choose body=skeleton, whose balls are the points"}};
+            case slicing::SliceContent::curves:
+                throw ExportRefused{{ExportRefusal::Cause::no_body,
+                                     "the object has no cells, so its slices are curves, which have no volume; choose "
+                                     "body=skeleton, whose bars are the curves"}};
+            case slicing::SliceContent::solids:
+            case slicing::SliceContent::level_surfaces:
+                break;
+        }
     }
 
     [[noreturn]] void refuseEmpty() const {
@@ -305,18 +323,12 @@ class Exporter {
             least = std::min(least, v.w);
             most = std::max(most, v.w);
         }
-        if (!hasCells() && request_.body == BodyKind::solid) {
-            throw ExportRefused{
-                {ExportRefusal::Cause::no_body,
-                 isCloud() ? "points have no volume; choose body=skeleton, whose balls are the points"
-                           : "the object has no cells, so its slices are curves, which have no volume; choose "
-                             "body=skeleton, whose bars are the curves"}};
-        }
+        if (request_.body == BodyKind::solid) refuseSlicesWithoutVolume();
         const std::string reach =
             text::roundedDecimal(origin().w + least) + " to " + text::roundedDecimal(origin().w + most);
         const bool many = slices_.planes.count > 1;
         const bool isField = slicing::fieldIn(object_) != nullptr;
-        const std::string kind = isField ? "field" : isCloud() ? "points" : hasCells() ? "polytope" : "object";
+        const std::string noun(kind().noun);
         std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
             message += wOf(0);
@@ -325,9 +337,9 @@ class Exporter {
         refuseTiny(message);
         const std::string advice = request_.choosesSlices() ? "choose other slices" : "move the focus";
         throw ExportRefused{{ExportRefusal::Cause::no_body,
-                             message + ": the " + (isField ? "box of the field" : kind) +
-                                 (isCloud() ? " extend" : " extends") + " from w = " + reach + "; " +
-                                 (isField ? "change the levels, " : "") + advice + " or turn the " + kind}};
+                             message + ": the " + (isField ? "box of the field" : noun) +
+                                 (kind().isPlural ? " extend" : " extends") + " from w = " + reach + "; " +
+                                 (isField ? "change the levels, " : "") + advice + " or turn the " + noun}};
     }
 
     const scene::Scene& scene_;

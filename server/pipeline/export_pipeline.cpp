@@ -110,10 +110,10 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
 }
 
 // Divides the object's extent along w into `count` equal intervals, and returns the hyperplanes in the middles of the
-// intervals. For a point cloud, the intervals are slightly longer, because a slice does not contain the points at the
-// upper end of its interval.
+// intervals. If slices are thick, as those of a point cloud, the intervals are slightly longer, because a slice does
+// not contain the points at the upper end of its interval.
 geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
-    const double larger = std::holds_alternative<slicing::CloudPtr>(state.object) ? 1 + 1e-9 : 1;
+    const double larger = slicing::propertiesOf(state.object).slicesAreThick ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double shortest = session::kMinSpacing * slicing::infoOf(state.object).circumradius;
     const double spacing = std::max(larger * (most - least) / count, shortest);  // a flat object may have no extent

@@ -2,14 +2,12 @@
 
 #include <cstddef>
 #include <numeric>
-#include <variant>
 
 namespace oval4d::pipeline {
 
 bool FocusSectionNamer::isFast(const session::State& state) {
     constexpr std::size_t kFew = 1000;
-    if (slicing::fieldIn(state.object) != nullptr || std::holds_alternative<slicing::CloudPtr>(state.object))
-        return true;  // see SectionNamer::mayHaveName()
+    if (!slicing::propertiesOf(state.object).sectionsHaveNames) return true;  // see SectionNamer::mayHaveName()
     const auto counts = slicing::elementCounts(state.object);
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) <= kFew;
 }

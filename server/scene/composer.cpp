@@ -15,6 +15,19 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
+// Returns whether the bars, balls and surfaces of a slice may cross or hide each other in any order.
+bool needsDepthBuffer(const Object& object) {
+    switch (slicing::propertiesOf(object).slices) {
+        case slicing::SliceContent::curves:
+        case slicing::SliceContent::level_surfaces:
+            return true;
+        case slicing::SliceContent::solids:
+        case slicing::SliceContent::points:
+            break;
+    }
+    return !slicing::infoOf(object).convex;
+}
+
 // Writes to `out`, for each of the slice faces `faces`, the cell that determines its color. `sourceOf` returns the
 // source number of a face (see SliceSet::faceSource): the index of the cell from which the face was cut or, for 2-face
 // f of the object if it lies in the hyperplane, the number of cells + f. If every face was cut from a cell, this cell
@@ -115,9 +128,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.slices = &slices;
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
-    const auto counts = slicing::elementCounts(object);
-    const bool isSurface = counts[1] > 0 && counts[3] == 0;  // a surface has edges, but no cells; its slices are curves
-    out.needsDepthBuffer = isField || !info.convex || isSurface;
+    const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
+    out.needsDepthBuffer = needsDepthBuffer(object);
     out.faceOpacity = out.needsDepthBuffer ? 1 : translucent(out.style().faceOpacity, look);
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
@@ -185,10 +197,9 @@ void Composer::nameSection(const Object& object, int focus, Scene& out) {
     out.sectionNames = {};
     std::string& focusName = layoutInput_.focusName;
     focusName.clear();
-    const std::size_t edges = slicing::elementCounts(object)[1];
-    if (edges == 0 || slicing::fieldIn(object) != nullptr || slice < 0 || slice >= slices.planes.count) return;
+    if (!slicing::propertiesOf(object).sectionsHaveNames || slice < 0 || slice >= slices.planes.count) return;
     out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice),
-                        sectionNamer_.nameOfObjectVertices(slices, slice, edges)};
+                        sectionNamer_.nameOfObjectVertices(slices, slice, slicing::elementCounts(object)[1])};
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
         focusName = name;
@@ -231,8 +242,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                               .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
-    const auto counts = slicing::elementCounts(object);
-    const bool isSurface = counts[2] > 0 && counts[3] == 0;
+    const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     if (!isSurface) {
         // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.
         for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);

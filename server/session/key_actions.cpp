@@ -28,14 +28,14 @@ void moveFocus(State& state, int to) {
     state.playing = false;
 }
 
-// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. The
-// slices of a point cloud have a thickness, so for a cloud, returns the indices of the hyperplanes that are nearest to
-// the points with the least and the greatest w.
+// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. If the
+// slices are thick, as those of a point cloud, returns the indices of the hyperplanes that are nearest to the points
+// with the least and the greatest w.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
     const auto [count, spacing, focus, offset] = state.slices;
-    if (std::holds_alternative<slicing::CloudPtr>(state.object)) {
+    if (slicing::propertiesOf(state.object).slicesAreThick) {
         // As in CloudSlicer, a point half way between two hyperplanes belongs to the upper one.
         return {static_cast<int>(std::floor((least - offset) / spacing + 0.5)),
                 static_cast<int>(std::floor((most - offset) / spacing + 0.5))};

@@ -133,6 +133,39 @@ bool hasConvexFaces(const Object& object) {
                          object);
 }
 
+// A new kind has no case here, so that this function does not compile until the kind states its properties.
+KindProperties propertiesOf(const Object& object) {
+    return std::visit(Overloaded{[](const PolytopePtr& /*polytope*/) {
+                                     return KindProperties{.noun = "polytope",
+                                                           .isPlural = false,
+                                                           .slices = SliceContent::solids,
+                                                           .slicesAreThick = false,
+                                                           .sectionsHaveNames = true};
+                                 },
+                                 [](const SurfacePtr& /*surface*/) {
+                                     return KindProperties{.noun = "surface",
+                                                           .isPlural = false,
+                                                           .slices = SliceContent::curves,
+                                                           .slicesAreThick = false,
+                                                           .sectionsHaveNames = true};
+                                 },
+                                 [](const CloudPtr& /*cloud*/) {
+                                     return KindProperties{.noun = "points",
+                                                           .isPlural = true,
+                                                           .slices = SliceContent::points,
+                                                           .slicesAreThick = true,
+                                                           .sectionsHaveNames = false};
+                                 },
+                                 [](const FieldPtr& /*field*/) {
+                                     return KindProperties{.noun = "field",
+                                                           .isPlural = false,
+                                                           .slices = SliceContent::level_surfaces,
+                                                           .slicesAreThick = false,
+                                                           .sectionsHaveNames = false};
+                                 }},
+                      object);
+}
+
 const fields::Field* fieldIn(const Object& object) {
     const auto* field = std::get_if<FieldPtr>(&object);
     return field == nullptr ? nullptr : field->get();

@@ -2,9 +2,9 @@
 // The extension point for new kinds of 4-D objects: a variant, and functions for objects of every kind. A new kind
 // needs its own folder or file (like polytopes/, fields/, geometry/point_cloud), and changes in slicing/,
 // session/load.cpp, store/object_codec.cpp and protocol/schema/load.schema.json. If the new kind is derived from
-// geometry::CellComplex, only code that stores and reads objects distinguishes it from other cell complexes. All other
-// code uses the functions below. Some of it also asks whether an object is a point cloud or a field (fieldIn()),
-// because only fields have levels and fog.
+// geometry::CellComplex, only propertiesOf() and code that stores and reads objects distinguish it from other cell
+// complexes. All other code uses the functions below, among them propertiesOf(), with the properties that every kind
+// states. Code for levels and fog also asks whether an object is a field (fieldIn()), because only fields have them.
 
 #include <array>
 #include <cstddef>
@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -44,6 +45,27 @@ using FieldPtr = std::shared_ptr<const fields::Field>;
 /// objects are equal if they share the same data. The vertices, edges, 2-faces and cells of a field are those of its
 /// domain.
 using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr, SurfacePtr>;
+
+/// What the slices of an object are made of.
+enum class SliceContent : std::uint8_t {
+    solids,         ///< the sections of cells: a slice has vertices, edges and faces
+    curves,         ///< the sections of the 2-faces of an object without cells: a slice has vertices and edges
+    points,         ///< points of the object
+    level_surfaces  ///< the surfaces and the fog of a field, in the section of its domain
+};
+
+/// The properties by which code for objects of all kinds distinguishes kinds. Every kind states each of them.
+struct KindProperties {
+    std::string_view noun;   ///< what messages call the object, such as "polytope"
+    bool isPlural;           ///< whether the noun is a plural
+    SliceContent slices;     ///< what the slices are made of
+    bool slicesAreThick;     ///< whether a slice contains what is within half the spacing of its hyperplane, below the
+                             ///< upper end of this interval, rather than the section by the hyperplane
+    bool sectionsHaveNames;  ///< whether SectionNamer names sections of the object
+};
+
+/// Returns the properties of the kind of an object, which may be a null pointer.
+KindProperties propertiesOf(const Object& object);
 
 /// Returns the field, or null if the object is of another kind. The pointer is valid as long as the field exists.
 const fields::Field* fieldIn(const Object& object);

@@ -77,16 +77,16 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
     distance_.clear();
     const double radius = infoOf(object).circumradius;
     bool anyBelow = false;
-    const bool isCloud = !slices.ballScale.empty();
+    const bool isThick = propertiesOf(object).slicesAreThick;
     for (std::uint32_t v = begin; v < end; ++v) {
-        const glm::dvec4 own = isCloud ? slices.rotatedVertices[slices.vertexSource[v]]
+        const glm::dvec4 own = isThick ? slices.rotatedVertices[slices.vertexSource[v]]
                                        : glm::dvec4(slices.vertices[v], slices.planes.w(slice));
         vertices_.push_back(toObject * own);
         const double distance = vertices_.back()[axis] - point[axis];
-        distance_.push_back(!isCloud && std::abs(distance) <= kOnPlaneTolerance * radius ? 0 : distance);
+        distance_.push_back(!isThick && std::abs(distance) <= kOnPlaneTolerance * radius ? 0 : distance);
         anyBelow = anyBelow || distance_.back() < 0;
     }
-    if (isCloud) {
+    if (isThick) {
         copyCloudPoints(slices, slice, axis, point[axis], out);
         return;
     }

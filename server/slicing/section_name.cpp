@@ -140,7 +140,7 @@ bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& o
     const auto countInPlane = [&](const std::vector<glm::dvec4>& vertices) {
         return static_cast<std::size_t>(std::ranges::count_if(vertices, [&](const auto& v) { return sideOf(v) == 0; }));
     };
-    if (fieldIn(object) != nullptr) return false;
+    if (!propertiesOf(object).sectionsHaveNames) return false;
     return visitElements(Overloaded{[&](const geometry::CellComplex& complex) {
                                         const std::size_t inPlane = countInPlane(complex.vertices);
                                         if (inPlane > 0 && inPlane <= kMaxVertices) return true;

@@ -42,8 +42,8 @@ class SectionNamer {
     /// by the hyperplane at `w` certainly has neither of the names in SectionNamePair, and true if it may have one. Let
     /// n be the number of the object's vertices in the hyperplane, and m the number of edges that cross it. The slice
     /// has n + m vertices; the second name depends only on the n vertices. Returns true if n or n + m is between 1 and
-    /// the vertex count of the largest named shape. Always returns false for point clouds and fields, which have no
-    /// names. Takes time linear in the numbers of vertices and edges.
+    /// the vertex count of the largest named shape. Always returns false for objects whose sections have
+    /// no names (KindProperties), such as fields. Takes time linear in the numbers of vertices and edges.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.

@@ -24,10 +24,16 @@ namespace {
 enum class ListedElementKind : std::uint8_t { vertices, edges, faces };
 
 ListedElementKind elementsOf(const slicing::Object& object) {
-    const auto counts = slicing::elementCounts(object);
-    return counts[3] > 0   ? ListedElementKind::faces
-           : counts[1] > 0 ? ListedElementKind::edges
-                           : ListedElementKind::vertices;
+    switch (slicing::propertiesOf(object).slices) {
+        case slicing::SliceContent::curves:
+            return ListedElementKind::edges;
+        case slicing::SliceContent::points:
+            return ListedElementKind::vertices;
+        case slicing::SliceContent::solids:
+        case slicing::SliceContent::level_surfaces:
+            break;
+    }
+    return ListedElementKind::faces;
 }
 
 /// The arrays of the file.

@@ -17,9 +17,12 @@
 #include "fields/formula_field.hpp"
 #include "geometry/point_cloud.hpp"
 #include "slicing/object_bytes.hpp"
+#include "slicing/section_name.hpp"
 #include "slicing/slicer.hpp"
 #include "text/message_text.hpp"
+#include "unit/slicing/field_support.hpp"
 #include "unit/slicing/support.hpp"
+#include "unit/slicing/surface_meshes.hpp"
 
 namespace oval4d::slicing {
 namespace {
@@ -90,6 +93,49 @@ TEST(Object, IsCutAsItsPolytopeIs) {
         EXPECT_EQ(slices.edges, expected.edges) << name;
         EXPECT_EQ(slices.corners, expected.corners) << name;
         EXPECT_EQ(slices.faceSource, expected.faceSource) << name;
+    }
+}
+
+/// Returns an object of each kind.
+std::vector<Object> objectsOfEachKind() {
+    return {shared("5-cell"),
+            std::make_shared<const geometry::PointCloud>(
+                geometry::makePointCloud("cloud", {{1, 0, 0, 0}, {-1, 0, 0, 0.5}, {0, 0, 1, -0.5}}, {0, 0, 0})),
+            std::make_shared<const fields::Field>(*fields::fieldFromFormula("formula", "x^2 + y^2 + z^2 + w^2 - 1")),
+            support::cliffordTorus(5, 6)};
+}
+
+/// Returns what slices of the object through its middle are made of, from the slices themselves.
+SliceContent contentOfSlices(const Object& object, double middle) {
+    const geometry::Hyperplanes planes{-1, 3, infoOf(object).circumradius / 5, middle};
+    SliceSet slices;
+    SurfaceDetail detail;
+    if (const fields::Field* field = fieldIn(object)) detail = detailOf(*field, planes, 16);
+    Slicer().slice(object, {}, planes, {}, detail, slices);
+    if (!slices.surfaces.empty()) return SliceContent::level_surfaces;
+    const SliceCounts size = slices.totalCounts();
+    EXPECT_GT(size.vertices, 0U);
+    return size.faces > 0 ? SliceContent::solids : size.edges > 0 ? SliceContent::curves : SliceContent::points;
+}
+
+TEST(Object, OfEachKindHasTheStatedProperties) {
+    const std::vector<Object> objects = objectsOfEachKind();
+    for (std::size_t kind = 0; kind < std::variant_size_v<Object>; ++kind) {
+        const auto found = std::ranges::find(objects, kind, &Object::index);
+        ASSERT_NE(found, objects.end()) << "no example of kind " << kind;
+        const Object& object = *found;
+        const KindProperties properties = propertiesOf(object);
+        SCOPED_TRACE(properties.noun);
+        EXPECT_FALSE(properties.noun.empty());
+        const auto [least, most] = rangeOfW(object, {});
+        const double middle = (least + most) / 2 + 0.01;
+        EXPECT_EQ(contentOfSlices(object, middle), properties.slices);
+        EXPECT_EQ(SectionNamer::mayHaveName(object, {}, middle), properties.sectionsHaveNames);
+        // The hyperplane lies beyond the object, but at less than half the spacing.
+        const double spacing = infoOf(object).circumradius / 2;
+        SliceSet beyond;
+        Slicer().sliceWithoutSurfaces(object, {}, {0, 1, spacing, most + 0.3 * spacing}, beyond);
+        EXPECT_EQ(beyond.vertexCount(0) > 0, properties.slicesAreThick);
     }
 }
 
