@@ -20,13 +20,13 @@ enum class ExportContentsKind : std::uint8_t {
 };
 
 inline constexpr auto kExportContents =
-    std::to_array<text::NamedValue<ExportContentsKind>>({{"focus", ExportContentsKind::focus},
-                                                         {"oval", ExportContentsKind::oval},
-                                                         {"highlight", ExportContentsKind::highlight},
-                                                         {"critical", ExportContentsKind::critical},
-                                                         {"object", ExportContentsKind::object},
-                                                         {"coordinates", ExportContentsKind::coordinates},
-                                                         {"projection", ExportContentsKind::projection},
-                                                         {"matrix", ExportContentsKind::matrix}});
+    text::completeTable<text::NamedValue<ExportContentsKind>>({{"focus", ExportContentsKind::focus},
+                                                               {"oval", ExportContentsKind::oval},
+                                                               {"highlight", ExportContentsKind::highlight},
+                                                               {"critical", ExportContentsKind::critical},
+                                                               {"object", ExportContentsKind::object},
+                                                               {"coordinates", ExportContentsKind::coordinates},
+                                                               {"projection", ExportContentsKind::projection},
+                                                               {"matrix", ExportContentsKind::matrix}});
 
 }  // namespace oval4d::exports

@@ -20,10 +20,10 @@ enum class BodyKind : std::uint8_t { solid, skeleton };
 enum class LabelPlacement : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kBodies =
-    std::to_array<text::NamedValue<BodyKind>>({{"solid", BodyKind::solid},
-                                               {"skeleton", BodyKind::skeleton},
-                                               {"frame", BodyKind::skeleton}});  // "frame" is a former name
-inline constexpr auto kLabels = std::to_array<text::NamedValue<LabelPlacement>>(
+    text::completeTable<text::NamedValue<BodyKind>>({{"solid", BodyKind::solid},
+                                                     {"skeleton", BodyKind::skeleton},
+                                                     {"frame", BodyKind::skeleton}});  // "frame" is a former name
+inline constexpr auto kLabels = text::completeTable<text::NamedValue<LabelPlacement>>(
     {{"none", LabelPlacement::none}, {"engraved", LabelPlacement::engraved}, {"separate", LabelPlacement::separate}});
 
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.

@@ -11,7 +11,7 @@ namespace oval4d::fields {
 /// Stored sessions contain the numbers of the enumerators, so these numbers must not change.
 enum class Inside : std::uint8_t { below = 0, above = 1 };
 inline constexpr auto kInsides =
-    std::to_array<text::NamedValue<Inside>>({{"below", Inside::below}, {"above", Inside::above}});
+    text::completeTable<text::NamedValue<Inside>>({{"below", Inside::below}, {"above", Inside::above}});
 constexpr const auto& choicesOf(Inside /*type*/) { return kInsides; }
 
 }  // namespace oval4d::fields

@@ -11,7 +11,7 @@ namespace oval4d::scene {
 /// A color scheme: the colors of a picture are chosen for a dark or for a light background.
 enum class Scheme : std::uint8_t { dark, light };
 inline constexpr auto kSchemes =
-    std::to_array<text::NamedValue<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
+    text::completeTable<text::NamedValue<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
 
 /// The background of a picture. Stored sessions contain the numbers of the enumerators; therefore these numbers must
 /// not change.
@@ -23,11 +23,11 @@ enum class Background : std::uint8_t {
     transparent = 4,  ///< transparent in PNG files, else white; all other colors are as with `white`
 };
 inline constexpr auto kBackgrounds =
-    std::to_array<text::NamedValue<Background>>({{"auto", Background::automatic},
-                                                 {"dark", Background::dark},
-                                                 {"light", Background::light},
-                                                 {"white", Background::white},
-                                                 {"transparent", Background::transparent}});
+    text::completeTable<text::NamedValue<Background>>({{"auto", Background::automatic},
+                                                       {"dark", Background::dark},
+                                                       {"light", Background::light},
+                                                       {"white", Background::white},
+                                                       {"transparent", Background::transparent}});
 constexpr const auto& choicesOf(Background /*type*/) { return kBackgrounds; }
 
 /// Returns the scheme of the colors on a background. For `automatic`, this is `viewer`, the scheme that the viewer

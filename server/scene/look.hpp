@@ -37,7 +37,7 @@ struct ViewRow {
     bool showsAllSlices;                ///< whether the view shows all slices, not only the focus slice
     bool isExportedInPortrait = false;  ///< whether exported drawings of the view are in portrait format
 };
-inline constexpr auto kViews = std::to_array<ViewRow>(
+inline constexpr auto kViews = text::completeTable<ViewRow>(
     {{.name = "oval", .value = View::oval, .showsAllSlices = true},
      {.name = "single", .value = View::single, .showsAllSlices = false},
      {.name = "matrix", .value = View::matrix, .showsAllSlices = false},
@@ -67,13 +67,13 @@ enum class Coloring : std::uint8_t {
     growth = 5,     ///< for fields: how fast the surface moves outward as w increases
     value = 6,      ///< for fields: the value of the second function or, without one, of the function itself
 };
-inline constexpr auto kColorings = std::to_array<text::NamedValue<Coloring>>({{"cell", Coloring::cell},
-                                                                              {"kind", Coloring::cell_type},
-                                                                              {"w", Coloring::w},
-                                                                              {"plain", Coloring::plain},
-                                                                              {"light", Coloring::light},
-                                                                              {"growth", Coloring::growth},
-                                                                              {"value", Coloring::value}});
+inline constexpr auto kColorings = text::completeTable<text::NamedValue<Coloring>>({{"cell", Coloring::cell},
+                                                                                    {"kind", Coloring::cell_type},
+                                                                                    {"w", Coloring::w},
+                                                                                    {"plain", Coloring::plain},
+                                                                                    {"light", Coloring::light},
+                                                                                    {"growth", Coloring::growth},
+                                                                                    {"value", Coloring::value}});
 constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 
 /// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
@@ -84,7 +84,7 @@ enum class CapStyle : std::uint8_t {
     value = 1,  ///< colored as with Coloring::value
     open = 2,   ///< no caps: the surfaces are open at the domain's boundary
 };
-inline constexpr auto kCapStyles = std::to_array<text::NamedValue<CapStyle>>(
+inline constexpr auto kCapStyles = text::completeTable<text::NamedValue<CapStyle>>(
     {{"plain", CapStyle::plain}, {"value", CapStyle::value}, {"open", CapStyle::open}});
 constexpr const auto& choicesOf(CapStyle /*type*/) { return kCapStyles; }
 
@@ -96,9 +96,9 @@ enum class ProjectionKind : std::uint8_t {
     orthogonal = 2,   ///< parallel to the w axis
 };
 inline constexpr auto kProjectionKinds =
-    std::to_array<text::NamedValue<ProjectionKind>>({{"off", ProjectionKind::off},
-                                                     {"perspective", ProjectionKind::perspective},
-                                                     {"orthogonal", ProjectionKind::orthogonal}});
+    text::completeTable<text::NamedValue<ProjectionKind>>({{"off", ProjectionKind::off},
+                                                           {"perspective", ProjectionKind::perspective},
+                                                           {"orthogonal", ProjectionKind::orthogonal}});
 constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKinds; }
 
 /// How the whole object is projected.

@@ -15,10 +15,10 @@ namespace oval4d::scene {
 /// The part of a picture in which an element is found.
 enum class PictureArea : std::uint8_t { slice, projection, coordinates, matrix };
 inline constexpr auto kPictureAreas =
-    std::to_array<text::NamedValue<PictureArea>>({{"slice", PictureArea::slice},
-                                                  {"projection", PictureArea::projection},
-                                                  {"coordinates", PictureArea::coordinates},
-                                                  {"matrix", PictureArea::matrix}});
+    text::completeTable<text::NamedValue<PictureArea>>({{"slice", PictureArea::slice},
+                                                        {"projection", PictureArea::projection},
+                                                        {"coordinates", PictureArea::coordinates},
+                                                        {"matrix", PictureArea::matrix}});
 
 /// An element of the object that a picture shows at a pixel.
 struct PickedElement {

@@ -23,10 +23,11 @@ namespace oval4d::slicing {
 /// The kinds of elements, ordered by dimension from 0 to 3. The points of a point cloud count as vertices. Stored
 /// sessions contain the numbers of the enumerators, so these numbers must not change.
 enum class ElementKind : std::uint8_t { vertex = 0, edge = 1, face = 2, cell = 3 };
-inline constexpr auto kElementKinds = std::to_array<text::NamedValue<ElementKind>>({{"vertex", ElementKind::vertex},
-                                                                                    {"edge", ElementKind::edge},
-                                                                                    {"face", ElementKind::face},
-                                                                                    {"cell", ElementKind::cell}});
+inline constexpr auto kElementKinds =
+    text::completeTable<text::NamedValue<ElementKind>>({{"vertex", ElementKind::vertex},
+                                                        {"edge", ElementKind::edge},
+                                                        {"face", ElementKind::face},
+                                                        {"cell", ElementKind::cell}});
 constexpr const auto& choicesOf(ElementKind /*type*/) { return kElementKinds; }
 
 /// One element of an object: its kind, and its index from 0 among the object's elements of this kind.

@@ -1,9 +1,14 @@
 #pragma once
 // Tables of values and their names.
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace oval4d::text {
@@ -15,6 +20,49 @@ struct NamedValue {
     std::string_view name;
     Value value;
 };
+
+/// Returns whether an enumerator has this value of its enumeration.
+template <auto value>
+consteval bool isEnumerator() {
+    // The compiler calls the template's argument Fruit::apple if an enumerator has the value, and (Fruit)7 if none has.
+    constexpr std::string_view function = __PRETTY_FUNCTION__, assignment = "value = ";
+    return function.at(function.rfind(assignment) + assignment.size()) != '(';
+}
+
+/// The enumerations in tables have numbers less than this.
+inline constexpr std::size_t kMaxEnumerators = 32;
+
+/// Returns, for each number less than kMaxEnumerators, whether an enumerator of `Enum` has it.
+template <typename Enum, std::size_t... numbers>
+consteval std::array<bool, kMaxEnumerators> enumeratorsOf(std::index_sequence<numbers...> /*all*/) {
+    return {isEnumerator<static_cast<Enum>(numbers)>()...};
+}
+
+/// Returns whether the table names every enumerator and no other value, and no name twice. A row has the members `name`
+/// and `value`, as NamedValue has.
+template <typename Row, std::size_t size>
+consteval bool isComplete(const std::array<Row, size>& rows) {
+    using Enum = decltype(Row::value);
+    const auto isUsed = enumeratorsOf<Enum>(std::make_index_sequence<kMaxEnumerators>());
+    for (std::size_t number = 0; number < kMaxEnumerators; ++number) {
+        const bool isNamed = std::ranges::find(rows, static_cast<Enum>(number), &Row::value) != rows.end();
+        if (isNamed != isUsed[number]) return false;
+    }
+    for (auto row = rows.begin(); row != rows.end(); ++row) {
+        if (static_cast<std::size_t>(row->value) >= kMaxEnumerators) return false;
+        if (std::find_if(rows.begin(), row, [&](const Row& other) { return other.name == row->name; }) != row)
+            return false;
+    }
+    return true;
+}
+
+/// Returns the table with these rows, as std::to_array does. Does not compile unless the table isComplete().
+template <typename Row, std::size_t size>
+consteval std::array<Row, size> completeTable(const Row (&rows)[size]) {
+    const std::array<Row, size> table = std::to_array(rows);
+    if (!isComplete(table)) throw std::logic_error("an enumerator has no row, or a name has two");
+    return table;
+}
 
 /// Returns the value with this name or alias; std::nullopt if the table does not contain the name.
 template <typename Choices>

@@ -15,7 +15,7 @@ namespace oval4d::wire {
 
 /// The encoding of `slices` messages.
 enum class Encoding : std::uint8_t { json, cbor, msgpack, bjdata };
-inline constexpr auto kEncodings = std::to_array<text::NamedValue<Encoding>>(
+inline constexpr auto kEncodings = text::completeTable<text::NamedValue<Encoding>>(
     {{"json", Encoding::json}, {"cbor", Encoding::cbor}, {"msgpack", Encoding::msgpack}, {"bjdata", Encoding::bjdata}});
 
 /// Calls `write` with the writer of the encoding, which overwrites `out`.

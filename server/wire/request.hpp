@@ -31,7 +31,7 @@ enum class Stream : std::uint8_t {
     geometry,  ///< a `slices` message, from which the client draws the picture
     frames,    ///< a frame: the picture as a PNG file
 };
-inline constexpr auto kStreams = std::to_array<text::NamedValue<Stream>>(
+inline constexpr auto kStreams = text::completeTable<text::NamedValue<Stream>>(
     {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
 
 /// The first message of a connection, which joins or creates a session. A later `hello` changes the stream of the
@@ -47,15 +47,16 @@ struct Hello {
 };
 /// The data that a `get` message requests.
 enum class GetTarget : std::uint8_t { state, slices, frame, at, file, critical, catalogue, keymap, address };
-inline constexpr auto kGetTargets = std::to_array<text::NamedValue<GetTarget>>({{"state", GetTarget::state},
-                                                                                {"slices", GetTarget::slices},
-                                                                                {"frame", GetTarget::frame},
-                                                                                {"at", GetTarget::at},
-                                                                                {"file", GetTarget::file},
-                                                                                {"critical", GetTarget::critical},
-                                                                                {"catalogue", GetTarget::catalogue},
-                                                                                {"keymap", GetTarget::keymap},
-                                                                                {"address", GetTarget::address}});
+inline constexpr auto kGetTargets =
+    text::completeTable<text::NamedValue<GetTarget>>({{"state", GetTarget::state},
+                                                      {"slices", GetTarget::slices},
+                                                      {"frame", GetTarget::frame},
+                                                      {"at", GetTarget::at},
+                                                      {"file", GetTarget::file},
+                                                      {"critical", GetTarget::critical},
+                                                      {"catalogue", GetTarget::catalogue},
+                                                      {"keymap", GetTarget::keymap},
+                                                      {"address", GetTarget::address}});
 
 /// Requests data once.
 struct Get {

@@ -14,13 +14,13 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr auto kArrangements = std::to_array<text::NamedValue<Format::Arrangement>>(
+constexpr auto kArrangements = text::completeTable<text::NamedValue<Format::Arrangement>>(
     {{"", Format::Arrangement::none}, {"plate", Format::Arrangement::plate}, {"oval", Format::Arrangement::oval}});
 
 constexpr auto kObjects =
-    std::to_array<text::NamedValue<Format::Objects>>({{"all", Format::Objects::all},
-                                                      {"fields", Format::Objects::fields},
-                                                      {"polytopes", Format::Objects::polytopes_and_points}});
+    text::completeTable<text::NamedValue<Format::Objects>>({{"all", Format::Objects::all},
+                                                            {"fields", Format::Objects::fields},
+                                                            {"polytopes", Format::Objects::polytopes_and_points}});
 
 std::vector<Format> readTable() {
     std::vector<Format> table;

@@ -29,13 +29,13 @@ enum class SectionChange : std::uint8_t {
     cavity,         ///< a cavity of a component opens or closes
 };
 inline constexpr auto kSectionChanges =
-    std::to_array<text::NamedValue<SectionChange>>({{"vertices", SectionChange::vertices},
-                                                    {"appears", SectionChange::appearance},
-                                                    {"vanishes", SectionChange::disappearance},
-                                                    {"merge", SectionChange::merge},
-                                                    {"split", SectionChange::split},
-                                                    {"handle", SectionChange::handle},
-                                                    {"cavity", SectionChange::cavity}});
+    text::completeTable<text::NamedValue<SectionChange>>({{"vertices", SectionChange::vertices},
+                                                          {"appears", SectionChange::appearance},
+                                                          {"vanishes", SectionChange::disappearance},
+                                                          {"merge", SectionChange::merge},
+                                                          {"split", SectionChange::split},
+                                                          {"handle", SectionChange::handle},
+                                                          {"cavity", SectionChange::cavity}});
 
 /// The topology of the body of one level in a section: see SurfaceMeasurements.
 struct SectionTopology {

@@ -17,6 +17,25 @@ constexpr auto kFruits =
 static_assert(valueNamed(kFruits, "pear") == Fruit::pear);
 static_assert(nameOf(kFruits, Fruit::pear) == "pear");
 
+// A table is complete if it names every enumerator, however often, but no name is there twice.
+using FruitRow = NamedValue<Fruit>;
+constexpr auto kAllFruits = std::to_array<FruitRow>(
+    {{"pear", Fruit::pear}, {"apple", Fruit::apple}, {"plum", Fruit::plum}, {"pome", Fruit::pear}});
+static_assert(isComplete(kAllFruits));
+static_assert(completeTable<FruitRow>({{"a", Fruit::apple}, {"b", Fruit::pear}, {"c", Fruit::plum}}).size() == 3);
+static_assert(!isComplete(kFruits));
+static_assert(!isComplete(
+    std::to_array<FruitRow>({{"a", Fruit::apple}, {"b", Fruit::pear}, {"c", Fruit::plum}, {"a", Fruit::plum}})));
+static_assert(!isComplete(std::to_array<FruitRow>(
+    {{"a", Fruit::apple}, {"b", Fruit::pear}, {"c", Fruit::plum}, {"d", static_cast<Fruit>(3)}})));
+static_assert(!isComplete(std::to_array<FruitRow>(
+    {{"a", Fruit::apple}, {"b", Fruit::pear}, {"c", Fruit::plum}, {"d", static_cast<Fruit>(kMaxEnumerators)}})));
+
+// Numbers need not follow one another.
+enum class Sparse : unsigned char { two = 2, last = kMaxEnumerators - 1 };
+static_assert(isComplete(std::to_array<NamedValue<Sparse>>({{"two", Sparse::two}, {"last", Sparse::last}})));
+static_assert(!isComplete(std::to_array<NamedValue<Sparse>>({{"two", Sparse::two}})));
+
 TEST(NamedValue, FindsValuesByNameAndAlias) {
     EXPECT_EQ(valueNamed(kFruits, "apple"), Fruit::apple);
     EXPECT_EQ(valueNamed(kFruits, "pome"), Fruit::apple);
