@@ -1,6 +1,6 @@
 // Generates the types of messages and of the answers to requests, in TypeScript (protocol/ts/messages.ts) and in Python
 // (protocol/python/oval4d_messages/), from the JSON Schemas of messages; with --check, only compares. The slices message
-// is not among them: protocol/ts/slices.ts has its types as they are after decoding.
+// is not among them: protocol/ts/slices.ts has its types as they are after decoding, which slices_types.mjs compares.
 import { readFile, readdir, writeFile } from "node:fs/promises";
 import { compile } from "json-schema-to-typescript";
 import { kMeaning, pythonModule } from "./message_types_python.mjs";
