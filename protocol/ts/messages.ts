@@ -996,6 +996,7 @@ export interface ErrorMessage {
         | "too_many"
         | "too_large"
         | "canceled"
+        | "later_version"
         | "internal";
     /**
      * A sentence for the user: what was wrong, where, and what is allowed.

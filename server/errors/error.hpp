@@ -32,6 +32,7 @@ enum class ErrorCode {
     too_many,            ///< a limit on sessions, connections, requests, loaded objects or bytes is reached
     too_large,           ///< a message, frame, file, polytope or field exceeds a limit on its size
     canceled,            ///< a search was stopped, because its result was no longer needed
+    later_version,       ///< a later version has stored the session; this server keeps it, but cannot open it
     internal,            ///< an internal error of the server; the session is unchanged
 };
 

@@ -40,6 +40,8 @@ class DepthLimiter : public json::json_sax_t {
 
 void throwUnreadable(const std::string& what) { throw UnreadableRecord(what); }
 
+void throwLater(const std::string& what) { throw LaterRecord("a later version of oval4d has stored it: " + what); }
+
 std::string encodeCbor(const json& value) {
     std::string bytes;
     json::to_cbor(value, bytes);
@@ -51,21 +53,22 @@ json parseRecord(std::string_view bytes) {
     if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) throwUnreadable("it is nested too deeply");
     json value = json::from_cbor(bytes);
     if (!value.is_array() || value.empty()) throwUnreadable("it is not a session record");
-    if (value.at(0) != kRecordVersion) {
-        throwUnreadable("it has version " + value.at(0).dump() + ", and this program reads version " +
-                        std::to_string(kRecordVersion));
+    if (const json& version = value.at(0); version != kRecordVersion) {
+        const std::string what =
+            "it has version " + version.dump() + ", and this program reads version " + std::to_string(kRecordVersion);
+        if (version.is_number_integer() && version.get<std::int64_t>() > kRecordVersion) throwLater(what);
+        throwUnreadable(what);
     }
     return value;
 }
 
 void refuseUnknownMembers(const json& array, std::size_t known) {
-    if (array.size() > known)
-        throwUnreadable("a later version of oval4d has stored it, with settings that this version does not know");
+    if (array.size() > known) throwLater("it has settings that this version does not know");
 }
 
 double readNumber(const json& value, double least, double most) {
     const auto found = value.get<double>();
-    if (!(found >= least && found <= most)) throwUnreadable("a number is out of range");
+    if (!(found >= least && found <= most)) throwLater("a number is out of range");
     return found;
 }
 

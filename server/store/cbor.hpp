@@ -21,14 +21,18 @@ inline constexpr int kRecordVersion = 1;
 /// Throws UnreadableRecord with this message.
 [[noreturn]] void throwUnreadable(const std::string& what);
 
+/// Throws LaterRecord with a message that a later version has stored the record, and with `what` this version does not
+/// know or allow.
+[[noreturn]] void throwLater(const std::string& what);
+
 /// Returns the CBOR encoding of a value.
 std::string encodeCbor(const nlohmann::json& value);
 
-/// Parses a record: an array that begins with kRecordVersion. Throws UnreadableRecord if `bytes` is anything else or is
-/// nested too deeply.
+/// Parses a record: an array that begins with kRecordVersion. Throws LaterRecord if the array begins with a greater
+/// number, and UnreadableRecord if `bytes` is anything else or is nested too deeply.
 nlohmann::json parseRecord(std::string_view bytes);
 
-/// Throws UnreadableRecord if the array has more than `known` members. Only a later version of this program stores such
+/// Throws LaterRecord if the array has more than `known` members. Only a later version of this program stores such
 /// an array. If this version read it, the unknown members would be lost when it stores the session again.
 void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
@@ -42,7 +46,7 @@ auto callTranslatingErrors(Read read) {
     }
 }
 
-/// Returns `value` as a number. Throws UnreadableRecord unless the number is from `least` to `most`; the overload
+/// Returns `value` as a number. Throws LaterRecord unless the number is from `least` to `most`; the overload
 /// without `least` requires a number from −`most` to `most`. If `value` is not a number, throws an exception of the
 /// JSON library, which callTranslatingErrors() converts to UnreadableRecord.
 double readNumber(const nlohmann::json& value, double least, double most);

@@ -108,6 +108,7 @@ void readSecond(const json& second, const json& shape, fields::Quantity quantity
     std::optional<Error> error;
     if (second.is_string()) {
         error = fields::setSecondFormula(field, second.get<std::string>());
+        if (error) throwLater("a formula cannot be read: " + error->message);
     } else if (field.array) {
         fields::FieldArray array = arrayIn(second.at(1).get_binary(), field.array->box(), shape);
         array.quantity = std::move(quantity);
@@ -270,6 +271,7 @@ struct RecordCodec<slicing::FieldPtr> {
         auto field = isFormula ? fields::fieldFromFormula(name, source.get<std::string>(), box,
                                                           hasSecond ? value.at(5).get<std::string>() : std::string())
                                : fields::fieldFromArray(name, array);
+        if (!field && isFormula) throwLater("a formula cannot be read: " + field.error().message);
         if (!field) throwUnreadable("a field is not valid: " + field.error().message);
         if (hasSecond && !isFormula) readSecond(value.at(5), shape, std::move(ofSecond), *field);
         return std::make_shared<const fields::Field>(std::move(*field));
@@ -289,7 +291,7 @@ struct RecordCodec<slicing::SurfacePtr> {
 
     static slicing::Object decode(const json& value, const glm::dvec4& originInFile, const DataFolderReader& /*open*/) {
         for (std::size_t i = 4; i < value.size(); ++i) {
-            if (!value.at(i).is_null()) throwUnreadable("a surface has members that this program does not know");
+            if (!value.at(i).is_null()) throwLater("a surface has members that this version does not know");
         }
         try {
             geometry::SurfaceMesh surface =
@@ -331,7 +333,7 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
     };
     (decodeIfLengthMatches(std::type_identity<Kinds>()), ...);
     if (!object)
-        throwUnreadable("there is no kind of object with a record of " + std::to_string(record.size()) + " members");
+        throwLater("there is no kind of object with a record of " + std::to_string(record.size()) + " members");
     return std::move(*object);
 }
 

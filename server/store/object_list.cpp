@@ -75,13 +75,13 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
 }
 
 /// Returns the polytope with this name (see polytopes::designNamed()), and subtracts its number of vertices from
-/// `vertexBudget_`. Throws UnreadableRecord if there is no such polytope, if it cannot be built, or if it has more
-/// vertices than `vertexBudget_`.
+/// `vertexBudget_`. Throws LaterRecord if there is no such polytope, and UnreadableRecord if it cannot be built or has
+/// more vertices than `vertexBudget_`.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope; clients may build far fewer (session::Limits)
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
-    if (design == nullptr) throwUnreadable("the catalogue has no polytope called " + text::inQuotes(name));
+    if (design == nullptr) throwLater("the catalogue has no polytope called " + text::inQuotes(name));
     const std::size_t vertices = polytopes::elementCounts(*design).vertices;
     if (vertices > vertexBudget_) throwUnreadable("its polytopes have too many vertices");
     vertexBudget_ -= vertices;

@@ -127,7 +127,7 @@ class StateWriter : public MemberWriter {
 
 geometry::Plane planeIn(const json& value) {
     const auto number = readInteger<unsigned>(value);
-    if (number >= geometry::kPlanes.size()) throwUnreadable("there is no plane " + std::to_string(number));
+    if (number >= geometry::kPlanes.size()) throwLater("there is no plane " + std::to_string(number));
     return geometry::kPlanes[number];
 }
 
@@ -160,7 +160,7 @@ class MemberReader {
         rotation = *decoded;
     }
 
-    /// Throws UnreadableRecord if the array has more members than those that have been read.
+    /// Throws LaterRecord if the array has more members than those that have been read.
     void refuseUnreadMembers() const { refuseUnknownMembers(array_, readCount_); }
 
   protected:
@@ -190,7 +190,7 @@ class MemberReader {
         const auto& choices = choicesOf(Enum{});
         const auto found = std::ranges::find_if(
             choices, [&](const auto& choice) { return static_cast<unsigned>(choice.value) == number; });
-        if (found == choices.end()) throwUnreadable("an enumerator is out of range: " + std::to_string(number));
+        if (found == choices.end()) throwLater("an enumerator is out of range: " + std::to_string(number));
         into = found->value;
     }
     template <typename T, typename... Ranges>
@@ -255,7 +255,7 @@ void check(const session::HyperplaneSettings& slices, double circumradius) {
     constexpr int kMaxSlices = 100'001;
     const auto& [count, spacing, focus, offset] = slices;
     if (count < 1 || count > kMaxSlices || count % 2 == 0)
-        throwUnreadable("the number of slices is not allowed: " + std::to_string(count));
+        throwLater("the number of slices is not allowed: " + std::to_string(count));
     if (!(spacing > 0 && spacing >= session::kMinSpacing * circumradius * (1 - kSlack) &&
           spacing <= session::kMaxSpacing * circumradius * (1 + kSlack)))
         throwUnreadable("the spacing of the slices is out of range");
@@ -277,7 +277,7 @@ void check(const scene::CellTypeFilter& filter, std::size_t typeCount) {
 
 void check(const slicing::FieldSettings& field) {
     if (field.levels.empty() || field.levels.size() > slicing::kMaxLevels)
-        throwUnreadable("the number of levels is out of range");
+        throwLater("the number of levels is out of range");
     if (!session::isTransferFunction(field.fog)) throwUnreadable("the fog is not a transfer function");
 }
 

@@ -10,4 +10,11 @@ class UnreadableRecord : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// Thrown if a record is well formed, but has a version, a member or a value that this program does not know or allow,
+/// because a later version of the program has stored it. Such a record must be kept: the later version can read it.
+class LaterRecord : public UnreadableRecord {
+  public:
+    using UnreadableRecord::UnreadableRecord;
+};
+
 }  // namespace oval4d::store

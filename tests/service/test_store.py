@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import hashlib
 import math
 import random
 import signal
@@ -11,7 +12,7 @@ import subprocess
 import pytest
 import websockets
 from harness import DEADLINE, PROGRAM, Server, is_sanitizer_build
-from wire import Client, credentials_of, hello_refusal
+from wire import Client, credentials_of, hello_refusal, with_another_member
 
 
 @pytest.fixture(name="store_path")
@@ -88,6 +89,34 @@ async def test_an_unreadable_record_is_reported_and_kept(store_path):
     finally:
         server.kill()
     assert (b"\x82\x07\x00",) in execute_sql(store_path, "SELECT whole FROM session")
+
+
+def digest_of(*parts):
+    """Returns the digest of a record: see recordDigest() in server/store/secret.hpp."""
+    whole = b"".join(len(part).to_bytes(8, "little") + part for part in parts)
+    return hashlib.blake2b(whole, digest_size=16).digest()
+
+
+async def test_a_session_of_a_later_version_is_refused_and_kept(store_path):
+    with Server("--store", f"sqlite:{store_path}") as server:
+        async with Client(server) as client:
+            await client.request("key", key="t")
+            credentials = credentials_of(client)
+    [[session, token_hash, whole]] = execute_sql(store_path, "SELECT id, token_hash, whole FROM session")
+    later = with_another_member(whole)
+    digest = digest_of(session.encode(), token_hash.encode(), later)
+    execute_sql(store_path, "UPDATE session SET whole = ?, digest = ?", later, digest)
+    before = execute_sql(store_path, "SELECT whole FROM session")
+    with Server("--store", f"sqlite:{store_path}") as server:
+        for _ in range(2):
+            assert await hello_refusal(server, **credentials) == ("later_version", 1013)
+        assert "session of a later version refused" in server.log()
+    assert execute_sql(store_path, "SELECT whole FROM session") == before
+    execute_sql(store_path, "UPDATE session SET whole = ?, digest = ?", whole,
+                digest_of(session.encode(), token_hash.encode(), whole))
+    with Server("--store", f"sqlite:{store_path}") as server:
+        async with Client(server, **credentials) as client:
+            assert (await client.request("get", what="state"))["revision"] == 1
 
 
 class KeyPresser:

@@ -184,6 +184,12 @@ def credentials_of(client):
     return {"session": client.welcome["session"], "token": client.welcome["token"]}
 
 
+def with_another_member(whole):
+    """Returns the record of a session as a later version might store it: its CBOR array has one more member."""
+    assert 0x80 < whole[0] < 0x97, "an array of fewer than 23 members"
+    return bytes([whole[0] + 1]) + whole[1:] + b"\xf4"  # false
+
+
 async def hello_refusal(server, session="", **hello):
     """Sends a hello that the server refuses; returns the error code, and the close code that follows."""
     async with connect(server, session) as socket:

@@ -183,7 +183,7 @@ class _ErrorMessage(TypedDict):
     code: Literal["bad_json", "bad_message", "unknown_type", "unknown_key", "unknown_polytope", "unknown_command",
                   "bad_expression", "out_of_range", "not_a_rotation", "bad_polytope", "bad_field", "unsupported_format",
                   "no_body", "nothing_to_undo", "hello_first", "not_found", "bad_token", "too_many", "too_large",
-                  "canceled", "internal"]
+                  "canceled", "later_version", "internal"]
     # A sentence for the user: what was wrong, where, and what is allowed.
     message: str
 

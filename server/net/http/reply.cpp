@@ -17,6 +17,7 @@ unsigned statusFor(ErrorCode code) {
         case ErrorCode::too_large:
             return 413;
         case ErrorCode::too_many:
+        case ErrorCode::later_version:
             return 503;
         case ErrorCode::internal:
             return 500;

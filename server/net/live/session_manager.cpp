@@ -201,18 +201,26 @@ void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const st
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value), record.fence);
     } catch (const std::exception& fault) {
-        if (isUnread) {
+        // Of a damaged record, nothing is certain, not even that a later version has stored it.
+        const bool isLater = record.damage.empty() && dynamic_cast<const store::LaterRecord*>(&fault) != nullptr;
+        if (isLater) {
+            spdlog::warn("session of a later version refused session={} store={} reason=\"{}\"", id,
+                         writeBehind_.name(), fault.what());
+        } else if (isUnread) {
             spdlog::warn("session waits for its field session={} reason=\"{}\"", id, fault.what());
         } else {
             spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(),
                           fault.what());
         }
         writeBehind_.discardFetched(id);
-        const std::string what = isUnread ? "this session cannot be opened: "
-                                          : "this session is stored in a form that the server cannot read: ";
-        // After `not_found`, clients forget the session; after `internal`, they try again.
-        finishOpening(pending,
-                      Error{isUnread && mustWait ? ErrorCode::internal : ErrorCode::not_found, what + fault.what()});
+        const std::string what = isLater    ? "this server keeps the session, but cannot open it: "
+                                 : isUnread ? "this session cannot be opened: "
+                                            : "this session is stored in a form that the server cannot read: ";
+        // After `not_found`, clients forget the session; after the others, they try again.
+        const ErrorCode code = isLater                ? ErrorCode::later_version
+                               : isUnread && mustWait ? ErrorCode::internal
+                                                      : ErrorCode::not_found;
+        finishOpening(pending, Error{code, what + fault.what()});
     }
 }
 

@@ -26,8 +26,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// deletes a closed session that was never changed, if there is one.
     void create(const AddressAccountPtr& client, const JoinHandler& done);
     /// Adds a client to the session with these credentials, after loading the session from the store if necessary.
-    /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `too_many` if too many jobs are queued, or
-    /// `internal` if the store does not answer or another server takes over the session.
+    /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `later_version`, `too_many` if too many jobs
+    /// are queued, or `internal` if the store does not answer or another server takes over the session.
     void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
     /// Removes the client `peer` from a session, and closes the session if it has no other client. `peer`: null if the
     /// client was never welcomed, as for an upload. Must be called exactly once for each successful call of create() or

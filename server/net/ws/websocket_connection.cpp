@@ -302,7 +302,8 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
         sendError(joined.error(), id);
         if (joined.error().code == ErrorCode::not_found) close(close_code::kNoSession, "no such session");
         if (joined.error().code == ErrorCode::bad_token) close(close_code::kBadToken, "wrong token");
-        if (joined.error().code == ErrorCode::internal) close(close_code::kTryLater, "try again later");
+        if (joined.error().code == ErrorCode::internal || joined.error().code == ErrorCode::later_version)
+            close(close_code::kTryLater, "try again later");
         if (!session_ && helloDue_ <= services_.clock.now()) closeWithoutHello();
         co_return;
     }

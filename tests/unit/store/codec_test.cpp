@@ -116,7 +116,7 @@ TEST(Codec, RefusesMembersOfLaterVersions) {
     const auto refusalOf = [&](const json& record, const std::string& head = "") -> std::string {
         try {
             decodeSession(encodeCbor(record), head, table.objectOf, support::cache());
-        } catch (const UnreadableRecord& fault) {
+        } catch (const LaterRecord& fault) {
             return fault.what();
         }
         return "";
@@ -244,7 +244,7 @@ TEST(Codec, RefusesOtherVersionsAndOtherData) {
     try {
         decodeSession(bytes, "", none, support::cache());
         FAIL() << "a later version was read";
-    } catch (const UnreadableRecord& fault) {
+    } catch (const LaterRecord& fault) {
         EXPECT_NE(std::string(fault.what()).find("version 2"), std::string::npos) << fault.what();
     }
     for (const std::string other : {"", "x", "\x80", "\xa0", "\x81\x01", "{\"a\":1}"}) {
