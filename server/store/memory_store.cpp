@@ -19,12 +19,19 @@ std::optional<std::string> MemoryStore::tokenHash(const std::string& id) {
     return found == entries_.end() ? std::nullopt : std::optional(found->second.tokenHash);
 }
 
+std::optional<Record> MemoryStore::read(const std::string& id) {
+    const auto found = entries_.find(id);
+    if (found == entries_.end()) return std::nullopt;
+    const Entry& entry = found->second;
+    return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, entry.fence, {}};
+}
+
 std::optional<Record> MemoryStore::claim(const std::string& id) {
     const auto found = entries_.find(id);
     if (found == entries_.end()) return std::nullopt;
-    Entry& entry = found->second;
-    entry.touched = now_();
-    return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, ++entry.fence, {}};
+    found->second.touched = now_();
+    ++found->second.fence;
+    return read(id);
 }
 
 /// Returns an upper bound of the total size of all records after the updates, in bytes. Counts even the bytes that the

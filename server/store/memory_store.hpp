@@ -19,6 +19,7 @@ class MemoryStore final : public Store {
     WritePolicy writePolicy() const override { return WritePolicy::at_close; }
     std::string name() const override { return "memory"; }
     std::optional<std::string> tokenHash(const std::string& id) override;
+    std::optional<Record> read(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;

@@ -16,10 +16,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The script that claims a session. KEYS: the keys of the Redis hashes that contain the session and its objects. ARGV:
-// the name of this server, the expiry period in milliseconds, the session's id. Returns {fence, whole, head, objects};
-// false if there is no such session. Redis runs the script even if its memory is full (allow-oom), so that stored
-// sessions can still be opened.
+// The script that reads a session. KEYS: the keys of the Redis hashes that contain the session and its objects. Returns
+// {fence, whole, head, objects}; false if there is no such session.
+constexpr const char* kRead = R"(#!lua flags=no-writes,allow-oom
+local fence, whole, head = unpack(redis.call('HMGET', KEYS[1], 'fence', 'whole', 'head'))
+if not whole then return false end
+return {tonumber(fence) or 0, whole, head or '', redis.call('HGETALL', KEYS[2])})";
+
+// The script that claims a session. KEYS: as for kRead. ARGV: the name of this server, the expiry period in
+// milliseconds, the session's id. Returns the same as kRead, with the new fence. Redis runs both scripts even if its
+// memory is full (allow-oom), so that stored sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
@@ -33,7 +39,7 @@ redis.call('PEXPIRE', KEYS[1], ARGV[2])
 redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// The script that saves a session. KEYS: as for kClaim. ARGV: the name of this server, the expiry period in
+// The script that saves a session. KEYS: as for kRead. ARGV: the name of this server, the expiry period in
 // milliseconds, the fence, the hash of the token, the token itself (empty if it is not to be stored as plain text), the
 // head, the whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, the
 // key and the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two servers
@@ -61,7 +67,7 @@ if last > 9 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
 return 0)";
 
-// The script that adds the hash of a token to a session that contains the token as plain text. KEYS: as for kClaim.
+// The script that adds the hash of a token to a session that contains the token as plain text. KEYS: as for kRead.
 // ARGV: the token, its hash, 1 if the plain text is to be deleted.
 constexpr const char* kHash = R"(#!lua flags=allow-oom
 if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
@@ -69,7 +75,7 @@ if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
   if ARGV[3] == '1' then redis.call('HDEL', KEYS[1], 'token') end
 end)";
 
-// The script that removes a session unless another server owns it. KEYS: as for kClaim. ARGV: the name of this server.
+// The script that removes a session unless another server owns it. KEYS: as for kRead. ARGV: the name of this server.
 constexpr const char* kRemove = R"(#!lua flags=allow-oom
 local owner = redis.call('HGET', KEYS[1], 'owner')
 if owner and owner ~= '' and owner ~= ARGV[1] then return end
@@ -109,6 +115,18 @@ timeval asTimeval(Milliseconds time) {
 
 std::string textOf(const redisReply& reply) {
     return reply.str == nullptr ? std::string() : std::string(reply.str, reply.len);
+}
+
+// Returns the record in the reply of kRead or kClaim.
+std::optional<Record> recordIn(const redisReply& reply) {
+    if (reply.type != REDIS_REPLY_ARRAY || reply.elements != 4) return std::nullopt;
+    Record record{
+        textOf(*reply.element[1]), textOf(*reply.element[2]), {}, static_cast<Fence>(reply.element[0]->integer), {}};
+    const redisReply& polytopes = *reply.element[3];
+    for (std::size_t i = 0; i + 1 < polytopes.elements; i += 2) {
+        record.objects.emplace_back(textOf(*polytopes.element[i]), textOf(*polytopes.element[i + 1]));
+    }
+    return record;
 }
 
 // Returns whether an error says that Redis has no memory for what a script writes, or that the value of a key has the
@@ -170,6 +188,7 @@ void RedisStore::connect() {
     if (!password_.empty())
         ask(user_.empty() ? CommandWords{"AUTH", password_} : CommandWords{"AUTH", user_, password_});
     if (!database_.empty()) ask({"SELECT", database_});
+    readScript_ = textOf(*ask({"SCRIPT", "LOAD", kRead}));
     claimScript_ = textOf(*ask({"SCRIPT", "LOAD", kClaim}));
     saveScript_ = textOf(*ask({"SCRIPT", "LOAD", kSave}));
     hashScript_ = textOf(*ask({"SCRIPT", "LOAD", kHash}));
@@ -256,17 +275,14 @@ std::optional<std::string> RedisStore::tokenHash(const std::string& id) {
     return made;
 }
 
+std::optional<Record> RedisStore::read(const std::string& id) {
+    if (!context_) connect();
+    return recordIn(*ask(readScript_, id, {}));
+}
+
 std::optional<Record> RedisStore::claim(const std::string& id) {
     if (!context_) connect();
-    const Reply reply = ask(claimScript_, id, {self_, std::to_string(expiry_.count()), id});
-    if (reply->type != REDIS_REPLY_ARRAY || reply->elements != 4) return std::nullopt;
-    Record record{
-        textOf(*reply->element[1]), textOf(*reply->element[2]), {}, static_cast<Fence>(reply->element[0]->integer), {}};
-    const redisReply& polytopes = *reply->element[3];
-    for (std::size_t i = 0; i + 1 < polytopes.elements; i += 2) {
-        record.objects.emplace_back(textOf(*polytopes.element[i]), textOf(*polytopes.element[i + 1]));
-    }
-    return record;
+    return recordIn(*ask(claimScript_, id, {self_, std::to_string(expiry_.count()), id}));
 }
 
 /// Sends all updates before it reads the replies (pipelining), so that the batch takes one round trip. Throws

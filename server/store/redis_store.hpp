@@ -28,6 +28,7 @@ class RedisStore final : public Store {
     WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override;
     std::optional<std::string> tokenHash(const std::string& id) override;
+    std::optional<Record> read(const std::string& id) override;
     std::optional<Record> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     /// Does nothing and returns 0: Redis has its own quota, `maxmemory`.
@@ -63,7 +64,7 @@ class RedisStore final : public Store {
     const ClockFunction<Clock> now_;
     std::unique_ptr<redisContext, RedisDeleter> context_;
     // SHA-1 digests of the loaded scripts.
-    std::string claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
+    std::string readScript_, claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
     // Until this time, tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same Redis.
     Clock::time_point plainUntil_;
     std::size_t size_ = 0;

@@ -272,13 +272,19 @@ bool SqliteStore::isDamaged(const std::string& id) {
 }
 
 std::optional<Record> SqliteStore::claim(const std::string& id) {
-    return runAfterPendingRepair([&]() -> std::optional<Record> {
+    runAfterPendingRepair([&] {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             statement.number(nowMilliseconds()).text(id).step();
         } catch (const NotWritable&) {
             // The record can still be read. Its fence need not be incremented, because no other server uses this file.
         }
+    });
+    return read(id);
+}
+
+std::optional<Record> SqliteStore::read(const std::string& id) {
+    return runAfterPendingRepair([&]() -> std::optional<Record> {
         Statement statement(*database_,
                             "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
                             "head_digest = digest_of(id, head) FROM session WHERE id = ?");

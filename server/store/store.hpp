@@ -34,7 +34,7 @@ using Fence = std::uint64_t;
 /// The fence of a session that no server has claimed since it was created.
 inline constexpr Fence kFirstFence = 1;
 
-/// A session as claim() returns it from the store.
+/// A session as read() and claim() return it from the store.
 struct Record {
     /// `whole`: the whole session, encoded by encodeWhole() (session_codec.hpp). `head`: the state and the revision
     /// after a later change, encoded by encodeHead(); empty if `whole` is the newest state.
@@ -113,6 +113,9 @@ class Store {
     /// Returns whether the record of a session is known to be damaged. If it is, the stored hash may be wrong, so that
     /// even the correct token may not match it.
     virtual bool isDamaged(const std::string& /*id*/) { return false; }
+
+    /// Returns the record of a session, and changes nothing; an empty optional if the session is not stored.
+    virtual std::optional<Record> read(const std::string& id) = 0;
 
     /// Makes this server the owner of a session, taking it over from another server if necessary. Returns the session's
     /// record; an empty optional if the session is not stored.

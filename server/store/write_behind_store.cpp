@@ -69,11 +69,21 @@ SessionCredentials WriteBehindStore::create() {
     return credentials;
 }
 
+void WriteBehindStore::read(SessionCredentials credentials, std::function<void(FetchResult)> done) {
+    requestFetch(std::move(credentials), Access::read, std::move(done));
+}
+
 void WriteBehindStore::claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
+    requestFetch(std::move(credentials), Access::claim, std::move(done));
+}
+
+void WriteBehindStore::requestFetch(SessionCredentials credentials, Access access,
+                                    std::function<void(FetchResult)> done) {
     {
         const std::lock_guard lock(mutex_);
-        requests_.emplace_back(
-            [this, credentials = std::move(credentials), done = std::move(done)] { runFetch(credentials, done); });
+        requests_.emplace_back([this, credentials = std::move(credentials), access, done = std::move(done)] {
+            runFetch(credentials, access, done);
+        });
     }
     wake_.notify_one();
 }
@@ -485,16 +495,17 @@ void WriteBehindStore::renewAndExpireSessions() {
 
 // --- Reading
 
-void WriteBehindStore::runFetch(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done) {
+void WriteBehindStore::runFetch(const SessionCredentials& credentials, Access access,
+                                const std::function<void(FetchResult)>& done) {
     try {
-        done(findOrClaim(credentials));
+        done(fetch(credentials, access));
     } catch (const std::exception& fault) {
         storeFailed(fault);
         done(kNoAnswer);
     }
 }
 
-WriteBehindStore::FetchResult WriteBehindStore::findOrClaim(const SessionCredentials& credentials) {
+WriteBehindStore::FetchResult WriteBehindStore::fetch(const SessionCredentials& credentials, Access access) {
     {
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(credentials.id)) {
@@ -514,6 +525,10 @@ WriteBehindStore::FetchResult WriteBehindStore::findOrClaim(const SessionCredent
     if (!equalInConstantTime(hashToken(credentials.token), *hash)) {
         // The token may be correct, if the stored hash is damaged.
         return runTimed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
+    }
+    if (access == Access::read) {
+        auto stored = runTimed("read", [&] { return store_->read(credentials.id); });
+        return stored ? FetchResult(FetchedSession{{}, std::move(*stored)}) : kNotFound;
     }
     auto record = runTimed("claim", [&] { return store_->claim(credentials.id); });
     if (!record) return kNotFound;

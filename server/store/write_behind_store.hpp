@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <mutex>
@@ -81,6 +82,11 @@ class WriteBehindStore {
     /// session is not in the store until it is saved.
     SessionCredentials create();
 
+    /// Makes the cache's thread read a session, and then call `done` as claimAndFetch() does. A session in memory is
+    /// passed as by claimAndFetch(). Any other session is not claimed, and `record` must not be written: nothing
+    /// changes, neither in memory nor in the store.
+    void read(SessionCredentials credentials, std::function<void(FetchResult)> done);
+
     /// Makes the cache's thread claim a session for this server and then call `done` with the session or with an error:
     /// `not_found`, `bad_token`, or `internal` if the session cannot be fetched now. If `done` receives a record, the
     /// caller must decode it, and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
@@ -136,6 +142,10 @@ class WriteBehindStore {
         std::vector<std::uint64_t> added;  // ObjectInfo::serial of the objects that this write adds to the store
     };
 
+    // What a fetch does with a session that is not in memory: only reads its record, or claims it, too.
+    enum class Access : std::uint8_t { read, claim };
+    void requestFetch(SessionCredentials credentials, Access access, std::function<void(FetchResult)> done);
+
     // The following functions run on the cache's thread.
     void runThread();
     void write();
@@ -150,8 +160,8 @@ class WriteBehindStore {
     void dropIfTakenOver(const std::string& id, Fence fence);
     void poll();
     void renewAndExpireSessions();
-    void runFetch(const SessionCredentials& credentials, const std::function<void(FetchResult)>& done);
-    FetchResult findOrClaim(const SessionCredentials& credentials);
+    void runFetch(const SessionCredentials& credentials, Access access, const std::function<void(FetchResult)>& done);
+    FetchResult fetch(const SessionCredentials& credentials, Access access);
     template <typename Operation>
     auto runTimed(const char* name, Operation operation);
     void storeFailed(const std::exception& fault);
@@ -175,7 +185,7 @@ class WriteBehindStore {
     CachedSessions cached_;
     std::deque<std::function<void()>> tasks_;  // do not use the store; the cache's thread runs them before all else
     std::deque<std::function<void()>>
-        requests_;                    // calls of claimAndFetch() and remove(); take turns with writes and polls
+        requests_;                    // calls of read(), claimAndFetch(), remove(); take turns with writes and polls
     std::set<std::string> removals_;  // ids to remove from the store
     std::size_t storedCount_ = 0;     // number of sessions in the store, as of the last poll
     std::size_t neverSaved_ = 0;      // number of sessions that have never been in the store

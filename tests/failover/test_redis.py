@@ -6,9 +6,17 @@ import signal
 import cluster
 import pytest
 import all_settings
-from wire import Client, hello_refusal
+from wire import Client, hello_refusal, with_another_member
 
 
+# Scripts that read a member of a hash, replace it, and read all members, as hexadecimal digits.
+READ_HEX = """local text = redis.call('HGET', KEYS[1], ARGV[1])
+return (text:gsub('.', function(c) return string.format('%02x', c:byte()) end))"""
+WRITE_HEX = """local bytes = ARGV[2]:gsub('..', function(digits) return string.char(tonumber(digits, 16)) end)
+return redis.call('HSET', KEYS[1], ARGV[1], bytes)"""
+READ_ALL_HEX = """local all = redis.call('HGETALL', KEYS[1])
+for i, text in ipairs(all) do all[i] = text:gsub('.', function(c) return string.format('%02x', c:byte()) end) end
+return table.concat(all, ' ')"""
 FAILED_SAVES = 'oval4d_store_failures_total{operation="save"}'
 
 
@@ -146,6 +154,36 @@ def test_sessions_survive_a_hanging_redis(redis):
         server.stop()
     finally:
         server.kill()
+
+
+def test_a_session_of_a_later_version_is_refused_and_stays_with_its_server(redis):
+    redis.start()
+    with cluster.start_server(redis, 0) as server:
+        credentials, _ = asyncio.run(press_keys(server, 2))
+        server.wait_for(lambda: server.metric("oval4d_open_sessions") == 0)
+        server.wait_for(lambda: server.metric("oval4d_unsaved_sessions") == 0)
+        key = "oval4d:{" + credentials["session"] + "}"
+
+        def evaluate(script, *arguments):
+            return redis.command("EVAL", script, "1", key, *arguments)
+
+        # A server of a later version has stored the session, and has it open.
+        whole = bytes.fromhex(evaluate(READ_HEX, "whole"))
+        evaluate(WRITE_HEX, "whole", with_another_member(whole).hex())
+        redis.command("HSET", key, "owner", "later")
+        assert redis.command("PERSIST", key) == "1", "an expiry period that begins again would be noticed"
+        before = evaluate(READ_ALL_HEX)
+        for _ in range(2):
+            assert asyncio.run(hello_refusal(server, **credentials)) == ("later_version", 1013)
+        assert evaluate(READ_ALL_HEX) == before
+        assert redis.command("TTL", key) == "-1"
+        assert redis.command("EXISTS", "oval4d:taken:later") == "0"
+        assert "session of a later version refused" in server.log()
+
+        # A session that the server can open is taken over from the other one.
+        evaluate(WRITE_HEX, "whole", whole.hex())
+        assert asyncio.run(press_keys(server, 1, **credentials)) == (credentials, 3)
+        assert redis.command("EXISTS", "oval4d:taken:later") == "1"
 
 
 def test_an_unreachable_session_is_not_reported_as_missing(redis):

@@ -106,12 +106,12 @@ async def test_a_session_of_a_later_version_is_refused_and_kept(store_path):
     later = with_another_member(whole)
     digest = digest_of(session.encode(), token_hash.encode(), later)
     execute_sql(store_path, "UPDATE session SET whole = ?, digest = ?", later, digest)
-    before = execute_sql(store_path, "SELECT whole FROM session")
+    before = execute_sql(store_path, "SELECT * FROM session")
     with Server("--store", f"sqlite:{store_path}") as server:
         for _ in range(2):
             assert await hello_refusal(server, **credentials) == ("later_version", 1013)
         assert "session of a later version refused" in server.log()
-    assert execute_sql(store_path, "SELECT whole FROM session") == before
+    assert execute_sql(store_path, "SELECT * FROM session") == before
     execute_sql(store_path, "UPDATE session SET whole = ?, digest = ?", whole,
                 digest_of(session.encode(), token_hash.encode(), whole))
     with Server("--store", f"sqlite:{store_path}") as server:

@@ -153,36 +153,43 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Ad
         return;
     }
     lock.unlock();
-    writeBehind_.claimAndFetch(
-        credentials, [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
-                         WriteBehindStore::FetchResult fetch) { self->onFetched(pending, std::move(fetch)); });
+    writeBehind_.read(credentials,
+                      [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
+                          WriteBehindStore::FetchResult fetch) { self->onRead(pending, std::move(fetch)); });
 }
 
-/// Runs on the thread of the write-behind store. A worker decodes the record, because decoding would block the thread
-/// of the write-behind store.
-void SessionManager::onFetched(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
+/// Runs on the thread of the write-behind store. A session that is in the store is claimed only once its record is
+/// decoded: one that this server cannot open is not written, and stays with the server that has it open.
+void SessionManager::onRead(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
     } else if (fetch->session) {
         finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
     } else {
-        const Seconds cost = decodingCost(fetch->record);
-        // A record that refers to a file of the data folder goes to a load worker, because opening this file may take
-        // long.
-        const bool opensFile = std::ranges::any_of(
-            fetch->record.objects, [](const auto& object) { return store::refersToFile(object.second); });
-        parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
-        const bool accepted =
-            pool.post([self = shared_from_this(), pending, record = std::move(fetch->record)](
-                          std::size_t /*worker*/) { self->decodeAndFinishOpening(pending, record); },
-                      opensFile ? pending.client->loadJobQueue() : pending.client->pictureJobQueue(), cost);
-        if (accepted) return;
-        writeBehind_.discardFetched(pending.credentials.id);
-        finishOpening(pending, kTooManyJobs);
+        startDecoding(pending, std::make_shared<const store::Record>(std::move(fetch->record)), Ownership::unclaimed);
     }
 }
 
-void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const store::Record& record) {
+/// Makes a worker decode a record, because decoding would block the thread of the write-behind store.
+void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<const store::Record> record,
+                                   Ownership ownership) {
+    const Seconds cost = decodingCost(*record);
+    // A record that refers to a file of the data folder goes to a load worker, because opening this file may take long.
+    const bool opensFile =
+        std::ranges::any_of(record->objects, [](const auto& object) { return store::refersToFile(object.second); });
+    parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
+    const bool accepted =
+        pool.post([self = shared_from_this(), pending, record = std::move(record),
+                   ownership](std::size_t /*worker*/) { self->decode(pending, record, ownership); },
+                  opensFile ? pending.client->loadJobQueue() : pending.client->pictureJobQueue(), cost);
+    if (accepted) return;
+    if (ownership == Ownership::claimed) writeBehind_.discardFetched(pending.credentials.id);
+    finishOpening(pending, kTooManyJobs);
+}
+
+void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<const store::Record>& stored,
+                            Ownership ownership) {
+    const store::Record& record = *stored;
     const std::string& id = pending.credentials.id;
     bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be read later
     try {
@@ -198,6 +205,11 @@ void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const st
         });
         auto value = store::decodeSession(record.whole, record.head, std::ref(objects), services_.polytopes);
         if (!record.damage.empty()) throw store::UnreadableRecord(record.damage);
+        if (ownership == Ownership::unclaimed) {
+            claim(pending,
+                  std::make_shared<const DecodedRecord>(DecodedRecord{stored, std::move(value), objects.keys()}));
+            return;
+        }
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value), record.fence);
     } catch (const std::exception& fault) {
@@ -212,7 +224,7 @@ void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const st
             spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(),
                           fault.what());
         }
-        writeBehind_.discardFetched(id);
+        if (ownership == Ownership::claimed) writeBehind_.discardFetched(id);
         const std::string what = isLater    ? "this server keeps the session, but cannot open it: "
                                  : isUnread ? "this session cannot be opened: "
                                             : "this session is stored in a form that the server cannot read: ";
@@ -222,6 +234,35 @@ void SessionManager::decodeAndFinishOpening(const PendingJoin& pending, const st
                                                       : ErrorCode::not_found;
         finishOpening(pending, Error{code, what + fault.what()});
     }
+}
+
+/// Claims a session whose record was read and decoded.
+void SessionManager::claim(const PendingJoin& pending, const std::shared_ptr<const DecodedRecord>& decoded) {
+    writeBehind_.claimAndFetch(pending.credentials,
+                               [self = shared_from_this(), pending, decoded](WriteBehindStore::FetchResult fetch) {
+                                   self->onClaimed(pending, *decoded, std::move(fetch));
+                               });
+}
+
+/// Runs on the thread of the write-behind store. If another server has saved the session since its record was read, the
+/// new record is decoded.
+void SessionManager::onClaimed(const PendingJoin& pending, const DecodedRecord& decoded,
+                               WriteBehindStore::FetchResult fetch) {
+    if (!fetch) {
+        finishOpening(pending, fetch.error());
+        return;
+    }
+    if (fetch->session) {
+        finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
+        return;
+    }
+    store::Record& claimed = fetch->record;
+    if (claimed.whole == decoded.record->whole && claimed.head == decoded.record->head) {
+        writeBehind_.setStoredKeys(pending.credentials.id, decoded.keys);
+        finishOpening(pending, decoded.value, claimed.fence);
+        return;
+    }
+    startDecoding(pending, std::make_shared<const store::Record>(std::move(claimed)), Ownership::claimed);
 }
 
 /// Passes the session, or the error, to the client that asked first. If another server has taken over the session in

@@ -1,6 +1,7 @@
 #pragma once
 // Manages the sessions of this server. Sessions with clients are in memory; the others are in the store.
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -26,8 +27,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     /// deletes a closed session that was never changed, if there is one.
     void create(const AddressAccountPtr& client, const JoinHandler& done);
     /// Adds a client to the session with these credentials, after loading the session from the store if necessary.
-    /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `later_version`, `too_many` if too many jobs
-    /// are queued, or `internal` if the store does not answer or another server takes over the session.
+    /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `later_version`, `too_many` if too many
+    /// jobs are queued, or `internal` if the store does not answer or another server takes over the session.
     void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
     /// Removes the client `peer` from a session, and closes the session if it has no other client. `peer`: null if the
     /// client was never welcomed, as for an upload. Must be called exactly once for each successful call of create() or
@@ -63,8 +64,20 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     std::shared_ptr<LiveSession> find(const std::string& id) const;
     std::optional<Error> admitSessionMakingRoom(AddressAccount& client);
     void evict(const std::string& id);
-    void onFetched(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
-    void decodeAndFinishOpening(const PendingJoin& pending, const store::Record& record);
+    // The record of a session in the store, and what it contains.
+    struct DecodedRecord {
+        std::shared_ptr<const store::Record> record;
+        session::Session value;
+        store::KeysBySerial keys;
+    };
+    enum class Ownership : std::uint8_t { unclaimed, claimed };  // whether this server has claimed a record's session
+
+    void onRead(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
+    void startDecoding(const PendingJoin& pending, std::shared_ptr<const store::Record> record, Ownership ownership);
+    void decode(const PendingJoin& pending, const std::shared_ptr<const store::Record>& stored, Ownership ownership);
+    void claim(const PendingJoin& pending, const std::shared_ptr<const DecodedRecord>& decoded);
+    void onClaimed(const PendingJoin& pending, const DecodedRecord& decoded,
+                   store::WriteBehindStore::FetchResult fetch);
     void finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence = 0);
     std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, store::Fence fence,
                                           const AddressAccountPtr& client, session::Session value);

@@ -44,6 +44,9 @@ class FaultyStore final : public Store {
     std::optional<std::string> tokenHash(const std::string& id) override {
         return attempt([&](MemoryStore& kept) { return kept.tokenHash(id); });
     }
+    std::optional<Record> read(const std::string& id) override {
+        return attempt([&](MemoryStore& kept) { return kept.read(id); });
+    }
     std::optional<Record> claim(const std::string& id) override {
         return attempt([&](MemoryStore& kept) { return kept.claim(id); });
     }

@@ -30,6 +30,8 @@ TEST(RedisStore, ExpiresUntouchedSessions) {
     const std::vector<std::string> ids{"id"};
     lasting->restartExpiry(ids);
     expectExpiry(3h);
+    EXPECT_TRUE(brief->read("id"));
+    expectExpiry(3h);
     brief->claim("id");
     expectExpiry(1h);
     EXPECT_TRUE(lasting->claim("id"));
@@ -42,7 +44,8 @@ TEST(RedisStore, PollReturnsSessionsClaimedByOthers) {
     ASSERT_TRUE(one && two);
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(one->save({&update, 1}).at(0), SaveResult::saved);
-    EXPECT_TRUE(one->pollTakenOverSessions().empty());
+    EXPECT_TRUE(two->read("id"));
+    EXPECT_TRUE(one->pollTakenOverSessions().empty()) << "a session that is only read is not taken over";
     EXPECT_EQ(two->claim("id")->fence, 2U);
     EXPECT_EQ(one->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 2}}));
     EXPECT_TRUE(one->pollTakenOverSessions().empty()) << "returned only once";

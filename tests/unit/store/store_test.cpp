@@ -82,6 +82,23 @@ TEST_P(AnyStore, ReturnsSavedRecords) {
     EXPECT_EQ(store->size(), 1U);
 }
 
+TEST_P(AnyStore, ReadingDoesNotClaim) {
+    EXPECT_FALSE(store->read("one"));
+    RecordUpdate update = whole(1, kBytes);
+    update.objects = {{"p", "bytes"}};
+    EXPECT_EQ(save(update), SaveResult::saved);
+    for (int i = 0; i < 2; ++i) {
+        const auto record = store->read("one");
+        ASSERT_TRUE(record);
+        EXPECT_EQ(record->whole, kBytes);
+        EXPECT_EQ(record->head, "");
+        EXPECT_EQ(record->objects, update.objects);
+        EXPECT_EQ(record->fence, 1U);
+    }
+    EXPECT_EQ(save(head(1, "newer")), SaveResult::saved) << "the session is still that of its server";
+    EXPECT_EQ(store->read("one")->head, "newer");
+}
+
 TEST_P(AnyStore, RefusesUpdatesWithAnOldFence) {
     EXPECT_EQ(save(whole(1, "first")), SaveResult::saved);
     EXPECT_EQ(store->claim("one")->fence, 2U);
