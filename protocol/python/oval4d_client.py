@@ -73,6 +73,7 @@ SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u
                  "cap_colors": "u4"}
 MAX_DATA = 1 << 20  # bytes: an array whose file is larger is uploaded by HTTP, not sent in a message
 RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # after these close codes, or without one, the client reconnects
+RETRY_ERRORS = {"later_version", "internal"}  # after these refusals of a hello, the session still exists
 
 
 class Refused(Exception):
@@ -148,7 +149,8 @@ class Client:
     describes.
 
     If the connection breaks, or the server closes it because the server stops, the client reconnects: at once, and then
-    with growing pauses, for `timeout` seconds. Calls wait in the meantime. A call that was in progress raises Closed,
+    with growing pauses, for `timeout` seconds, also while a server cannot open the session, such as one of an earlier
+    version than the one that has stored it. Calls wait in the meantime. A call that was in progress raises Closed,
     because it is unknown whether the call took effect."""
 
     def __init__(self, url, timeout=30, show=True, headers=None, token=None, view=""):
@@ -563,8 +565,15 @@ class Client:
                     await self._socket.close()
                     break
                 await self._socket.send(json.dumps({**self._hello, "type": "hello", "token": self.welcome["token"]}))
+                answer = await asyncio.wait_for(self._socket.recv(), max(0.0, last - time.monotonic()))
             except (OSError, websockets.WebSocketException, asyncio.TimeoutError):
                 continue
+            refusal = json.loads(answer) if isinstance(answer, str) else {}
+            if refusal.get("type") == "error" and refusal["code"] in RETRY_ERRORS:
+                end = (1013, refusal["message"])
+                await self._socket.close()
+                continue
+            self._receive(answer)
             with self._change:
                 self._reconnecting = False
                 self._change.notify_all()

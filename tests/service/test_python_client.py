@@ -175,6 +175,38 @@ def test_a_client_can_be_closed_while_it_reconnects(server, monkeypatch):
         assert reconnects.wait(DEADLINE)
 
 
+class RefusingSocket:
+    """A connection to a server that cannot open the session of a hello."""
+
+    async def send(self, _):
+        pass
+
+    async def recv(self):
+        return json.dumps({"type": "error", "code": "later_version", "message": "a later version has stored it"})
+
+    async def close(self):
+        pass
+
+
+def test_the_client_waits_for_a_server_that_can_open_its_session(server, monkeypatch):
+    attempts = []
+    really_open = oval4d_client.Client._open
+
+    async def open_refused_twice(self, url, headers):
+        attempts.append(url)
+        return RefusingSocket() if len(attempts) < 3 else await really_open(self, url, headers)
+
+    with connect(server.url, timeout=DEADLINE) as oval:
+        session = oval.hello()["session"]
+        oval.key("y")
+        monkeypatch.setattr(oval4d_client.Client, "_open", open_refused_twice)
+        oval._loop.call_soon_threadsafe(oval._socket.transport.abort)
+        wait_until(lambda: len(attempts) == 3, "the third attempt")
+        assert oval.key("y")["revision"] == 2
+        assert oval.welcome["session"] == session
+        assert all(url.endswith("/ws/" + session) for url in attempts)
+
+
 def test_the_package_has_the_version_of_the_server():
     root = Path(__file__).resolve().parents[2]
     (version,) = re.findall(r"project\(oval4d VERSION (\S+)", (root / "CMakeLists.txt").read_text(encoding="utf-8"))
