@@ -17,7 +17,9 @@ export interface Credentials {
 export type Status =
     | { kind: "connecting"; isBlocked?: true } // `isBlocked`: the server answers over HTTP, but no WebSocket opens
     | { kind: "open" }
-    | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true } // `seconds`: until the next attempt
+    // `seconds`: until the next attempt. `refusal`: the code of the error with which the server has refused the session;
+    // after "later_version" and "internal", the session exists, and the client tries again to open it.
+    | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true; refusal?: string }
     | { kind: "closed"; reason: string };
 
 export interface Options {
@@ -167,7 +169,7 @@ export class Client {
         // The server closes the connection after not_found and bad_token. After other refusals, the client must close
         // it.
         if (!refusal || ["not_connected", "not_found", "bad_token"].includes(refusal.code)) return;
-        this.closed(1006, refusal.message);
+        this.closed(1006, refusal.message, refusal.code);
     }
 
     /**
@@ -349,7 +351,7 @@ export class Client {
         );
     }
 
-    private closed(code: number, closeReason: string): void {
+    private closed(code: number, closeReason: string, refusal?: string): void {
         this.drop();
         if (code === 4401 || code === 4404) {
             const reason = code === 4401 ? "the token does not open that session" : "the server has no such session";
@@ -364,7 +366,7 @@ export class Client {
         const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
         const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
         this.timer = setTimeout(() => this.connect(), seconds * 1000);
-        this.changeStatus({ kind: "waiting", reason, seconds, ...this.blocked });
+        this.changeStatus({ kind: "waiting", reason, seconds, ...this.blocked, ...(refusal && { refusal }) });
         if (!opened && closeReason === "") void this.findWhetherBlocked();
     }
 

@@ -8,7 +8,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
 
-import WebSocket from "ws";
+import WebSocket, { WebSocketServer } from "ws";
 
 import { Client, pngText, RequestError } from "./node_modules/.oval4d/client.mjs";
 import { decodeBinary, kBinaryKinds } from "./node_modules/.oval4d/decode.mjs";
@@ -162,6 +162,50 @@ test("client: the client reconnects to its session automatically", async () => {
     assert.equal((await client.request({ type: "get", what: "state" })).polytope.name, "16-cell");
     client.close();
     await proxy.stop();
+});
+
+test("client: it keeps a session that a server cannot open, and tries again", async () => {
+    const credentials = { session: "kept", token: "secret" };
+    const refusal = { type: "error", code: "later_version", message: "a later version has stored it" };
+    const hellos = [];
+    const server = new WebSocketServer({ host: "127.0.0.1", port: 0 });
+    afterTest(() => void server.close());
+    server.on("connection", (socket, { url }) => {
+        socket.on("message", (text) => {
+            const { type, id, token } = JSON.parse(text);
+            if (type !== "hello") return;
+            hellos.push({ url, token });
+            if (hellos.length > 1) {
+                socket.send(JSON.stringify({ type: "welcome", id, protocol: 1, ...credentials }));
+                return;
+            }
+            socket.send(JSON.stringify({ ...refusal, id }));
+            socket.close(1013, "try again later");
+        });
+    });
+    await within(new Promise((resolve) => server.on("listening", resolve)), "the server");
+    const statuses = [];
+    const lost = [];
+    let opened;
+    const open = new Promise((resolve) => (opened = resolve));
+    const { client } = await listen({
+        url: `http://127.0.0.1:${server.address().port}/`,
+        credentials,
+        onLost: (reason) => lost.push(reason),
+        onStatus: (status) => {
+            statuses.push(status);
+            if (status.kind === "waiting") client.connect(); // without the delay
+            if (status.kind === "open") opened();
+        },
+    });
+    client.connect();
+    await within(open, "the session to open");
+    const { reason, refusal: code } = statuses.find(({ kind }) => kind === "waiting");
+    assert.deepEqual([reason, code], [refusal.message, "later_version"]);
+    assert.deepEqual(hellos, Array(2).fill({ url: "/ws/kept", token: "secret" }));
+    assert.deepEqual(lost, []);
+    assert.deepEqual(client.credentials, credentials);
+    client.close();
 });
 
 test("client: a script and a page in one session see each other's changes", async () => {

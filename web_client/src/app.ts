@@ -60,7 +60,7 @@ export class App {
     private readonly drawing = byId("drawing");
     private readonly polytopeButton = byId("polytope");
     private readonly notice = new Notice();
-    private readonly connection = new ConnectionStatus();
+    private readonly connection = new ConnectionStatus(() => this.session.beginNew(this.state));
     private readonly keyRepeatLimiter = new KeyRepeatLimiter();
     private readonly latency = new Latency();
     private readonly initialView = readInitialView();

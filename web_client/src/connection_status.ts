@@ -2,31 +2,42 @@
 
 import type { Status } from "@oval4d/protocol";
 
-import { byId } from "./element";
-import { capitalize, formatTime } from "./format";
+import { byId, element } from "./element";
+import { capitalize, formatTime, toSentence } from "./format";
 
 const kMaxWait = 1000; // milliseconds without an answer after which the page says that it waits
 const kBlocked =
     "The server answers, but no WebSocket opens. A proxy must pass on the headers Host, Upgrade and Connection.";
 
+const kKeptSession = new Set(["later_version", "internal"]); // the refusals after which the session still exists
+
 export class ConnectionStatus {
     private readonly root = byId("connection");
     private readonly text = this.root.querySelector("span")!;
     private readonly stale = byId("stale");
+    private readonly newSession = element("button", { type: "button" }, "Begin a new session");
     private readonly drawing = byId("drawing");
     private readonly announcer = byId("connection-spoken");
     private status: Status = { kind: "connecting" };
+    private refused = ""; // why the server could not open the session, until it is open or another attempt ends otherwise
     private presentedAt: Date | undefined;
     private retryAt = 0; // when the next attempt to connect begins, in milliseconds as in Date.now()
     private unanswered = 0; // number of requests without an answer
     private lateAnswers = 0; // number of unanswered requests that were sent more than kMaxWait ago
     private countdown: ReturnType<typeof setInterval> | undefined;
 
+    /** `beginNewSession` is called when the user does not want to wait for a session that the server cannot open. */
+    constructor(beginNewSession: () => void) {
+        this.newSession.onclick = beginNewSession;
+    }
+
     update(status: Status): void {
         if (status.kind !== this.status.kind && status.kind !== "connecting") {
             this.announcer.textContent = statusText(status, 0);
         }
         this.status = status;
+        if (status.kind === "waiting") this.refused = kKeptSession.has(status.refusal ?? "") ? status.reason : "";
+        else if (status.kind !== "connecting") this.refused = "";
         clearInterval(this.countdown);
         this.retryAt = Date.now() + (status.kind === "waiting" ? status.seconds * 1000 : 0);
         this.write();
@@ -84,9 +95,13 @@ export class ConnectionStatus {
         const isStale = kind !== "open" && this.presentedAt !== undefined;
         this.drawing.toggleAttribute("data-stale", isStale);
         const isBlocked = "isBlocked" in this.status;
-        this.stale.hidden = !isStale && !isBlocked;
+        this.stale.hidden = !isStale && !isBlocked && !this.refused;
         const age = isStale ? `Not connected. This picture is from ${formatTime(this.presentedAt!)}.` : "";
-        this.stale.textContent = isBlocked ? `${kBlocked} ${age}` : age;
+        const lines = [this.refused && toSentence(this.refused), isBlocked ? kBlocked : "", age];
+        const text = lines.filter(Boolean).join(" ");
+        // The button is not inserted again while the text stays the same, so that it keeps the focus.
+        if (this.stale.firstChild?.textContent === text && this.newSession.isConnected === (this.refused !== "")) return;
+        this.stale.replaceChildren(text, ...(this.refused ? [this.newSession] : []));
     }
 }
 

@@ -19,7 +19,8 @@ interface PageSessionActions {
 }
 
 export class PageSession {
-    private lostState: State | undefined; // the last state of a lost session, which the new session restores
+    // The last state of a session that was lost, or left by beginNew(). The new session restores it.
+    private lostState: State | undefined;
     // Whether a command of the initial view has been sent, in this or an earlier connection.
     private isViewBegun = false;
 
@@ -70,6 +71,20 @@ export class PageSession {
                 ? `The session has ended (${reason}). This is a new one with the same view.`
                 : `The session cannot be opened (${reason}). This is a new one.`,
         ]);
+    }
+
+    /**
+     * Begins a new session, with the view of `state` if it is known, while the server cannot open the present one. The
+     * present session stays in the browser's history.
+     */
+    beginNew(state: State | undefined): void {
+        this.lostState ??= state;
+        if (this.client.credentials) rememberSession(this.client.credentials);
+        history.pushState(null, ""); // the new entry gets the new session
+        this.client.credentials = undefined;
+        this.client.hello({ stream: "none" }).catch(() => {}); // no pictures until the view is restored
+        this.actions.tell(["This is a new session. The browser's button Back returns to the other one."]);
+        this.client.connect();
     }
 
     /**
