@@ -164,15 +164,17 @@ async def test_the_values_of_an_array(server):
         assert at["place"] == pytest.approx([sum(ends) / 2 for ends in state["field"]["box"]])
 
 
-@pytest.mark.parametrize("members, says", [
-    ({"point": [0, 0, 0]}, "point"), ({"point": [0, 0, 0, 1e32]}, "point"), ({"point": "0,0,0,0"}, "point"),
-    ({"point": [0, 0, 0, 0], "x": 1, "y": 1}, "either /point, or /x and /y"), ({}, "needs /x and /y"),
+@pytest.mark.parametrize("members, says, code", [
+    ({"point": [0, 0, 0]}, "point", "bad_message"), ({"point": [0, 0, 0, 1e32]}, "point", "out_of_range"),
+    ({"point": "0,0,0,0"}, "point", "bad_message"),
+    ({"point": [0, 0, 0, 0], "x": 1, "y": 1}, "either /point, or /x and /y", "bad_message"),
+    ({}, "needs /x and /y", "bad_message"),
 ])
-async def test_wrong_points_are_refused(server, members, says):
+async def test_wrong_points_are_refused(server, members, says, code):
     async with field_client(server, BALL, BOX, stream="none") as client:
         with pytest.raises(Refused, match=says) as refused:
             await client.request("get", what="at", **members)
-        assert refused.value.code == "bad_message"
+        assert refused.value.code == code
 
 
 async def test_only_fields_have_values(server):

@@ -120,6 +120,8 @@ async def formulas(client):
     await load_field(client, "x^2 + y^2 + z^2 + w^2 < 1", values="x*w")
     await show(client, color="value")
     await client.request("get", what="critical", deadline=LONG_TIME)
+    await show(client, view="single", shown={"coordinates": False})
+    await client.request("get", what="at", x=SIZE["width"] / 2, y=SIZE["height"] / 2, **SIZE)
 
 
 async def drafts(client):
