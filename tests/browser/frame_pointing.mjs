@@ -1,18 +1,21 @@
 // The element under the pointer in the server's pictures: when the page asks for its name, and when it shows it.
 import assert from "node:assert/strict";
 
-import { assertSame, columnsOf, faceIn, frames, label, labeled, openTurned, rounded, shot } from "./support/pointing.mjs";
+import { assertSame, columnsOf, faceIn, frames, label, labeled, named } from "./support/pointing.mjs";
+import { openTurned, rounded, shot } from "./support/pointing.mjs";
 import { idle, presented } from "./support/browser.mjs";
 import { passTime } from "./support/page_time.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
 
 const kRest = 200; // milliseconds without a new picture after which the page asks
-const kInterval = 70; // milliseconds between two requests, at least
 const kLong = 1000; // milliseconds after which each request that is due has been sent
 const kBackground = [4, 4];
 
-/** Runs in the page: logs what the page asks about points, and can hold the answers back, or the keys. */
+/**
+ * Runs in the page: logs what the page asks about points, and the elements of the pictures that it requests. Can hold
+ * the answers back, or the keys, or the requests for pictures.
+ */
 function watchRequests() {
     /** Moves a pointer of this type over the drawing at once, without the browser's input queue. */
     window.movePointer = (pointerType, [x, y]) => {
@@ -22,16 +25,19 @@ function watchRequests() {
         drawing.dispatchEvent(new PointerEvent("pointermove", { pointerType, pointerId: 7, ...place }));
     };
     window.asked = [];
-    window.isHeld = { answers: false, keys: false };
-    window.held = { answers: [], keys: [] };
+    window.lit = [];
+    window.isHeld = { answers: false, keys: false, pictures: false };
+    window.held = { answers: [], keys: [], pictures: [] };
     const { send } = WebSocket.prototype;
     WebSocket.prototype.send = function (text) {
         const message = JSON.parse(text);
         const time = performance.now();
         if (message.type === "shown") window.shownAt = time;
         if (message.what === "at") window.asked.push({ ...message, time, rested: time - window.shownAt });
-        if (message.type !== "key" || !window.isHeld.keys) return send.call(this, text);
-        return void window.held.keys.push(() => send.call(this, text));
+        if (message.what === "frame") window.lit.push(message.highlight);
+        const kind = message.type === "key" ? "keys" : message.what === "frame" ? "pictures" : "";
+        if (!window.isHeld[kind]) return send.call(this, text);
+        return void window.held[kind].push(() => send.call(this, text));
     };
     const { set } = Object.getOwnPropertyDescriptor(WebSocket.prototype, "onmessage");
     Object.defineProperty(WebSocket.prototype, "onmessage", {
@@ -72,7 +78,7 @@ async function openServed() {
         forget: () => page.evaluate(() => void (window.asked.length = 0)),
         /** Waits until the page has asked this often. */
         untilAsked: (times) => page.waitForFunction((least) => window.asked.length >= least, times),
-        /** Holds the answers about points back from now on, or the keys. */
+        /** Holds the answers about points back from now on, or the keys, or the requests for pictures. */
         hold: (what) => page.evaluate((name) => void (window.isHeld[name] = true), what),
         /** Passes the first of what is held on, when there is one, and returns what the label then shows. */
         async passFirst(what) {
@@ -207,7 +213,6 @@ test("frame pointing: one request is in flight, and the next one is about the ne
     await moveTo(at[0] + 3, at[1] + 2);
     await frames(page);
     assert.match(await passFirst("answers"), new RegExp(`^Cell ${source} `));
-    await pass(kInterval, { isHeld: true });
     await untilAsked(4);
 
     // The label goes along for some pixels, but not farther, without an answer.
@@ -246,33 +251,63 @@ test("frame pointing: a pointer that is back before the next request is answered
     await close();
 });
 
-test("frame pointing: requests keep their distance, and only another pixel is worth one", async () => {
-    const { page, size, picture, hoverAt, asked, forget, close } = await openServed();
+test("frame pointing: it follows the pointer without a delay, but asks at most once per animation frame", async () => {
+    const { page, size, picture, moveTo, hoverAt, asked, forget, close } = await openServed();
     const { at } = faceIn(await picture(), size, 1);
-    await page.evaluate(
+    const kMoves = 20;
+    for (let i = 1; i <= kMoves; ++i) {
+        await moveTo(at[0] + i - kMoves, at[1]); // time stands still
+        await idle(page);
+    }
+    assert.equal((await asked()).length, kMoves);
+
+    await forget();
+    const count = await page.evaluate(
         async ([x, y]) => {
             const { dataset } = document.getElementById("connection");
+            const turnOfLoop = () => new Promise((resolve) => setTimeout(resolve));
+            let passed = 0;
+            const countFrame = () => (++passed, requestAnimationFrame(countFrame));
+            requestAnimationFrame(countFrame);
             for (let i = 0; i < 150; ++i) {
                 window.movePointer("mouse", [x + (i % 40) - 20, y]);
-                await window.passTime(10);
-                while (dataset.unanswered !== "0") await new Promise((resolve) => setTimeout(resolve));
+                await turnOfLoop();
+                while (dataset.unanswered !== "0") await turnOfLoop();
             }
+            return passed;
         },
         at,
     );
-    const times = (await asked()).map(({ time }) => time);
-    assert.ok(times.length >= 15, `${times.length} requests`);
-    for (let i = 1; i < times.length; ++i) {
-        assert.ok(times[i] - times[i - 1] >= kInterval - 2, `${times[i] - times[i - 1]} ms between two requests`);
-    }
+    const times = (await asked()).length;
+    assert.ok(times <= count + 1, `${times} requests in ${count} animation frames`);
 
     await hoverAt(Math.round(at[0]), Math.round(at[1]));
     await labeled(page, /./);
     await forget();
     await hoverAt(Math.round(at[0]) + 0.3, Math.round(at[1]) - 0.3);
-    assert.deepEqual(await asked(), []);
+    assert.deepEqual(await asked(), [], "only another pixel is worth a request");
     await hoverAt(Math.round(at[0]) + 1, Math.round(at[1]));
     assert.equal((await asked()).length, 1);
+    await close();
+});
+
+test("frame pointing: names do not wait for pictures, which are requested one at a time, of the newest element", async () => {
+    const { page, size, picture, moveTo, hold, release, close } = await openServed();
+    const seen = await picture();
+    const { at, source } = faceIn(seen, size, 1);
+    const lit = () => page.evaluate(() => window.lit);
+    await hold("pictures");
+    await moveTo(...at);
+    await named(page, new RegExp(`^Cell ${source} `));
+    for (const vertex of [3, 7]) {
+        await moveTo(...columnsOf(seen.scene, size)(vertex));
+        await named(page, new RegExp(`^Vertex ${vertex} `));
+    }
+    const cell = { element: "cell", number: source };
+    assert.deepEqual(await lit(), [cell], "one in flight");
+    await release("pictures");
+    await page.waitForSelector("#drawing[data-pointed-frame]");
+    assert.deepEqual(await lit(), [cell, { element: "vertex", number: 7 }]);
     await close();
 });
 

@@ -3,8 +3,9 @@
 // there.
 //
 // The server handles the messages of a page one after the other, so a key that is pressed meanwhile waits until the
-// answer is complete. The page therefore asks about one point at a time, and only while the picture rests and no
-// command is unanswered.
+// answer is complete. The page therefore asks about one point at a time, once per animation frame, and only while the
+// picture rests and no command is unanswered. The pictures are requested one at a time, too, but the name of an element
+// does not wait for them.
 
 import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
@@ -15,7 +16,6 @@ import type { Stage } from "./picture/stage";
 
 // Milliseconds without a new picture after which the picture rests: longer than the steps of continuous turning last.
 const kRest = 200;
-const kInterval = 70; // milliseconds between two requests, at least
 const kNear = 8; // pixels: an answer is not shown if the pointer has moved farther than this before it arrives
 // Pixels: until the next answer, the label follows the pointer this far from the point that it names.
 const kFollow = 24;
@@ -26,7 +26,8 @@ export class FramePointing {
     private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
     private asked = ""; // the pixel of the last request about the present picture, as "x y"; "" if there was none
     private isAsking = false;
-    private lit = ""; // the element that the requested or shown picture highlights, as JSON; "" if there is none
+    private lit: PolytopeElement | undefined; // the element that the picture that is shown or wanted highlights
+    private isLighting = false; // whether a picture has been requested and has not arrived
     private resting: ReturnType<typeof setTimeout> | undefined;
 
     /** `isIdle` returns whether a revision is the newest one, and no command is unanswered. */
@@ -84,10 +85,10 @@ export class FramePointing {
         for (let pixel = this.nextPixelToAskAbout(); pixel; pixel = this.nextPixelToAskAbout()) {
             const pointer = this.pointer!;
             const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
-            const interval = new Promise((resolve) => setTimeout(resolve, kInterval));
+            const nextFrame = new Promise((resolve) => requestAnimationFrame(resolve));
             const answer = await request.catch(() => undefined); // after an error, no name is shown
-            if (answer) await this.answered(answer, pointer);
-            await interval;
+            if (answer) this.answered(answer, pointer);
+            await nextFrame;
         }
         this.isAsking = false;
     }
@@ -108,7 +109,7 @@ export class FramePointing {
     }
 
     /** Shows what is at a point, unless the picture has changed or the pointer has moved on. */
-    private async answered(answer: At, at: Point): Promise<void> {
+    private answered(answer: At, at: Point): void {
         const { pointer } = this;
         if (answer.revision !== this.revision || !pointer) return;
         const described = descriptionOf(answer);
@@ -117,31 +118,39 @@ export class FramePointing {
         } else if (described) {
             this.named = at;
             this.label.show(described, pointer);
-            if ("element" in described) await this.light(described);
+            if ("element" in described) this.light(described);
             else this.endLight();
         } else {
             this.hide();
         }
     }
 
-    /**
-     * Requests a picture in which the element is highlighted, and shows it when it is decoded, unless the pointer has
-     * left the element by then. Resolves when the picture has arrived.
-     */
-    private async light({ element, number }: PolytopeElement): Promise<void> {
-        const lit = JSON.stringify([element, number]);
-        if (lit === this.lit) return;
-        this.lit = lit;
-        const highlight = { element, number };
-        // After an error, no element is highlighted.
-        const frame = await this.client
-            .request({ type: "get", what: "frame", highlight, ...this.stage.size })
-            .catch(() => undefined);
-        if (frame) this.stage.showPointedFrame(frame, () => lit === this.lit).catch(() => undefined);
+    /** Shows a picture in which the element is highlighted, unless the pointer has left the element before. */
+    private light(element: PolytopeElement): void {
+        if (element.element === this.lit?.element && element.number === this.lit.number) return;
+        this.lit = element;
+        if (!this.isLighting) void this.requestLitPictures();
+    }
+
+    /** Requests pictures, one after the other, until the last one is that of the newest element. */
+    private async requestLitPictures(): Promise<void> {
+        this.isLighting = true;
+        let requested: PolytopeElement | undefined;
+        while (this.lit && this.lit !== requested) {
+            const wanted = this.lit;
+            requested = wanted;
+            const highlight = { element: wanted.element, number: wanted.number };
+            // After an error, no element is highlighted.
+            const frame = await this.client
+                .request({ type: "get", what: "frame", highlight, ...this.stage.size })
+                .catch(() => undefined);
+            if (frame) this.stage.showPointedFrame(frame, () => wanted === this.lit).catch(() => undefined);
+        }
+        this.isLighting = false;
     }
 
     private endLight(): void {
-        this.lit = "";
+        this.lit = undefined;
         this.stage.hidePointedFrame();
     }
 
