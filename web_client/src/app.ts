@@ -39,7 +39,7 @@ import { readInitialView, rememberSession } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
-import { markFullScreen, markMode, markScheme, pageSections } from "./page_tools";
+import { markFullScreen, markMode, markScheme, markTilt, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { PolytopePicker } from "./picker";
 import type { HitTester } from "./picture/hit_tester";
@@ -50,6 +50,7 @@ import { PrintView } from "./print_view";
 import { RenderingModeSwitch } from "./rendering_mode_switch";
 import { Sharing } from "./sharing";
 import { RotationControl } from "./rotation";
+import { Tilt } from "./tilt";
 import { Tools } from "./tools";
 import { Tour } from "./tour";
 
@@ -133,6 +134,11 @@ export class App {
         this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrixCache.current,
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
+    private readonly tilt: Tilt = new Tilt(
+        this.rotation,
+        () => markTilt(this.tilt.ball),
+        (error) => this.notice.show(error.message),
+    );
     private readonly measurements: ElementMeasurements = new ElementMeasurements(
         () => this.state,
         ({ element, number }) => this.client.request({ type: "measure", element, number, highlight: true }),
@@ -317,6 +323,7 @@ export class App {
             scheme: this.colorScheme.choice,
             chooseScheme: (choice) => this.chooseScheme(choice),
             fullScreen: this.fullScreen,
+            tilt: this.tilt,
             failed: (error) => this.notice.show(error.message),
             usesSingleKeys: this.keyboard.usesSingleKeys,
             useSingleKeys: (on) => (this.keyboard.usesSingleKeys = on),
@@ -529,6 +536,7 @@ export class App {
 
     /** Sends a command, and tracks it until its picture is presented. Resolves to the server's answer. */
     private async request(command: Command): Promise<Done> {
+        if (command.type !== "rotate") this.tilt.endStep();
         const answer = this.client.request(command);
         try {
             await Promise.all([this.keyRepeatLimiter.track(answer), this.latency.track(command.type, answer)]);

@@ -21,6 +21,7 @@ const kGestures = [
     ["Twist two fingers", "Turn in zw"],
     ["Drag with three fingers", "Turn in xz and yz, in every slice"],
     ["Twist three fingers", "Turn in xy"],
+    ["Tilt in 4-D, Tilt slices", "Turn as the phone is turned; buttons on touch screens"],
 ] as const;
 
 const kSticks = [

@@ -5,6 +5,8 @@ import { element } from "./element";
 import { capitalize } from "./format";
 import type { FullScreen } from "./full_screen";
 import type { Mode } from "./picture/stage";
+import type { BallKind } from "./rolling_ball";
+import type { Tilt } from "./tilt";
 import type { ToolSection } from "./tools";
 
 export interface PageActions {
@@ -20,6 +22,7 @@ export interface PageActions {
     scheme: SchemeChoice;
     chooseScheme(choice: SchemeChoice): void;
     fullScreen: FullScreen;
+    tilt: Tilt;
     /** Shows an error. */
     failed(error: Error): void;
     usesSingleKeys: boolean;
@@ -32,6 +35,12 @@ const kSchemeTitles: Record<SchemeChoice, string> = {
     light: "A light page; the picture is light, too, unless it has another background",
 };
 
+/** The label and the title of the button for each ball that the device's orientation can roll. */
+const kTilts = new Map<BallKind, [string, string]>([
+    ["4-D", ["Tilt in 4-D", "Turn in xw and yw as this device is tilted, and in zw as it is twisted"]],
+    ["3-D", ["Tilt slices", "Turn every slice in place as this device is tilted and twisted"]],
+]);
+
 export function pageSections(actions: PageActions): ToolSection[] {
     const renderer = (mode: Mode, label: string, title: string): HTMLElement => {
         const made = button(mode, label, title, () => actions.setMode(mode));
@@ -40,6 +49,7 @@ export function pageSections(actions: PageActions): ToolSection[] {
         return made;
     };
     return [
+        ...(actions.tilt.isOffered ? [tiltSection(actions)] : []),
         {
             title: "Repeat and undo",
             content: [button("reset", "Reset", "Restore the initial orientation and focus", actions.reset)],
@@ -103,9 +113,29 @@ export function markScheme(choice: SchemeChoice): void {
     }
 }
 
+/** Marks the button of the ball that the device's orientation rolls as pressed. */
+export function markTilt(ball: BallKind | undefined): void {
+    for (const kind of kTilts.keys()) {
+        document.querySelector(`[data-page-tool="tilt_${kind}"]`)?.setAttribute("aria-pressed", String(kind === ball));
+    }
+}
+
 /** Marks the button Full screen as pressed while the page fills the screen. */
 export function markFullScreen(isOn: boolean): void {
     document.querySelector('[data-page-tool="full_screen"]')?.setAttribute("aria-pressed", String(isOn));
+}
+
+function tiltSection({ tilt, failed }: PageActions): ToolSection {
+    const content = [...kTilts].map(([ball, [label, title]]) => {
+        const isAllowed = window.isSecureContext; // browsers tell other pages nothing about the sensors
+        const made = button(`tilt_${ball}`, label, isAllowed ? title : "Only with HTTPS", () => {
+            void tilt.toggle(ball).catch(failed);
+        });
+        made.toggleAttribute("disabled", !isAllowed);
+        made.setAttribute("aria-pressed", String(ball === tilt.ball));
+        return made;
+    });
+    return { title: "Tilt", after: "history", content };
 }
 
 function schemeButton(choice: SchemeChoice, { scheme, chooseScheme }: PageActions): HTMLElement {

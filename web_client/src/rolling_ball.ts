@@ -55,6 +55,14 @@ export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "button
     };
 }
 
+/**
+ * The angles for a device that is turned by this rotation vector, in radians: about the axes to the right, upward and
+ * out of the screen. The ball turns as the device does.
+ */
+export function turnsOfTilt(ball: BallKind, [right, up, out]: readonly [number, number, number]): AnglesByPlane {
+    return { ...rolled(ball, up, right), ...turnsOfTwist(ball, -out) };
+}
+
 /** The angles for rolling a ball by `right` radians to the right and by `down` radians down. */
 function rolled(ball: BallKind, right: number, down: number): AnglesByPlane {
     return ball === "4-D" ? { xw: -right, yw: down } : { xz: -right, yz: down };

@@ -29,7 +29,7 @@ export interface ToolSection {
 
 // The tabs in which sections are grouped on small screens. Groups that are not listed are in the last tab.
 const kTabs = [
-    { title: "Turn", groups: ["turn", "toward", "history"] },
+    { title: "Turn", groups: ["turn", "toward", "history", "Tilt"] },
     { title: "Slices", groups: ["angle", "focus", "slices", "play"] },
     { title: "Show", groups: ["polytope", "look", "whole", "point", "highlight", "camera", "Colors"] },
 ];
