@@ -65,3 +65,40 @@ test("latency: the time from key to picture is shown and saved on request", asyn
     assert.deepEqual(errors, []);
     await close();
 });
+
+test("latency: a measurement ends after the animation frame that drew the picture, whoever draws it", async () => {
+    /** Runs in the page: records the times at which the callbacks that drew a picture have returned. */
+    const watchDrawing = () => {
+        window.drawn = [];
+        const record = () => {
+            const now = performance.now();
+            while (performance.now() === now); // the clock is rounded
+            window.drawn.push(performance.now());
+        };
+        const watch = (owner, method) => {
+            const plain = owner[method];
+            owner[method] = function (...given) {
+                queueMicrotask(record);
+                return plain.apply(this, given);
+            };
+        };
+        watch(WebGL2RenderingContext.prototype, "drawElements");
+        watch(ImageBitmapRenderingContext.prototype, "transferFromImageBitmap");
+    };
+    const { page, press, close } = await openWithScript({ before: watchDrawing });
+    for (const key of ["y", "4"]) await press(key);
+    await page.click("[data-page-tool=frames]");
+    await page.waitForSelector("#drawing[data-drawn-by=frames]");
+    await page.focus("#drawing");
+    for (const key of ["y", "4"]) await press(key);
+    await page.waitForFunction((name) => performance.getEntriesByName(name).length === 4, kMeasure);
+    const { measures, drawn } = await page.evaluate((name) => {
+        const entries = performance.getEntriesByName(name);
+        return { measures: entries.map(({ startTime, duration }) => [startTime, startTime + duration]), drawn: window.drawn };
+    }, kMeasure);
+    for (const [start, end] of measures) {
+        const within = drawn.filter((time) => time > start && time <= end + 1e-6);
+        assert.ok(within.length > 0, `nothing was drawn from ${start} to ${end}`);
+    }
+    await close();
+});
