@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 
 import { common, openPage, openWithScript, presented } from "./support/browser.mjs";
+import { faceIn, labeled, openTurned } from "./support/pointing.mjs";
 import { test } from "./support/suite.mjs";
 
 /** Counts in the page's `counts`: arrays with their own memory, graphics buffers, draw calls, decoded images. */
@@ -59,6 +60,33 @@ test("costs: geometry is drawn from buffers that are updated in place", async ()
     assert.equal(after.buffers - before.buffers, 0, "buffers of the graphics card");
     assert.equal(after.arrays - before.arrays, 0, "arrays");
     assert.ok(after.drawings - before.drawings >= 60, "each picture was drawn");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("costs: lighting the element under the pointer changes no buffers but those of colors", async () => {
+    const opened = await openTurned({}, {
+        before: () => {
+            const uploaded = (window.uploaded = []);
+            for (const name of ["bufferData", "bufferSubData"]) {
+                const upload = WebGL2RenderingContext.prototype[name];
+                WebGL2RenderingContext.prototype[name] = function (...given) {
+                    uploaded.push(given.find((one) => ArrayBuffer.isView(one))?.constructor.name ?? "nothing");
+                    return upload.apply(this, given);
+                };
+            }
+        },
+    });
+    const { page, size, picture, moveTo, errors, close } = opened;
+    const { at } = faceIn(await picture(), size, 1);
+    const uploaded = async () => [...new Set(await page.evaluate(() => window.uploaded.splice(0)))];
+    assert.ok((await uploaded()).includes("Float32Array"), "the counting works");
+    await moveTo(...at);
+    await labeled(page, /^Cell/);
+    assert.deepEqual(await uploaded(), ["Uint8Array"]);
+    await moveTo(4, 4);
+    await labeled(page, /^$/);
+    assert.deepEqual(await uploaded(), ["Uint8Array"]);
     assert.deepEqual(errors, []);
     await close();
 });

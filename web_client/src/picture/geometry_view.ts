@@ -143,8 +143,7 @@ export class GeometryView {
         const highlighted = (this.highlighted = allHighlighted(this.picture, pointed));
         this.sliceMesh.writeColorsToBuffers(this.picture, highlighted);
         this.fillMesh.writeColorsToBuffers(this.picture, highlighted);
-        if (!this.projectionMesh.update(this.picture, highlighted)) return;
-        if (this.sortedOrbit) this.projectionMesh.sortForCamera(this.viewCamera);
+        this.projectionMesh.writeColorsToBuffers(this.picture, highlighted);
     }
 
     /**

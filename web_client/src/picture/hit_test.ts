@@ -279,7 +279,6 @@ class MeshTest {
     private depthOfFace(firstLoop: number, endLoop: number): number {
         const { begin, corners } = this.mesh.elements.faces;
         let winding = 0;
-        let [nx, ny, nz] = [0, 0, 0];
         for (let loop = firstLoop; loop < endLoop; ++loop) {
             const [first, end] = [begin[loop]!, begin[loop + 1]!];
             let p = kStride * corners[end - 1]!;
@@ -294,12 +293,16 @@ class MeshTest {
                 }
                 p = q;
             }
-            const [x, y, z] = doubleAreaVector(projected, corners, [first, end], kStride);
+        }
+        if (winding === 0) return Infinity; // true of nearly all faces, so the plane of a face is computed only now
+        let [nx, ny, nz] = [0, 0, 0];
+        for (let loop = firstLoop; loop < endLoop; ++loop) {
+            const [x, y, z] = doubleAreaVector(projected, corners, [begin[loop]!, begin[loop + 1]!], kStride);
             [nx, ny, nz] = [nx + x, ny + y, nz + z];
         }
         const [rayX, rayY] = this.viewCamera.rayAt(this.x, this.y);
         const across = nx * rayX + ny * rayY - nz;
-        if (winding === 0 || across === 0) return Infinity;
+        if (across === 0) return Infinity;
         const p = kStride * corners[begin[firstLoop]!]!;
         return (nx * projected[p]! + ny * projected[p + 1]! + nz * projected[p + 2]!) / across;
     }

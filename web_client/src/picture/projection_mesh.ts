@@ -4,7 +4,7 @@
 
 import { BufferGeometry } from "three";
 
-import type { Elements, Fill, ObjectProjection, Slices } from "@oval4d/protocol";
+import type { Elements, Fill, ObjectProjection, SceneDescription, Slices } from "@oval4d/protocol";
 
 import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
@@ -49,6 +49,7 @@ export class ProjectionMesh {
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // number of vertices in `shapes`
+    private polygons: Polygons[] = []; // of each part of the picture
     // For each translucent shape: its first vertex, the number of its vertices, and what determines its depth.
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
@@ -65,15 +66,14 @@ export class ProjectionMesh {
         const { parts, position } = projection;
         this.position = position;
         this.barRadius = Math.max(...parts.map((part) => part.bar));
-        const polygons = parts.map(polygonsOf);
-        this.resizeBuffers(parts, polygons);
+        this.polygons = parts.map(polygonsOf);
+        this.resizeBuffers(parts, this.polygons);
         this.used = this.count = 0;
         let solids = 0;
-        const opacities = [0, scene.faded, 1];
         parts.forEach((part, i) => {
+            const opacities = opacitiesOf(part, scene);
             const addQuad = (opacity: number, depthKind: number): void => {
-                if (opacity === 0) this.used -= 4;
-                else if (i > 0 || opacity < 1) this.addTranslucentShape(4, depthKind);
+                if (i > 0 || opacity < 1) this.addTranslucentShape(4, depthKind);
                 else for (const corner of kQuadTriangles) this.solidIndex.array[solids++] = this.used - 4 + corner;
             };
             const place = (points: Float32Array, p: number): [number, number, number] => [
@@ -83,36 +83,68 @@ export class ProjectionMesh {
             ];
             const point = (v: number): [number, number, number] => place(part.vertices, v);
             for (let v = 0; part.ball > 0 && v < part.vertices.length / 3; ++v) {
-                const opacity = opacities[part.seen?.vertices[v] ?? 2]! * (part.balls?.opacity[v] ?? 1);
-                const color = highlighted.vertices.has(part.of.vertices[v]!) ? scene.colors.highlight : part.ball_color;
+                const opacity = opacities.ofVertex(v);
+                if (opacity === 0) continue;
                 for (let corner = 0; corner < 4; ++corner, ++this.used) {
                     this.shapes.setVector("at", this.used, ...point(v));
                     this.shapes.setVector("to", this.used, part.ball * (part.balls?.scale[v] ?? 1), 0, 0);
                     this.shapes.setShape(this.used, kBall, corner);
-                    this.shapes.setColor(this.used, color, opacity);
                 }
                 addQuad(opacity, kCenter);
             }
             for (let e = 0; part.bar > 0 && e < part.edges.length / 2; ++e) {
-                const opacity = opacities[part.seen?.edges[e] ?? 2]!;
-                const color = highlighted.edges.has(part.of.edges[e]!) ? scene.colors.highlight : part.bar_color;
+                const opacity = opacities.ofEdge(e);
+                if (opacity === 0) continue;
                 for (let corner = 0; corner < 4; ++corner, ++this.used) {
                     this.shapes.setVector("at", this.used, ...point(part.edges[2 * e]!));
                     this.shapes.setVector("to", this.used, ...point(part.edges[2 * e + 1]!));
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
-                    this.shapes.setColor(this.used, color, opacity);
                 }
                 // The bars of a section must be drawn over the faces beside them.
                 addQuad(opacity, i > 0 ? kNearEnd : kFarEnd);
             }
-            const color = (cell: number): number => cellColor(cell, scene.colors, highlighted);
-            if (part.opacity > 0) this.addPolygons(part, polygons[i]!, place, color, opacities);
+            if (part.opacity > 0) this.addPolygons(this.polygons[i]!, place, opacities);
         });
         this.solidIndex.used = solids;
         this.solidIndex.markChanged();
         this.solid.setDrawRange(0, solids);
         this.shapes.markChanged();
+        this.writeColorsToBuffers(picture, highlighted);
         return true;
+    }
+
+    /**
+     * Writes the colors, in the order in which update() adds the shapes. The picture must be the one that was last
+     * passed to update().
+     */
+    writeColorsToBuffers({ projection, scene }: Slices, highlighted: HighlightedElements): void {
+        if (!projection) return;
+        const { colors } = scene;
+        let used = 0;
+        const paint = (vertices: number, color: number, opacity: number): void => {
+            for (const end = used + vertices; used < end; ++used) this.shapes.setColor(used, color, opacity);
+        };
+        projection.parts.forEach((part, i) => {
+            const { of, vertices, edges } = part;
+            const opacities = opacitiesOf(part, scene);
+            for (let v = 0; part.ball > 0 && v < vertices.length / 3; ++v) {
+                const opacity = opacities.ofVertex(v);
+                const color = highlighted.vertices.has(of.vertices[v]!) ? colors.highlight : part.ball_color;
+                if (opacity > 0) paint(4, color, opacity);
+            }
+            for (let e = 0; part.bar > 0 && e < edges.length / 2; ++e) {
+                const opacity = opacities.ofEdge(e);
+                const color = highlighted.edges.has(of.edges[e]!) ? colors.highlight : part.bar_color;
+                if (opacity > 0) paint(4, color, opacity);
+            }
+            const { faces, tints, seen } = this.polygons[i]!;
+            for (let f = 0; part.opacity > 0 && f + 1 < faces.begin.length; ++f) {
+                const opacity = opacities.ofPolygon(seen, f);
+                const corners = faces.begin[f + 1]! - faces.begin[f]!;
+                if (opacity > 0) paint(corners, cellColor(tints[f]!, colors, highlighted), opacity);
+            }
+        });
+        this.shapes.color.markChanged();
     }
 
     /** Orders the translucent shapes for this camera. */
@@ -159,22 +191,18 @@ export class ProjectionMesh {
     }
 
     private addPolygons(
-        part: Part,
-        { points, faces: { begin, corners }, tints, seen }: Polygons,
+        { points, faces: { begin, corners }, seen }: Polygons,
         place: (points: Float32Array, p: number) => [number, number, number],
-        colorOf: (cell: number) => number,
-        opacities: readonly number[],
+        opacities: Opacities,
     ): void {
         for (let f = 0; f + 1 < begin.length; ++f) {
-            const opacity = part.opacity * opacities[seen?.[f] ?? 2]!;
-            if (opacity === 0) continue;
+            if (opacities.ofPolygon(seen, f) === 0) continue;
             const [x, y, z] = doubleAreaVector(points, corners, [begin[f]!, begin[f + 1]!]);
             const length = Math.hypot(x, y, z) || 1;
             for (let c = begin[f]!; c < begin[f + 1]!; ++c, ++this.used) {
                 this.shapes.setVector("at", this.used, ...place(points, corners[c]!));
                 this.shapes.setVector("to", this.used, x / length, y / length, z / length);
                 this.shapes.setShape(this.used, kFace);
-                this.shapes.setColor(this.used, colorOf(tints[f]!), opacity);
             }
             this.addTranslucentShape(begin[f + 1]! - begin[f]!, kMiddle);
         }
@@ -208,6 +236,23 @@ export class ProjectionMesh {
         this.solid.setIndex(this.solidIndex.attribute);
         this.translucent.setIndex(this.translucentIndex.attribute);
     }
+}
+
+/** The opacities of the shapes of a part, 0 … 1; shapes with 0 are not drawn. */
+interface Opacities {
+    ofVertex(vertex: number): number;
+    ofEdge(edge: number): number;
+    /** `seen` has the visibility of each polygon. */
+    ofPolygon(seen: Uint32Array | undefined, polygon: number): number;
+}
+
+function opacitiesOf({ balls, opacity, seen: visibility }: Part, { faded }: SceneDescription): Opacities {
+    const opacities = [0, faded, 1];
+    return {
+        ofVertex: (v) => opacities[visibility?.vertices[v] ?? 2]! * (balls?.opacity[v] ?? 1),
+        ofEdge: (e) => opacities[visibility?.edges[e] ?? 2]!,
+        ofPolygon: (seen, f) => opacity * opacities[seen?.[f] ?? 2]!,
+    };
 }
 
 /** The polygons to draw: the faces of a part or, if these need not be convex, the convex polygons that fill them. */
