@@ -7,12 +7,11 @@
 //   --slowdown N   slows the pages N times, to find tests that depend on speed
 // OVAL4D names the server's binary, OVAL4D_WEB_ROOT the built page, OVAL4D_CHROMIUM and OVAL4D_FIREFOX the browsers.
 import { readdirSync, readFileSync } from "node:fs";
-import { dirname, join } from "node:path";
+import { dirname } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 
-import { buildSync } from "esbuild";
-
+import { bundleClient } from "./support/bundle_client.mjs";
 import { writeJunit } from "./support/junit.mjs";
 import { runJobs, runningTests } from "./support/pool.mjs";
 
@@ -40,26 +39,6 @@ function chosenFiles() {
     const left = ["run.mjs", kLatencies, ...(options.firefox ? kChromiumOnly : [])];
     const all = readdirSync(here).filter((name) => name.endsWith(".mjs") && !left.includes(name));
     return all.sort((a, b) => kLongest.includes(b) - kLongest.includes(a));
-}
-
-/** Bundles the TypeScript client, its decoder, the reader of keys and the colors for printing for the tests. */
-function bundleClient() {
-    buildSync({
-        entryPoints: {
-            client: join(here, "../../protocol/ts/index.ts"),
-            decode: join(here, "../../protocol/ts/decode.ts"),
-            keys: join(here, "../../web_client/src/keys.ts"),
-            on_white: join(here, "../../web_client/src/picture/on_white.ts"),
-        },
-        outdir: join(here, "node_modules/.oval4d"),
-        outExtension: { ".js": ".mjs" },
-        bundle: true,
-        platform: "node",
-        format: "esm",
-        nodePaths: [join(here, "node_modules")],
-        banner: { js: 'import { createRequire } from "node:module"; const require = createRequire(import.meta.url);' },
-        logLevel: "warning",
-    });
 }
 
 const results = [];
