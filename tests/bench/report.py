@@ -21,7 +21,8 @@ from pathlib import Path
 import drawing
 import peers
 
-PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "export", "drawing", "load")
+PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "export", "drawing", "load",
+         "pointing")
 BIN = Path(sys.argv[1])
 AT_FRAMES = "pointing at frames, "  # the rows of bench_load that begin so are about pointing
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
@@ -31,6 +32,7 @@ WHOLE = ("8-cell", "24-cell", "120-cell", "600-cell")
 WHOLE_VARIANTS = {"slices alone": {}, "with the projection": {"projection": "perspective"},
                   "with a highlighted cell": {"highlight": "cell:1"},
                   "with both": {"projection": "perspective", "highlight": "cell:1"}}
+PAGE_FRAME = 16.7  # milliseconds between two pictures of a display
 STARS = ("small stellated 120-cell", "great stellated 120-cell", "great grand stellated 120-cell")
 TURNS = 5         # for frames
 QUICK_TURNS = 11  # for operations of less than a millisecond
@@ -97,6 +99,13 @@ def load(seconds=5):
     return {row["what"]: row for row in map(json.loads, done.stdout.splitlines())}
 
 
+def point_on_page():
+    """Runs pointing.mjs; returns its measurements, a list with one entry per polytope and part of its picture."""
+    done = subprocess.run(["node", str(Path(__file__).with_name("pointing.mjs"))], stdout=subprocess.PIPE, text=True,
+                          check=True, env=os.environ | {"OVAL4D": str(BIN / "oval4d")})
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
 class Turns:
     """Alternate measurements of oval4d and of the other programs: lists with one entry per turn."""
 
@@ -140,7 +149,7 @@ class Turns:
         return [turn.get((name, way)) for turn in self.vtk]
 
 
-def targets(turns, loaded, wholes):
+def targets(turns, loaded, wholes, pointed):
     """Prints each performance target with oval4d's figure, the other program's, and the ratio."""
     rows = []
 
@@ -189,6 +198,12 @@ def targets(turns, loaded, wholes):
             at_most(f"element at a point of a frame over a socket, {what.removeprefix(AT_FRAMES)}, median", 10,
                     figures["median"], " ms",
                     f" (95th percentile {number(figures['p95'])}, 99th {number(figures['p99'])})")
+    for name in dict.fromkeys(part["polytope"] for part in pointed):
+        works = [part[picture].get("work") for part in pointed if part["polytope"] == name
+                 for picture in ("first", "second")]
+        longest = max(filter(None, works), key=lambda work: work["median"])
+        at_most(f"pointing on the page, {name}: scripts for one of the pictures, median", PAGE_FRAME,
+                longest["median"], " ms", f" (95th percentile {number(longest['p95'])})")
     for name in ("24-cell", "120-cell", "600-cell"):
         at_most(f"frame with the projection and a highlight, {name}, relative to one without", 1.15,
                 whole_ratio(wholes[name], "with both"), "")
@@ -412,6 +427,22 @@ def under_load(loaded):
           f"{after:.0f} MB after all clients have left.")
 
 
+def pointing(pointed):
+    """Prints how soon the page lights what is under the mouse."""
+    print("\n## Pointing on the page, in Chromium without a graphics card\n\nMilliseconds, median (95th percentile). "
+          "After a movement of the mouse, a first picture highlights what was cut from the element itself, and a second "
+          "one all that shows it, when the server has answered. *Work* is how long the page's scripts run for a picture; "
+          "*shown* is the time from the movement until the browser has rendered the page.")
+
+    def figures(summary):
+        return f"{number(summary['median'])} ({number(summary['p95'])})" if summary else "—"
+
+    table(["", "points", "first, work", "second, work", "first, shown", "second, shown"],
+          [[f"{part['polytope']}, {part['part']}", part["points"],
+            *(figures(part[picture].get(what)) for what in ("work", "shown") for picture in ("first", "second"))]
+           for part in pointed])
+
+
 def main():
     wanted = sys.argv[2:] or PARTS
     for name in wanted:
@@ -423,10 +454,11 @@ def main():
     turns = Turns() if {"targets", "parts"} & set(wanted) else None
     loaded = load() if {"targets", "load"} & set(wanted) else None
     wholes = whole_turns() if {"targets", "whole"} & set(wanted) else None
+    pointed = point_on_page() if {"targets", "pointing"} & set(wanted) else None
     for name in wanted:
-        {"targets": lambda: targets(turns, loaded, wholes), "parts": lambda: parts(turns), "growth": growth,
+        {"targets": lambda: targets(turns, loaded, wholes, pointed), "parts": lambda: parts(turns), "growth": growth,
          "polytopes": polytopes, "whole": lambda: whole(wholes), "fields": fields, "export": exports,
-         "drawing": two_cores, "load": lambda: under_load(loaded)}[name]()
+         "drawing": two_cores, "load": lambda: under_load(loaded), "pointing": lambda: pointing(pointed)}[name]()
 
 
 if __name__ == "__main__":
