@@ -24,6 +24,7 @@ import peers
 PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "export", "drawing", "load",
          "pointing")
 BIN = Path(sys.argv[1])
+PAGE = Path(__file__).resolve().parents[2] / "web_client/dist"
 AT_FRAMES = "pointing at frames, "  # the rows of bench_load that begin so are about pointing
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
@@ -207,6 +208,8 @@ def targets(turns, loaded, wholes, pointed):
     for name in ("24-cell", "120-cell", "600-cell"):
         at_most(f"frame with the projection and a highlight, {name}, relative to one without", 1.15,
                 whole_ratio(wholes[name], "with both"), "")
+    at_most("all files of the page, compressed with gzip", 250,
+            sum(file.stat().st_size for file in PAGE.glob("*.gz")) / 1024, " KB")
     for what in ("frame", "state to json", "state to cbor"):
         worst = max(turn[name]["allocations"][what] for turn in turns.frames for name in REGULAR)
         at_most(f"allocations, {what}", 0, math.floor(worst), "")

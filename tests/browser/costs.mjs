@@ -1,9 +1,14 @@
 // The cost of showing a stream and of loading the page, as numbers of operations and bytes.
 import assert from "node:assert/strict";
+import { readdirSync } from "node:fs";
+import { get } from "node:http";
 
 import { common, openPage, openWithScript, presented } from "./support/browser.mjs";
 import { faceIn, labeled, openTurned } from "./support/pointing.mjs";
+import { webRoot } from "./support/server.mjs";
 import { test } from "./support/suite.mjs";
+
+const kMaxSize = 250 * 1024; // bytes: of all files of the page, compressed
 
 /** Counts in the page's `counts`: arrays with their own memory, graphics buffers, draw calls, decoded images. */
 function countAllocations() {
@@ -130,20 +135,45 @@ test("costs: frames are decoded off the page's thread, and acknowledged after th
     await close();
 });
 
-test("costs: the page is compressed, and loads nothing from other sites", async () => {
+/** The size in bytes of the body that the server sends to a client that accepts only gzip. */
+function sizeWithGzip(url) {
+    return new Promise((resolve, reject) => {
+        const request = get(url, { headers: { "accept-encoding": "gzip" } }, (response) => {
+            let size = 0;
+            response.on("data", (chunk) => (size += chunk.length));
+            response.on("error", reject);
+            response.on("end", () => {
+                const { statusCode, headers } = response;
+                if (statusCode === 200 && headers["content-encoding"] === "gzip") resolve(size);
+                else reject(new Error(`${url}: ${statusCode}, ${headers["content-encoding"]}`));
+            });
+        });
+        request.on("error", reject);
+    });
+}
+
+test("costs: the page is compressed, and loads nothing but its files, which together are small", async () => {
     const { url } = await common();
     const answers = new Map();
-    const { page, errors, close } = await openPage({
-        seen: (response) => answers.set(new URL(response.url()).pathname, response),
-    });
-    let size = 0;
-    for (const path of ["/", "/app.js", "/style.css"]) {
-        const response = answers.get(path);
-        assert.match(response.headers()["content-encoding"], /^(br|gzip)$/, path);
-        size += (await response.request().sizes()).responseBodySize;
+    const { page, errors, close } = await openPage({ seen: (response) => answers.set(response.url(), response) });
+    // All files: also the worker that decodes frames, which the page loads when it shows the server's pictures.
+    const files = readdirSync(webRoot).filter((name) => !/^\.|\.(br|gz)$/.test(name));
+    for (const name of ["index.html", "app.js", "decode_worker.js", "style.css", "favicon.svg"]) {
+        assert.ok(files.includes(name), name);
     }
-    assert.ok(size > 10_000 && size < 250 * 1024, `${size} bytes`);
-    for (const path of answers.keys()) assert.ok(new URL(path, url).href.startsWith(url));
+    const sizes = await Promise.all(files.map((name) => sizeWithGzip(new URL(name, url))));
+    const total = sizes.reduce((sum, size) => sum + size, 0);
+    assert.ok(total <= kMaxSize, `${total} bytes: ${files.map((name, i) => `${name} ${sizes[i]}`).join(", ")}`);
+
+    const own = new Set(["", ...files].map((name) => new URL(name, url).href));
+    for (const name of ["", "app.js", "style.css"]) assert.ok(answers.has(new URL(name, url).href), name);
+    let loaded = 0;
+    for (const [address, response] of answers) {
+        assert.ok(own.has(address), `${address} is one of the files that are counted`);
+        assert.match(response.headers()["content-encoding"], /^(br|gzip)$/, address);
+        loaded += (await response.request().sizes()).responseBodySize;
+    }
+    assert.ok(loaded > 10_000 && loaded <= total, `${loaded} bytes`);
     assert.deepEqual(errors, []);
     // Inline scripts are not executed.
     const ran = await page.evaluate(() => {

@@ -9,7 +9,8 @@ import { atEnd } from "./suite.mjs";
 
 const top = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const binary = process.env.OVAL4D ?? process.env.OVAL4D_SERVER ?? join(top, "build/release/bin/oval4d");
-const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
+/** The folder with the files of the page. */
+export const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
 
 /** Starts a server at any free port. */
 export async function startServer({ options = [] } = {}) {
