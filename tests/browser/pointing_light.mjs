@@ -28,7 +28,8 @@ async function firstWith({ script, size }, element, places) {
 
 /**
  * Points at a place, and asserts that the page lights what is lit when this element is kept. Resolves to the pictures
- * without and with the light, the label, and the message of the picture with the kept element.
+ * without and with the light, which ends with the pointing, the label, and the message of the picture with the kept
+ * element.
  */
 async function pointLikeKept({ page, script, picture, moveTo }, at, pattern) {
     await moveTo(4, 4);
@@ -37,11 +38,12 @@ async function pointLikeKept({ page, script, picture, moveTo }, at, pattern) {
     await moveTo(...at);
     const text = await labeled(page, pattern);
     const lit = await shot(page);
+    await moveTo(4, 4);
+    await labeled(page, /^$/);
+    assertSame(before, await shot(page), [-1000, 0]);
     const [, element, number] = /^(\w+) (\d+)/.exec(text);
     const set = async (highlight) => presented(page, (await script.request({ type: "set", highlight })).revision);
     await set({ element: element.toLowerCase(), number: Number(number) });
-    await moveTo(4, 4);
-    await labeled(page, /^$/);
     assertSame(lit, await shot(page), at);
     const kept = await picture();
     await set(null);

@@ -6,7 +6,7 @@ import { BufferGeometry } from "three";
 import type { Fill, Slices, Vector } from "@oval4d/protocol";
 
 import { GrowingBuffer } from "./growing_buffer";
-import { cellColor, type HighlightedElements } from "./highlighted_elements";
+import { cellColor, type HighlightChange, type HighlightedElements } from "./highlighted_elements";
 import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 import type { ViewCamera } from "./view_camera";
@@ -47,10 +47,13 @@ export class FillMesh {
         return slices.some((slice) => slice.fill);
     }
 
-    /** Writes the colors. The picture must be the one that was last passed to update(). */
-    writeColorsToBuffers({ scene: { colors, opacity, faded } }: Slices, highlighted: HighlightedElements): void {
+    /** Writes the colors, as SliceMesh.writeColorsToBuffers() does. */
+    writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
+        const { colors, opacity, faded } = scene;
+        const [before, after] = change?.cells ?? [];
         for (const { fill, first } of this.parts) {
             for (let t = 0; t < fill.tints.length; ++t) {
+                if (change && fill.tints[t] !== before && fill.tints[t] !== after) continue;
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
                 // A triangle takes its color from its last point. Triangles with the same last point have the same
                 // tint.

@@ -9,7 +9,7 @@ import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
 import { FogPainter } from "./fog_painter";
-import { type ElementCounts, type HighlightedElements, allHighlighted } from "./highlighted_elements";
+import { allHighlighted, changeBetween, type ElementCounts, type HighlightedElements } from "./highlighted_elements";
 import { HitTester } from "./hit_tester";
 import { onWhite } from "./on_white";
 import { drawOverlay } from "./overlay";
@@ -139,11 +139,13 @@ export class GeometryView {
     /** Highlights these elements, which are under the pointer, until the next call. Does not draw. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
-        if (!this.picture) return;
-        const highlighted = (this.highlighted = allHighlighted(this.picture, pointed));
-        this.sliceMesh.writeColorsToBuffers(this.picture, highlighted);
-        this.fillMesh.writeColorsToBuffers(this.picture, highlighted);
-        this.projectionMesh.writeColorsToBuffers(this.picture, highlighted);
+        const { picture, highlighted: before } = this;
+        if (!picture || !before) return;
+        const highlighted = (this.highlighted = allHighlighted(picture, pointed));
+        const change = changeBetween(before, highlighted);
+        for (const mesh of [this.sliceMesh, this.fillMesh, this.projectionMesh]) {
+            mesh.writeColorsToBuffers(picture, highlighted, change);
+        }
     }
 
     /**

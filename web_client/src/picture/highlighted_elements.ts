@@ -55,6 +55,36 @@ export function allHighlighted({ highlight }: Slices, pointed: HighlightedElemen
     };
 }
 
+/** What only one of two highlights of the same picture contains. */
+export interface HighlightChange {
+    /** Flags of numbers in `of.vertices` and `of.edges`: see isFlagged(). */
+    vertices: Uint8Array;
+    edges: Uint8Array;
+    /** The cells whose faces have other colors. */
+    cells: readonly (number | undefined)[];
+}
+
+/** Whether a number is flagged: faster than whether it is in a set. Numbers beyond the end are not flagged. */
+export function isFlagged(flags: Uint8Array, n: number): boolean {
+    return n < flags.length && flags[n] === 1;
+}
+
+export function changeBetween(before: HighlightedElements, after: HighlightedElements): HighlightChange {
+    return {
+        vertices: flagsOfDifference(before.vertices, after.vertices),
+        edges: flagsOfDifference(before.edges, after.edges),
+        cells: before.cell === after.cell ? [] : [before.cell, after.cell],
+    };
+}
+
+/** Flags of the numbers that are in only one of two sets. */
+function flagsOfDifference(before: ReadonlySet<number>, after: ReadonlySet<number>): Uint8Array {
+    const differing = [...before].filter((n) => !after.has(n)).concat([...after].filter((n) => !before.has(n)));
+    const flags = new Uint8Array(differing.reduce((most, n) => Math.max(most, n + 1), 0));
+    for (const n of differing) flags[n] = 1;
+    return flags;
+}
+
 /**
  * The color of the faces of a cell: the color of the highlight if the cell is under the pointer, else the cell's own.
  */

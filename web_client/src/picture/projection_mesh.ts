@@ -8,7 +8,7 @@ import type { Elements, Fill, ObjectProjection, SceneDescription, Slices } from 
 
 import { ensureCapacity } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
-import { cellColor, type HighlightedElements } from "./highlighted_elements";
+import { cellColor, type HighlightChange, type HighlightedElements, isFlagged } from "./highlighted_elements";
 import { doubleAreaVector } from "./polygon";
 import { kBall, kBar, kFace } from "./shaders";
 import { kQuadTriangles, ShapeBuffers } from "./shape_buffers";
@@ -113,35 +113,43 @@ export class ProjectionMesh {
         return true;
     }
 
-    /**
-     * Writes the colors, in the order in which update() adds the shapes. The picture must be the one that was last
-     * passed to update().
-     */
-    writeColorsToBuffers({ projection, scene }: Slices, highlighted: HighlightedElements): void {
+    /** Writes the colors, as SliceMesh.writeColorsToBuffers() does, in the order in which update() adds the shapes. */
+    writeColorsToBuffers(picture: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
+        const { projection, scene } = picture;
         if (!projection) return;
         const { colors } = scene;
+        const [before, after] = change?.cells ?? [];
         let used = 0;
         const paint = (vertices: number, color: number, opacity: number): void => {
-            for (const end = used + vertices; used < end; ++used) this.shapes.setColor(used, color, opacity);
+            for (let v = used; v < used + vertices; ++v) this.shapes.setColor(v, color, opacity);
         };
         projection.parts.forEach((part, i) => {
             const { of, vertices, edges } = part;
             const opacities = opacitiesOf(part, scene);
             for (let v = 0; part.ball > 0 && v < vertices.length / 3; ++v) {
                 const opacity = opacities.ofVertex(v);
-                const color = highlighted.vertices.has(of.vertices[v]!) ? colors.highlight : part.ball_color;
-                if (opacity > 0) paint(4, color, opacity);
+                if (opacity === 0) continue;
+                const source = of.vertices[v]!;
+                const color = highlighted.vertices.has(source) ? colors.highlight : part.ball_color;
+                if (!change || isFlagged(change.vertices, source)) paint(4, color, opacity);
+                used += 4;
             }
             for (let e = 0; part.bar > 0 && e < edges.length / 2; ++e) {
                 const opacity = opacities.ofEdge(e);
-                const color = highlighted.edges.has(of.edges[e]!) ? colors.highlight : part.bar_color;
-                if (opacity > 0) paint(4, color, opacity);
+                if (opacity === 0) continue;
+                const source = of.edges[e]!;
+                const color = highlighted.edges.has(source) ? colors.highlight : part.bar_color;
+                if (!change || isFlagged(change.edges, source)) paint(4, color, opacity);
+                used += 4;
             }
             const { faces, tints, seen } = this.polygons[i]!;
             for (let f = 0; part.opacity > 0 && f + 1 < faces.begin.length; ++f) {
                 const opacity = opacities.ofPolygon(seen, f);
-                const corners = faces.begin[f + 1]! - faces.begin[f]!;
-                if (opacity > 0) paint(corners, cellColor(tints[f]!, colors, highlighted), opacity);
+                if (opacity === 0) continue;
+                const [cell, corners] = [tints[f]!, faces.begin[f + 1]! - faces.begin[f]!];
+                const isChanged = !change || cell === before || cell === after;
+                if (isChanged) paint(corners, cellColor(cell, colors, highlighted), opacity);
+                used += corners;
             }
         });
         this.shapes.color.markChanged();

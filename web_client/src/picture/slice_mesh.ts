@@ -8,7 +8,7 @@ import type { Slices, Vector } from "@oval4d/protocol";
 
 import { SliceElements } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
-import { cellColor, type HighlightedElements } from "./highlighted_elements";
+import { cellColor, type HighlightChange, type HighlightedElements, isFlagged } from "./highlighted_elements";
 import { PaintersOrder } from "./painters_order";
 import { kBall, kBar, kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
@@ -51,26 +51,33 @@ export class SliceMesh {
         this.order.update({ ...shown, faces: shown.faces && faces, balls: shown.balls || hasPoints });
     }
 
-    /** Writes the colors. The picture must be the one that was last passed to update(). */
-    writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements): void {
+    /**
+     * Writes the colors: all of them or, if only the highlight has changed, those of `change`. The picture must be the
+     * one that was last passed to update().
+     */
+    writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { sliceRanges, cornerBegin, vertexCount, edgeCount } = this.elements;
         const { shown, colors, faded, opacity } = scene;
         const opacities = [0, faded, 1];
         const { shapes } = this;
+        const [before, after] = change?.cells ?? [];
         const ballColor = shown.balls ? colors.ball : colors.bar;
         for (const { slice, vertices, edges, faces } of sliceRanges) {
             const { of, seen, balls, tints = of.faces } = slice;
             for (let i = 0; i < vertices[1] - vertices[0]; ++i) {
+                if (change && !isFlagged(change.vertices, of.vertices[i]!)) continue;
                 const color = highlighted.vertices.has(of.vertices[i]!) ? colors.highlight : ballColor;
                 const alpha = (balls?.opacity[i] ?? 1) * opacities[seen?.vertices[i] ?? 2]!;
                 for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertices[0] + i) + k, color, alpha);
             }
             for (let i = 0; i < edges[1] - edges[0]; ++i) {
+                if (change && !isFlagged(change.edges, of.edges[i]!)) continue;
                 const color = highlighted.edges.has(of.edges[i]!) ? colors.highlight : colors.bar;
                 const alpha = opacities[seen?.edges[i] ?? 2]!;
                 for (let k = 0; k < 4; ++k) shapes.setColor(4 * (vertexCount + edges[0] + i) + k, color, alpha);
             }
             for (let i = 0; i < faces[1] - faces[0]; ++i) {
+                if (change && tints[i] !== before && tints[i] !== after) continue;
                 const color = cellColor(tints[i]!, colors, highlighted);
                 const alpha = opacity * opacities[seen?.faces[i] ?? 2]!;
                 const [begin, end] = [cornerBegin[faces[0] + i]!, cornerBegin[faces[0] + i + 1]!];
