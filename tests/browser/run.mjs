@@ -1,6 +1,6 @@
 // Runs the browser tests: `node run.mjs [options] [FILE.mjs …]`. Without files, all but those of the options:
 //   --latencies    instead, the tests that measure speed
-//   --firefox      runs the tests in Firefox instead of Chromium, but those files that test nothing of Firefox
+//   --firefox      runs the tests in Firefox instead of Chromium
 //   --only FILE    of these tests, only those whose names are the lines of FILE, one after the other in one process
 //   --junit FILE   writes the results as JUnit XML
 //   --processes N  runs N files at once
@@ -16,8 +16,6 @@ import { writeJunit } from "./support/junit.mjs";
 import { runJobs, runningTests } from "./support/pool.mjs";
 
 const kLatencies = "performance.mjs";
-// A client without a page, rules about the page's elements, and windows that only browsers of phones have.
-const kChromiumOnly = ["client.mjs", "axe.mjs", "phone.mjs"];
 const kLongest = ["fields.mjs", "picture.mjs", "axe.mjs", "field_panel.mjs", "slider.mjs", "accessibility.mjs"]; // these begin
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -36,8 +34,7 @@ const { values: options, positionals } = parseArgs({
 function chosenFiles() {
     if (positionals.length > 0) return positionals.map((path) => path.split("/").at(-1));
     if (options.latencies) return [kLatencies];
-    const left = ["run.mjs", kLatencies, ...(options.firefox ? kChromiumOnly : [])];
-    const all = readdirSync(here).filter((name) => name.endsWith(".mjs") && !left.includes(name));
+    const all = readdirSync(here).filter((name) => name.endsWith(".mjs") && !["run.mjs", kLatencies].includes(name));
     return all.sort((a, b) => kLongest.includes(b) - kLongest.includes(a));
 }
 
