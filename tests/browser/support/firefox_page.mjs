@@ -56,6 +56,7 @@ export class FirefoxPage {
         this.touchscreen = { tap: (x, y) => this.touch("touchStart", [x, y]).then(() => this.touch("touchEnd")) };
         page.on("console", (message) => this.#events.emit("console", message));
         page.on("pageerror", (error) => this.#events.emit("pageerror", error));
+        page.on("response", (response) => this.#events.emit("response", response));
         page.on("request", (request) => this.#routes.size > 0 && this.#answer(request));
     }
 

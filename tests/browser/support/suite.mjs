@@ -8,7 +8,6 @@ export const inFirefox = process.env.OVAL4D_BROWSER === "firefox";
 const kMissingInFirefox = {
     "accessibility tree": "WebDriver BiDi does not tell the names and roles of elements",
     "keyboard layouts": "WebDriver BiDi has only the keys of an American keyboard",
-    "sizes of responses": "WebDriver BiDi does not tell how large a response is on its way",
     "scale of the screen": "WebDriver BiDi changes the scale of a page only together with its size",
 };
 
