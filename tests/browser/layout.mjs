@@ -4,6 +4,7 @@ import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { openPanel } from "./support/field.mjs";
+import { kOnScreen, moveToScreen } from "./support/screen.mjs";
 
 // Desktops, a phone upright and lying, and desktops at 200 and 400 %, which leave fewer CSS pixels.
 const kSizes = [[1440, 900], [1280, 800], [1024, 600], [800, 600], [390, 844], [667, 375], [720, 450], [360, 225], [512, 300]];
@@ -129,23 +130,20 @@ async function angleOfDrag(page, script) {
 }
 
 test("layout: a page that moves to a screen with smaller pixels draws its picture anew, and drags orbit as far", async () => {
-    const { page, script, close } = await openWithScript({ viewport: null }); // otherwise its pixels are not those of the screen
+    const { page, script, close } = await openWithScript(kOnScreen);
     const ratio = () =>
         page.evaluate(() => {
             return document.querySelector("canvas.overlay").height / document.getElementById("drawing").clientHeight;
         });
     assert.equal(await ratio(), 1);
     const angle = await angleOfDrag(page, script);
-    const { width, height } = await page.evaluate(() => ({ width: innerWidth, height: innerHeight }));
-    const session = await page.context().newCDPSession(page);
-    const screen = { width, height, deviceScaleFactor: 2, mobile: false };
-    await session.send("Emulation.setDeviceMetricsOverride", screen);
+    await moveToScreen(page, 2);
     await page.waitForFunction(() => {
         return document.querySelector("canvas.overlay").height === 2 * document.getElementById("drawing").clientHeight;
     });
     assert.ok(Math.abs((await angleOfDrag(page, script)) - angle) < 1e-9, "the drag orbits as far");
     await close();
-}, { needs: "scale of the screen" });
+});
 
 test("layout: drags orbit as far where the picture has fewer pixels than the screen", async () => {
     const angles = [];

@@ -178,6 +178,11 @@ export class FirefoxPage {
         await this.waitForFunction(([w, h]) => innerWidth === w && innerHeight === h, [width, height]);
     }
 
+    /** Sets how many pixels a CSS pixel has; Puppeteer would also set the size of the page. */
+    setPixelRatio(devicePixelRatio) {
+        return this.#context.browser.send("browsingContext.setViewport", { context: this.id, devicePixelRatio });
+    }
+
     emulateMedia(media) {
         return this.#context.emulateMedia(this, media);
     }

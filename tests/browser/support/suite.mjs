@@ -8,7 +8,6 @@ export const inFirefox = process.env.OVAL4D_BROWSER === "firefox";
 const kMissingInFirefox = {
     "accessibility tree": "WebDriver BiDi does not tell the names and roles of elements",
     "keyboard layouts": "WebDriver BiDi has only the keys of an American keyboard",
-    "scale of the screen": "WebDriver BiDi changes the scale of a page only together with its size",
 };
 
 const tests = new Map(); // {run, skipped} by name
