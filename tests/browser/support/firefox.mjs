@@ -125,6 +125,17 @@ class FirefoxBrowser {
         if (preferences.length > 0) await this.evaluateInBrowser(preferences.map(set).join(" "));
     }
 
+    /** Adds a key to WebDriver's keyboard, which is American: `value` names it, its events have `key` and `code`. */
+    async defineKey(value, { key, code }) {
+        const path = "chrome://remote/content/shared/webdriver/KeyData.sys.mjs";
+        const added = { key, code, location: 0, printable: true, shifted: false };
+        await this.evaluateInBrowser(`{
+            const { keyData } = ChromeUtils.importESModule(${JSON.stringify(path)});
+            const [added, american] = [${JSON.stringify(added)}, (keyData.american ??= keyData.getData)];
+            keyData.getData = (value) => (value === ${JSON.stringify(value)} ? added : american(value));
+        }`);
+    }
+
     /** Takes the preferences of a context back, and sets those of the other contexts again. */
     async closedContext(context) {
         this.#contexts.delete(context);

@@ -300,6 +300,10 @@ export class FirefoxPage {
 
     // Input.
 
+    defineKey(value, events) {
+        return this.#context.browser.defineKey(value, events);
+    }
+
     /** Performs the actions of input sources, as in the command input.performActions of WebDriver BiDi. */
     perform(actions) {
         return this.#context.browser.send("input.performActions", { context: this.id, actions });
@@ -522,6 +526,8 @@ const kKeys = {
     ...{ Semicolon: ";", Quote: "'", Backquote: "`", Backslash: "\\" },
 };
 
+const kOtherKey = "\ue100"; // a value that WebDriver does not use
+
 /** The value of a key that Playwright calls by this name. */
 function valueOf(name) {
     if (kKeys[name]) return kKeys[name];
@@ -556,10 +562,19 @@ class Keyboard {
 
     press(stroke) {
         const [, held, key] = /^((?:(?:Shift|Control|Alt|Meta)\+)*)(.+)$/s.exec(stroke);
-        const values = [...held.split("+").filter(Boolean), key].map(valueOf);
+        return this.#pressTogether([...held.split("+").filter(Boolean), key].map(valueOf));
+    }
+
+    /** Presses a key of a keyboard with another layout: `key` is what it types, and `code` where it is. */
+    async pressOther({ key, code, shift }) {
+        await this.#page.defineKey(kOtherKey, { key, code });
+        await this.#pressTogether([...(shift ? [kKeys.Shift] : []), kOtherKey]);
+    }
+
+    #pressTogether(values) {
         return this.#perform([
             ...values.map((value) => ({ type: "keyDown", value })),
-            ...values.reverse().map((value) => ({ type: "keyUp", value })),
+            ...[...values].reverse().map((value) => ({ type: "keyUp", value })),
         ]);
     }
 

@@ -7,7 +7,6 @@ export const inFirefox = process.env.OVAL4D_BROWSER === "firefox";
 /** What tests cannot do in Firefox, which WebDriver BiDi controls: by what a test needs, why it is skipped there. */
 const kMissingInFirefox = {
     "accessibility tree": "WebDriver BiDi does not tell the names and roles of elements",
-    "keyboard layouts": "WebDriver BiDi has only the keys of an American keyboard",
 };
 
 const tests = new Map(); // {run, skipped} by name
