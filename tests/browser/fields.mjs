@@ -22,10 +22,6 @@ const kWideFog = [
     { value: 4, opacity: 0.8 },
 ];
 
-const kViewsInFirefox = [
-    ...["on a light page", "three levels with caps", "values on surfaces and caps", "colored by w, with a projection"],
-    ...["contours in the matrix", "fog around a level", "fog between translucent levels", "fog and a projection"],
-];
 const views = [
     { name: "a closed surface", formula: kTiger },
     { name: "on a light page", formula: kTiger, options: { colorScheme: "light" } },
@@ -65,7 +61,7 @@ for (const { name, formula, values, settings = {}, options } of views) {
         await assertStreamsAgree(page, { mean: 1.2, far: 0.008 });
         assert.deepEqual(errors, []);
         await close();
-    }, { variant: !kViewsInFirefox.includes(name) });
+    });
 }
 
 for (const { name, settings } of [

@@ -110,10 +110,6 @@ test("picture: over a density strip, both streams draw the lines of the highligh
     await close();
 });
 
-const kViewsInFirefox = [
-    ...["the 600-cell", "from another side and nearer", "the single view", "bars alone", "a star", "a perspective projection"],
-    ...["an orthogonal projection with many bars behind one another", "a projection whose sections shine through its faces"],
-];
 const views = [
     { name: "the 5-cell in its initial state", settings: {} },
     { name: "the 600-cell", settings: { polytope: "600-cell" } },
@@ -166,7 +162,7 @@ for (const { name, settings, mean = 1, far = 0.005 } of views) {
         await assertStreamsAgree(page, { mean, far });
         assert.deepEqual(errors, []);
         await close();
-    }, { variant: !kViewsInFirefox.includes(name) });
+    });
 }
 
 /** The part of a picture that shows the matrix. */
@@ -176,7 +172,6 @@ function matrixOf({ width, height, data }, { left, bottom, step }) {
     return { width: side, height: side, data: Buffer.concat(Array.from({ length: side }, (_, i) => row(i))) };
 }
 
-const kMatricesInFirefox = ["a 24-cell", "a 2-face highlighted", "a point cloud", "a tall window"];
 const matrices = [
     { name: "a 24-cell", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15] } },
     { name: "denser faces", settings: { polytope: "24-cell", point: [0.2, 0.1, -0.3, 0.15], opacity: 4 } },
@@ -215,7 +210,7 @@ for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of 
         assertSimilar(own, served, { mean: kEdges * mean, far: kEdges * far });
         assert.deepEqual(errors, []);
         await close();
-    }, { variant: !kMatricesInFirefox.includes(name) });
+    });
 }
 
 /** Records the texts that the page draws on its canvases, and where, in pixels of the canvas. */
