@@ -57,7 +57,7 @@ test("buttons: each button does what its key does", async () => {
     );
     assert.deepEqual(errors, []);
     await close();
-}, { variant: true });
+});
 
 test("buttons: the turn button starts and stops turning, and shows whether the polytope turns", async () => {
     const { page, script, press, close } = await openWithScript();

@@ -197,7 +197,7 @@ test("command line: :export saves a file in each format, as the export dialog do
         assert.deepEqual(errors, []);
         await close();
     }
-}, { variant: true });
+});
 
 test("command line: :export explains what it cannot save, and without a format opens the dialog", async () => {
     const { page, script, errors, close } = await openWithScript();

@@ -236,7 +236,7 @@ test("field panel: every example is a field with a surface", async () => {
     }
     assert.deepEqual(errors, []);
     await close();
-}, { variant: true });
+});
 
 test("field panel: another formula colors the surfaces, and has the names of the first one", async () => {
     const permissions = ["clipboard-read", "clipboard-write"];

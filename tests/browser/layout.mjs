@@ -99,7 +99,7 @@ test("layout: the choices of every format fit into the export dialog", async () 
         }
     });
     await close();
-}, { variant: true });
+});
 
 test("layout: the panel of a field fits into every window", async () => {
     const { page, close } = await openPanel();

@@ -83,7 +83,7 @@ test("loading: an object far from the origin turns about its center, or about th
     assert.equal(await page.evaluate(() => document.activeElement.id), "drawing", "the focus is not lost with the button");
     assert.deepEqual(errors, []);
     await close();
-}, { variant: true });
+});
 
 test("loading: text in UTF-16 is read as in UTF-8", async () => {
     const { page, script, errors, close } = await openWithScript();

@@ -54,7 +54,7 @@ test("picker: searches names, aliases, short names and symbols", async () => {
     await page.fill("#picker-search", "");
     assert.ok((await listed(page)).length >= 6, "all are listed again");
     await close();
-}, { variant: true });
+});
 
 test("picker: works with the keyboard alone", async () => {
     const { page, script, close } = await openWithScript();
@@ -144,7 +144,7 @@ test("picker: a misspelled name finds similar names, after the text itself", asy
     await page.keyboard.press("Enter");
     await script.until((one) => one.polytope.name === "pyramid of cube", "a polytope that is built from its name");
     await close();
-}, { variant: true });
+});
 
 test("picker: a name that is not listed is sent as typed; an error is shown and can be corrected", async () => {
     const { page, script, errors, close } = await openWithScript();

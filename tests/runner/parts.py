@@ -160,7 +160,7 @@ GATE = [
 DEEP = [
     Part("latencies", 300, latencies, ("release",)),
     Part("container", 400, container, ("release",)),
-    Part("firefox", 300, firefox, ("release",)),
+    Part("firefox", 500, firefox, ("release",)),
     Part("fuzz", 120, fuzz, ("asan-ubsan",), at_once=2),
     Part("sanitizers", 1200, sanitizers, ("asan-ubsan", "tsan")),
 ]

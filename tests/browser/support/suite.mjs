@@ -12,19 +12,14 @@ const kMissingInFirefox = {
 const tests = new Map(); // {run, skipped} by name
 const closings = { test: [], process: [] };
 
-/** Why the variants of tests are skipped in Firefox, where the tests would take too long otherwise. */
-const kVariant = "other tests show the same of the browser";
-
 /**
  * Adds a test. Its name is unique among all files, because it identifies the test in reports and in `--only`. What it
- * `needs` is a key of kMissingInFirefox. A `variant` tests other data than another test, and nothing more of the
- * browser.
+ * `needs` is a key of kMissingInFirefox.
  */
-export function test(name, run, { needs, variant = false } = {}) {
+export function test(name, run, { needs } = {}) {
     if (tests.has(name)) throw new Error(`two tests are called “${name}”`);
     if (needs && !kMissingInFirefox[needs]) throw new Error(`“${name}” needs “${needs}”, which is not in the table`);
-    const reason = needs ? kMissingInFirefox[needs] : variant ? kVariant : undefined;
-    tests.set(name, { run, skipped: inFirefox ? reason : undefined });
+    tests.set(name, { run, skipped: inFirefox && needs ? kMissingInFirefox[needs] : undefined });
 }
 
 /** The tests that have been added since the last call, [name, {run, skipped}]; `skipped` says why a test cannot run. */
