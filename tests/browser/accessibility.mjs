@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
+import { controlsOf, namesOf } from "./support/accessible.mjs";
 import { openPage, openWithScript, ready, spoken } from "./support/browser.mjs";
 import { eventually } from "./support/hang_limit.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
@@ -64,7 +65,6 @@ async function withPanels(page, look) {
 
 test("accessibility: every control has a name", async () => {
     const { page, close } = await openWithScript();
-    const session = await page.context().newCDPSession(page);
     const roles = [
         "button",
         "combobox",
@@ -77,38 +77,36 @@ test("accessibility: every control has a name", async () => {
         "application",
         "dialog",
     ];
-    const controlsOf = async () => {
-        const { nodes } = await session.send("Accessibility.getFullAXTree");
-        const controls = nodes.filter(({ ignored, role }) => !ignored && roles.includes(role?.value));
-        for (const { role, name } of controls) assert.ok(name?.value?.trim(), `a ${role.value} has no name`);
+    const named = async () => {
+        const controls = await controlsOf(page, roles);
+        for (const { role, name } of controls) assert.ok(name.trim(), `a ${role} has no name`);
         return controls;
     };
     const assertDistinct = (controls, where) => {
-        const names = controls.filter(({ role }) => role.value === "button").map(({ name }) => name.value);
+        const names = controls.filter(({ role }) => role === "button").map(({ name }) => name);
         assert.ok(names.length > 40);
         const repeated = names.filter((name, i) => names.indexOf(name) !== i);
         assert.deepEqual(repeated, [], `${where}: no two buttons have the same name`);
     };
-    assertDistinct(await controlsOf(), "the page");
-    await withPanels(page, async (name) => assertDistinct(await controlsOf(), name));
+    assertDistinct(await named(), "the page");
+    await withPanels(page, async (name) => assertDistinct(await named(), name));
     await withDialogs(page, async (id) => {
-        const controls = await controlsOf();
+        const controls = await named();
         assert.ok(
-            controls.some(({ role }) => role.value === "dialog"),
+            controls.some(({ role }) => role === "dialog"),
             id,
         );
         assert.ok(controls.length > 1, "the dialog has controls");
         assert.ok(
-            controls.every(({ role }) => role.value !== "application"),
+            controls.every(({ role }) => role !== "application"),
             "the drawing under the dialog is not reachable",
         );
     });
     await close();
-}, { needs: "accessibility tree" });
+});
 
 test("accessibility: the name of a control contains its visible label", async () => {
     const { page, close } = await openWithScript();
-    const session = await page.context().newCDPSession(page);
     const normalized = (text) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(" ") ?? "";
     /** The texts of the buttons without their keys, which are not part of the names; undefined for what is not seen. */
     const labelsOf = (buttons) => {
@@ -120,26 +118,20 @@ test("accessibility: the name of a control contains its visible label", async ()
     };
     /** The buttons whose accessible name does not contain their label, like axe's label-content-name-mismatch. */
     const mismatches = async () => {
-        const { root } = await session.send("DOM.getDocument");
-        const { nodeIds } = await session.send("DOM.querySelectorAll", { nodeId: root.nodeId, selector: "button" });
+        const names = await namesOf(page, "button");
         const labels = await page.locator("button").evaluateAll(labelsOf);
-        assert.equal(labels.length, nodeIds.length);
-        const found = [];
-        for (const [i, nodeId] of nodeIds.entries()) {
-            const text = labels[i];
-            if (text === undefined) continue;
-            const { nodes } = await session.send("Accessibility.getPartialAXTree", { nodeId, fetchRelatives: false });
-            if (nodes[0].ignored) continue;
-            const name = nodes[0].name.value;
-            if (!normalized(name).includes(normalized(text))) found.push(`${text}: ${name}`);
-        }
-        return found;
+        assert.equal(labels.length, names.length);
+        const pairs = labels.map((text, i) => ({ text, name: names[i] }));
+        return pairs
+            .filter(({ text, name }) => text !== undefined && name !== undefined)
+            .filter(({ text, name }) => !normalized(name).includes(normalized(text)))
+            .map(({ text, name }) => `${text}: ${name}`);
     };
     assert.deepEqual(await mismatches(), []);
     await withPanels(page, async (name) => assert.deepEqual(await mismatches(), [], name));
     await withDialogs(page, async (id) => assert.deepEqual(await mismatches(), [], id));
     await close();
-}, { needs: "accessibility tree" });
+});
 
 /** Presses a key; resolves to a description of the element that has the focus then, or undefined for the page. */
 async function focusAfter(page, key) {

@@ -112,11 +112,39 @@ class FirefoxBrowser {
         return result;
     }
 
-    /** Evaluates an expression in the browser's own window. */
+    /** Evaluates an expression in the browser's own window; resolves to the value if it is a text. */
     async evaluateInBrowser(expression) {
         const target = { context: this.#chrome };
         const answer = await this.send("script.evaluate", { expression, target, awaitPromise: true });
         if (answer.type === "exception") throw new Error(answer.exceptionDetails.text);
+        return answer.result.value;
+    }
+
+    /**
+     * What assistive technology gets of each element that matches, {role, name}; undefined if it gets nothing. `isDrawn`
+     * says which of them are drawn. WebDriver BiDi only finds elements by role and name, but Firefox's older driver tells
+     * both.
+     */
+    async accessible(page, selector, isDrawn) {
+        const found = await this.evaluateInBrowser(`(async () => {
+            const load = (path) => ChromeUtils.importESModule("chrome://remote/content/" + path);
+            const { RemoteAgent } = load("components/RemoteAgent.sys.mjs");
+            const { NavigableManager } = load("shared/NavigableManager.sys.mjs");
+            const older = load("marionette/actors/MarionetteCommandsParent.sys.mjs");
+            older.registerCommandsActor(RemoteAgent.webDriverBiDi.session.id);
+            const context = NavigableManager.getBrowsingContextById(${JSON.stringify(page.id)});
+            const commands = older.getMarionetteCommandsActorProxy(() => context);
+            const elements = await commands.findElements("css selector", ${JSON.stringify(selector)}, {});
+            const isDrawn = ${JSON.stringify(isDrawn)};
+            if (elements.length !== isDrawn.length) throw new Error("the page has changed meanwhile");
+            const found = [];
+            for (const [i, element] of elements.entries()) {
+                const role = isDrawn[i] ? await commands.getComputedRole(element) : "none";
+                found.push(role === "none" ? null : { role, name: await commands.getComputedLabel(element) });
+            }
+            return JSON.stringify(found);
+        })()`);
+        return JSON.parse(found).map((one) => one ?? undefined);
     }
 
     /** Sets preferences, [name, number]. */

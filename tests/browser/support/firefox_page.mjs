@@ -298,6 +298,16 @@ export class FirefoxPage {
         return handle.jsonValue();
     }
 
+    /** What assistive technology gets of each element that matches, {role, name}; undefined if it gets nothing. */
+    async accessible(selector) {
+        const isDrawn = await this.evaluate(async (wanted) => {
+            // Firefox tells assistive technology what has changed when it draws the page.
+            for (let frames = 0; frames < 2; ++frames) await new Promise((resolve) => requestAnimationFrame(resolve));
+            return [...document.querySelectorAll(wanted)].map((one) => one.checkVisibility());
+        }, selector);
+        return this.#context.browser.accessible(this, selector, isDrawn);
+    }
+
     // Input.
 
     defineKey(value, events) {

@@ -5,9 +5,7 @@ import { within } from "./hang_limit.mjs";
 export const inFirefox = process.env.OVAL4D_BROWSER === "firefox";
 
 /** What tests cannot do in Firefox, which WebDriver BiDi controls: by what a test needs, why it is skipped there. */
-const kMissingInFirefox = {
-    "accessibility tree": "WebDriver BiDi does not tell the names and roles of elements",
-};
+const kMissingInFirefox = {};
 
 const tests = new Map(); // {run, skipped} by name
 const closings = { test: [], process: [] };
