@@ -5,7 +5,7 @@
 import type { Client, Command, Slices, State } from "@oval4d/protocol";
 
 import { type CriticalValue, CriticalValues } from "./critical_values";
-import { byId } from "./element";
+import { byId, element } from "./element";
 import { FocusMover } from "./focus_mover";
 import { formatW } from "./format";
 
@@ -28,7 +28,7 @@ export class FocusSlider {
     private readonly section = byId("focus-section");
     private readonly playButton = byId<HTMLButtonElement>("focus-play");
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
-    private readonly otherSpeed = byId<HTMLOptionElement>("focus-speed-other");
+    private readonly otherSpeed = element("option", {}); // in the list only while the speed is none of the others
     private readonly criticalValues: CriticalValues;
     private readonly mover: FocusMover;
     private state: State | undefined;
@@ -161,9 +161,13 @@ export class FocusSlider {
         this.playButton.setAttribute("aria-pressed", String(playing));
         this.playButton.querySelector("span")!.textContent = playing ? "Pause" : "Play";
         const isListed = [...this.speed.options].some((one) => one !== this.otherSpeed && Number(one.value) === speed);
-        this.otherSpeed.hidden = isListed;
-        this.otherSpeed.value = isListed ? "" : String(speed);
-        this.otherSpeed.textContent = isListed ? "" : `${Number(speed.toFixed(2))}×`;
+        if (isListed) {
+            this.otherSpeed.remove();
+        } else {
+            this.otherSpeed.value = String(speed);
+            this.otherSpeed.textContent = `${Number(speed.toFixed(2))}×`;
+            this.speed.append(this.otherSpeed);
+        }
         this.speed.value = String(speed);
     }
 

@@ -30,10 +30,12 @@ export interface ToolSection {
 // The tabs in which sections are grouped on small screens. Groups that are not listed are in the last tab.
 const kTabs = [
     { title: "Turn", groups: ["turn", "toward", "history", "Tilt"] },
-    { title: "Slices", groups: ["angle", "focus", "slices", "play"] },
+    { title: "Slices", groups: ["angle", "focus", "slices"] },
     { title: "Show", groups: ["polytope", "look", "whole", "point", "highlight", "camera", "Colors"] },
 ];
 const kOtherTab = "More";
+// The groups of keys that have their controls elsewhere: playing has them below the picture, beside the slider of w.
+const kGroupsElsewhere = ["play"];
 
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
@@ -44,7 +46,6 @@ const kHoldInterval = 60; // milliseconds between repetitions
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
-    play: (state) => state.playing,
     view: (state) => state.view === "single",
     projection: (state) => state.projection !== "off",
     ...Object.fromEntries(settings.properties.view.enum.map((view) => [view, (state: State) => state.view === view])),
@@ -87,6 +88,7 @@ export class Tools {
         this.projectionButtons = [];
         const rotations = keymap.keys.filter((key) => key.action === "rotate").sort(compareGridPlaces);
         const sections = keymap.groups
+            .filter(({ name }) => !kGroupsElsewhere.includes(name))
             .map(({ name, title }) => ({ name, title, keys: keymap.keys.filter((key) => key.group === name) }))
             .filter(({ keys }) => keys.some((key) => key.action !== "rotate"))
             .map(({ name, title, keys }) => ({ name, title, content: this.controls(keys) }));
