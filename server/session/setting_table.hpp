@@ -99,7 +99,7 @@ void forEachSetting(const Visitor& visit) {
         visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
     };
     // A setting whose value applySet() only stores, if `rule` allows the value; Set::plain contains the value.
-    const auto visitPlain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack = never,
+    const auto visitPlain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack,
                                 bool forFields = false) {
         using Value = std::remove_cvref_t<decltype(ofState(std::declval<State&>()))>;
         const auto ofSet = [text = name.text](auto& set) -> auto& { return set.plain.template of<Value>(text); };
@@ -111,10 +111,10 @@ void forEachSetting(const Visitor& visit) {
     visitWithOwnCode({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
     visitWithOwnCode({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
     visitPlain({"alpha"}, at(&State::alpha),
-               NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}});
+               NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}}, never);
     visitPlain({"beta"}, at(&State::beta),
-               NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}});
-    visitPlain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians});
+               NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}}, never);
+    visitPlain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians}, never);
 
     const auto slices = &State::slices;
     visitWithOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &HyperplaneSettings::count), never);
@@ -128,30 +128,30 @@ void forEachSetting(const Visitor& visit) {
         {"point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); }, by_another_object);
 
     const auto look = &State::look;
-    visitPlain({"view"}, at(look, &Look::view), AcceptsAnyValue{});
+    visitPlain({"view"}, at(look, &Look::view), AcceptsAnyValue{}, never);
     visitWithOwnCode({"turning"}, &Set::turning, NotInState{}, never);
     visitWithOwnCode({"playing"}, &Set::playing, NotInState{}, never);
     visitPlain({"speed"}, at(&State::playSpeed),
-               NumberInRange{"the speed", State::kPlaySpeedRange, "", {.perDoubling = 1}});
+               NumberInRange{"the speed", State::kPlaySpeedRange, "", {.perDoubling = 1}}, never);
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     visitPlain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),
-               NumberInRange{"the camera's azimuth", Orbit::kAngleRange, kRadians});
+               NumberInRange{"the camera's azimuth", Orbit::kAngleRange, kRadians}, never);
     visitPlain({"elevation", "camera"}, at(look, orbit, &Orbit::elevation),
-               NumberInRange{"the camera's elevation", Orbit::kAngleRange, kRadians});
-    visitPlain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom),
-               NumberInRange{"the camera's zoom", Orbit::kZoomRange});
-    visitPlain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{});
-    visitPlain({"background"}, at(look, &Look::background), AcceptsAnyValue{});
+               NumberInRange{"the camera's elevation", Orbit::kAngleRange, kRadians}, never);
+    visitPlain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom), NumberInRange{"the camera's zoom", Orbit::kZoomRange},
+               never);
+    visitPlain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{}, never);
+    visitPlain({"background"}, at(look, &Look::background), AcceptsAnyValue{}, never);
     visitPlain({"thickness"}, at(look, &Look::thickness),
-               NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}});
+               NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}}, never);
     visitPlain({"opacity"}, at(look, &Look::opacity),
-               NumberInRange{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}});
+               NumberInRange{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}}, never);
     const auto projection = &Look::projection;
     using Projection = scene::ProjectionSettings;
-    visitPlain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{});
+    visitPlain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{}, never);
     visitPlain({"eye"}, at(look, projection, &Projection::eye),
-               NumberInRange{"the eye", Projection::kEyeRange, " circumradii"});
+               NumberInRange{"the eye", Projection::kEyeRange, " circumradii"}, never);
     const auto field = &Look::field;
     visitWithOwnCode({"levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), by_another_object,
                      true);
@@ -165,7 +165,7 @@ void forEachSetting(const Visitor& visit) {
     visitWithOwnCode({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
 
     for (const scene::NamedPart& part : scene::kParts)
-        visitPlain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{});
+        visitPlain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{}, never);
 }
 
 }  // namespace oval4d::session
