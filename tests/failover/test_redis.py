@@ -48,20 +48,25 @@ async def press_keys(server, times=1, **credentials):
         return credentials_of(client), done["revision"]
 
 
-def test_redis_loses_no_setting(redis):
-    async def states_of(prepare):
+def test_redis_loses_no_setting_and_no_motion(redis):
+    async def get_state(client):
+        return await client.request("get", what="state")
+
+    async def before_and_after(prepare, get):
         with cluster.start_server(redis, 0) as server:
             async with Client(server, stream="none") as client:
                 await prepare(client)
-                before = await client.request("get", what="state")
+                before = await get(client)
         with cluster.start_server(redis, 0) as server:
             async with Client(server, stream="none", **credentials_of(client)) as client:
-                return before, await client.request("get", what="state")
+                return before, await get(client)
 
     with redis:
         for prepare in all_settings.SESSIONS:
-            before, after = asyncio.run(states_of(prepare))
+            before, after = asyncio.run(before_and_after(prepare, get_state))
             assert {**after, "id": 0, "object_serial": 0} == {**before, "id": 0, "object_serial": 0}
+        before, after = asyncio.run(before_and_after(all_settings.polytope_in_motion, all_settings.motion))
+        assert after == before == all_settings.MOTION
 
 
 def test_another_server_takes_over_an_open_session(redis):

@@ -5,9 +5,12 @@ from pathlib import Path
 
 SCHEMA = Path(__file__).parents[2] / "protocol/schema"
 
-# Members of a state that no command sets as such: `field`, `turning` and `playing` follow from the object and the
-# motion, and `last` from the rotations.
-FOLLOWING = {"field", "turning", "playing", "last"}
+# Members of a state that are not settings of the picture: `field` follows from the object; `turning` and `playing` are
+# motions, and `last` is the rotation that turning repeats.
+OTHER_MEMBERS = {"field", "turning", "playing", "last"}
+
+# The motions and the last rotation of polytope_in_motion().
+MOTION = {"turning": True, "playing": True, "last": {"planes": ["xw"], "angles": [0]}}
 
 
 def properties(schema):
@@ -21,7 +24,7 @@ def descriptions():
     for name, schema in {**properties("settings"), "shown": {"properties": properties("parts")}}.items():
         if name in ("slices", "camera", "shown"):
             found |= {(name, member): each for member, each in schema["properties"].items()}
-        elif name not in FOLLOWING:
+        elif name not in OTHER_MEMBERS:
             found[(name,)] = schema
     del found["slices", "w"]  # not a setting: it moves the focus
     return found
@@ -61,6 +64,18 @@ async def field_with_settings(client):
     await client.request("load", name="formula", format="formula", data="x^2 + y^2 + a*z^2 - w^2 < 0.2; a=0.4", values="x*w",
                          box=[[-1, 1], [-1, 1], [-1, 1], [-2, 1]])
     await client.request("set", color="growth", **members(examples(of_fields=True)))
+
+
+async def polytope_in_motion(client):
+    """Lets the polytope turn, by the angle 0, which leaves the orientation as it is, and lets the focus play."""
+    await client.request("rotate", **MOTION["last"])
+    await client.request("set", turning=True, playing=True)
+
+
+async def motion(client):
+    """Returns the members of the session's state that MOTION has."""
+    state = await client.request("get", what="state")
+    return {name: state[name] for name in MOTION}
 
 
 SESSIONS = [polytope_with_settings, field_with_settings]

@@ -1,4 +1,4 @@
-"""No setting is lost in a SQLite file, a picture, a `state` message or an address."""
+"""No setting is lost in a SQLite file, a picture, a `state` message or an address, and no motion but in an address."""
 
 import asyncio
 import json
@@ -62,3 +62,33 @@ async def test_pictures_states_and_addresses_lose_no_setting(server, prepare):
         for name in all_settings.setting_names() - {("orientation",)}:
             assert all_settings.value(opened, name) == pytest.approx(all_settings.value(state, name)), name
         assert numpy.allclose(opened["orientation"], state["orientation"])
+
+
+async def test_only_addresses_lose_a_motion(tmp_path):
+    store = ("--store", f"sqlite:{tmp_path}/sessions.sqlite")
+    with Server(*store) as server:
+        async with Client(server, stream="none") as client:
+            await all_settings.polytope_in_motion(client)
+            assert await all_settings.motion(client) == all_settings.MOTION
+            state = await client.request("get", what="state")
+            picture = await client.request_frame(width=320, height=200)
+            query = (await client.request("get", what="address"))["query"]
+        for body in (picture, json.dumps(state).encode()):
+            async with Client(server, stream="none") as other:
+                status, done = await asyncio.to_thread(put_state, server, other.welcome, body)
+                assert status == 200, done
+                assert await all_settings.motion(other) == all_settings.MOTION
+        async with Client(server, stream="none") as other:
+            await other.request("address", query=query)
+            # All who open an address see the same picture, whenever they open it, so it has no motion; and no picture
+            # shows the last rotation.
+            assert await all_settings.motion(other) == {"turning": False, "playing": False, "last": None}
+    with Server(*store) as server:
+        async with Client(server, client.welcome["session"], token=client.welcome["token"], stream="none") as client:
+            assert await all_settings.motion(client) == all_settings.MOTION
+
+
+async def test_an_address_that_is_written_by_hand_begins_a_motion(server):
+    async with Client(server, stream="none") as client:
+        await client.request("address", query="rotate=xw:0&turning=on&playing=on")
+        assert await all_settings.motion(client) == all_settings.MOTION

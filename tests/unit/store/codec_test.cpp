@@ -44,6 +44,19 @@ TEST(Codec, LosesNoSetting) {
     }
 }
 
+TEST(Codec, LosesNoMotion) {
+    Session session;
+    session::press(session, "2P");
+    session.current.playsDownward = true;
+    session.undoSteps.back().turning = true;  // it has a last rotation
+    session.current.ongoingTurnToward = session::OngoingTurnToward{geometry::Rotation(*session.current.lastTurn), 0.5};
+    ObjectTable table;
+    const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
+    EXPECT_TRUE(back.current.playing && back.current.playsDownward && back.undoSteps.back().turning);
+    EXPECT_EQ(back.current.lastTurn, session.current.lastTurn);
+    EXPECT_EQ(back.current.ongoingTurnToward, session.current.ongoingTurnToward);
+}
+
 TEST(Codec, AppliesTheHead) {
     std::mt19937 random(5);
     for (int round = 0; round < 40; ++round) {
