@@ -115,8 +115,7 @@ bool IpNetwork::contains(const address& any) const {
 Clients::Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes)
     : limits_(limits), trusted_(trustedProxies.begin(), trustedProxies.end()), budget_(bytes), sweepAt_(kFirstSweep) {}
 
-AddressAccountPtr Clients::findOrCreate(const address& any) {
-    const auto now = TokenBucket::Clock::now();
+AddressAccountPtr Clients::findOrCreate(const address& any, TokenBucket::Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     std::string name = nameOf(any);
     if (clients_.size() >= sweepAt_ && !clients_.contains(name)) forgetIdle(now);

@@ -116,8 +116,9 @@ class Clients {
     Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
     /// Returns the account of the client at this address; creates the account if the client is not known. Once 65,536
-    /// clients are known, all unknown addresses share one account, "others".
-    AddressAccountPtr findOrCreate(const boost::asio::ip::address& any);
+    /// clients are known, all unknown addresses share one account, "others". `now`: the time from which the rate limits
+    /// of a new account count.
+    AddressAccountPtr findOrCreate(const boost::asio::ip::address& any, TokenBucket::Clock::time_point now);
 
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 

@@ -11,7 +11,6 @@
 #include <boost/asio/ip/v6_only.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <csignal>
 #include <cstdlib>
@@ -24,6 +23,7 @@
 #include "net/confinement.hpp"
 #include "net/coroutine_helpers.hpp"
 #include "net/http/http_connection.hpp"
+#include "net/pause.hpp"
 #include "net/processor_count.hpp"
 #include "net/readiness.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
@@ -268,8 +268,7 @@ asio::awaitable<void> Server::acceptConnections(tcp::acceptor& acceptor) {
             // The most likely reason is that no file descriptor is free. Wait, because one becomes free when a
             // connection ends.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
-            asio::steady_timer pause(io_, 100ms);
-            co_await pause.async_wait(kAsTuple);
+            co_await pauseFor(clock_, acceptor.get_executor(), 100ms);
             continue;
         }
         const auto executor = socket.get_executor();
@@ -285,20 +284,17 @@ asio::awaitable<void> Server::stopOnSignal() {
     signals.clear();  // a second signal ends the program immediately
     readiness_.markStopping();
     for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
-    const auto limit = std::chrono::steady_clock::now() + toSteadyDuration(options_.stopTimeout);
-    asio::steady_timer poll(executor);
+    const auto limit = clock_.now() + toSteadyDuration(options_.stopTimeout);
     // Save all sessions before clients reconnect to other servers, so that those servers have the latest changes.
     auto saving = std::make_shared<std::monostate>();
     sessions_->saveAll(saving);
     const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);
     do {
-        poll.expires_after(2ms);
-        co_await poll.async_wait(kAsTuple);
-    } while (!saved.expired() && std::chrono::steady_clock::now() < limit - toSteadyDuration(options_.stopTimeout) / 2);
+        co_await pauseFor(clock_, executor, 2ms);
+    } while (!saved.expired() && clock_.now() < limit - toSteadyDuration(options_.stopTimeout) / 2);
     connections_.stopAll();
-    while ((connections_.size() > 0 || sessions_->openCount() > 0) && std::chrono::steady_clock::now() < limit) {
-        poll.expires_after(10ms);
-        co_await poll.async_wait(kAsTuple);
+    while ((connections_.size() > 0 || sessions_->openCount() > 0) && clock_.now() < limit) {
+        co_await pauseFor(clock_, executor, 10ms);
     }
     if (connections_.size() > 0) spdlog::warn("clients still connected at shutdown count={}", connections_.size());
     io_.stop();

@@ -49,7 +49,7 @@ struct Services {
     DataFolder& data;                        ///< the arrays that the server offers
     const FieldCacheFiles& fieldCacheFiles;  ///< files with the converted samples of large arrays in `data`
     slicing::CriticalCache& critical;        ///< cached results of searches for critical values of w
-    const TimerClock& clock;                 ///< the clock for the times of pictures, saves and deadlines
+    const TimerClock& clock;                 ///< the clock of pictures, saves, deadlines and rate limits
 };
 
 }  // namespace oval4d::net

@@ -63,12 +63,11 @@ bool isCrossSiteRestricted(const RequestTarget& target) {
 }
 
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
-                                 AddressAccount& client, std::string& cookie) {
+                                 AddressAccount& client, AddressAccount::Clock::time_point now, std::string& cookie) {
     AccessCheckInput fields = accessFieldsOf(request, target);
     // Everybody may load the page's own files. The Origin of such a request is not checked, because it differs from
     // Host behind a proxy that changes Host.
     if (!isCrossSiteRestricted(target)) fields.origin = {};
-    const auto now = AddressAccount::Clock::now();
     switch (access.check(fields)) {
         case AccessControl::Verdict::bad_host:
             return refusalReply(403, "this server does not accept the host name " + text::inQuotes(fields.host) +
@@ -101,12 +100,12 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
 }
 
 std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
-                                    bool hasFurtherBytes, std::string& session) {
+                                    AddressAccount::Clock::time_point now, bool hasFurtherBytes, std::string& session) {
     const auto target = targetOf(request);
     const auto wanted = target ? sessionIn(target->path) : std::nullopt;
     if (!wanted) return errorReply({ErrorCode::not_found, "WebSockets are served at /ws and /ws/{session}"});
     std::string cookie;
-    if (auto refusal = checkAccess(request, *target, access, client, cookie)) return refusal;
+    if (auto refusal = checkAccess(request, *target, access, client, now, cookie)) return refusal;
     if (auto fault = validateHandshake(request)) return refusalReply(*fault);
     if (!acceptsSubprotocol(combinedFieldValue(request, "Sec-WebSocket-Protocol")))
         return refusalReply(400, "the only supported WebSocket subprotocol is " + std::string(kSubprotocol) + "\n");

@@ -24,19 +24,19 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request);
 /// answering them costs time or reveals data.
 bool isCrossSiteRestricted(const RequestTarget& target);
 
-/// Checks a request by the rules of `access`, and counts a wrong token against the client's rate limit. If the request
-/// is refused, returns the reply. If it is allowed, returns an empty optional, and sets `cookie` to the value of
-/// Set-Cookie for the reply, or to an empty string if the reply needs no cookie.
+/// Checks a request by the rules of `access`, and counts a wrong token against the client's rate limit, at the time
+/// `now`. If the request is refused, returns the reply. If it is allowed, returns an empty optional, and sets `cookie`
+/// to the value of Set-Cookie for the reply, or to an empty string if the reply needs no cookie.
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
-                                 AddressAccount& client, std::string& cookie);
+                                 AddressAccount& client, AddressAccount::Clock::time_point now, std::string& cookie);
 
 /// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", an empty optional for other paths.
 std::optional<std::string> sessionIn(const std::string& path);
 
-/// Checks a WebSocket handshake. `hasFurtherBytes`: whether the client has already sent bytes after the handshake. If
-/// the handshake is refused, returns the reply. Otherwise, returns an empty optional, and sets `session` to the session
-/// id in the path.
+/// Checks a WebSocket handshake, at the time `now`. `hasFurtherBytes`: whether the client has already sent bytes after
+/// the handshake. If the handshake is refused, returns the reply. Otherwise, returns an empty optional, and sets
+/// `session` to the session id in the path.
 std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
-                                    bool hasFurtherBytes, std::string& session);
+                                    AddressAccount::Clock::time_point now, bool hasFurtherBytes, std::string& session);
 
 }  // namespace oval4d::net

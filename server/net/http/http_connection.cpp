@@ -7,11 +7,12 @@
 
 #include <algorithm>
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/write.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http.hpp>
+#include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "net/coroutine_helpers.hpp"
@@ -20,6 +21,7 @@
 #include "net/http/upload.hpp"
 #include "net/jobs/run_on_pool.hpp"
 #include "net/live/errors.hpp"
+#include "net/pause.hpp"
 #include "net/transfer_deadline.hpp"
 #include "net/ws/websocket_connection.hpp"
 #include "text/message_text.hpp"
@@ -52,7 +54,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
           context_(std::move(context)),
           client_(std::move(client)),
           registration_(context_.connections, client_),
-          admission_(admission) {}
+          admission_(admission),
+          deadline_(clock().makeTimer(stream_.get_executor())) {}
 
     asio::awaitable<void> run();
 
@@ -77,7 +80,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<void> upgrade(HttpRequest request, std::string session);
     void end(ConnectionRegistry::EndReason reason);
 
+    void startDeadline(TimerClock::Clock::duration timeout);
+    void endDeadline();
+
     const Options& options() const { return context_.services.options; }
+    const TimerClock& clock() const { return context_.services.clock; }
 
     beast::tcp_stream stream_;
     const ServerContext context_;
@@ -87,6 +94,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     std::string resourcePolicy_;  // the Cross-Origin-Resource-Policy of the reply
     beast::flat_buffer buffer_{kReadBufferBytes};
     bool first_ = true, reading_ = false, stopping_ = false;
+    const std::unique_ptr<Timer> deadline_;  // closes the stream when it expires
+    std::uint64_t deadlineChanges_ = 0;      // how often deadline_ was started or ended: a late call is ignored
+    bool timedOut_ = false;                  // whether deadline_ has closed the stream
 };
 
 /// Returns the reply to a request that could not be parsed; an empty optional if the client has disconnected or has not
@@ -127,18 +137,15 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
         co_return false;
     }
     identifyClient(request);
-    const auto wait = client_->countMessage(request.target().size(), AddressAccount::Clock::now());
-    if (wait.count() > 0) {
-        asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
-        co_await pause.async_wait(kAsTuple);
-    }
+    const auto wait = client_->countMessage(request.target().size(), clock().now());
+    co_await pauseFor(clock(), stream_.get_executor(), wait);
     if (uploads) co_return co_await serveUpload(std::move(request));
     if (!isWebSocketUpgrade(request) || admission_ != ConnectionRegistry::AdmissionDecision::admitted) {
         Reply reply = co_await answer(request);
         co_return co_await write(request, std::move(reply));
     }
     std::string session;
-    if (auto refusal = checkHandshake(request, context_.access, *client_, buffer_.size() > 0, session)) {
+    if (auto refusal = checkHandshake(request, context_.access, *client_, clock().now(), buffer_.size() > 0, session)) {
         co_await refuse(request, std::move(*refusal));
     } else {
         co_await upgrade(std::move(request), std::move(session));
@@ -151,10 +158,11 @@ asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
     parser.header_limit(kMaxHeaderBytes);
     parser.body_limit(boost::none);  // no limit is needed: the parser never reads a body
     // The timeout applies to the whole header.
-    stream_.expires_after(toSteadyDuration(first_ ? options().helloTimeout : options().idleTimeout));
+    startDeadline(toSteadyDuration(first_ ? options().helloTimeout : options().idleTimeout));
     reading_ = true;
     const auto [fault, size] = co_await http::async_read_header(stream_, buffer_, parser, kAsTuple);
     reading_ = false;
+    endDeadline();
     if (!fault) co_return parser.release();
     if (auto reply = parseErrorReply(fault)) co_await refuse(HttpRequest(), std::move(*reply));
     co_return std::nullopt;
@@ -168,7 +176,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     if (fault || !context_.services.clients.isTrustedProxy(peer.address())) return;
     const auto origin =
         context_.services.clients.clientAddress(combinedFieldValue(request, "X-Forwarded-For"), peer.address());
-    const AddressAccountPtr client = context_.services.clients.findOrCreate(origin);
+    const AddressAccountPtr client = context_.services.clients.findOrCreate(origin, clock().now());
     if (client == client_) return;
     registration_.setClient(client);
     client_ = client;
@@ -199,7 +207,7 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     // Health probes may use any host name and need no token, because they reveal only whether the server works.
     const bool probe = target->path == "/healthz" || target->path == "/readyz";
     if (!probe) {
-        if (auto refusal = checkAccess(request, *target, context_.access, *client_, cookie))
+        if (auto refusal = checkAccess(request, *target, context_.access, *client_, clock().now(), cookie))
             co_return std::move(*refusal);
     }
     resourcePolicy_ = resourcePolicy(*target);
@@ -285,7 +293,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
     if (auto refusal = refuseConnection()) return refusal;
     const auto target = targetOf(request);
     std::string cookie;
-    if (auto refusal = checkAccess(request, *target, context_.access, *client_, cookie)) return refusal;
+    if (auto refusal = checkAccess(request, *target, context_.access, *client_, clock().now(), cookie)) return refusal;
     auto parsed = parseUpload(std::string_view(request.method_string()), *target, context_.services.options.session);
     if (!parsed) return uploadErrorReply(parsed.error());
     const std::size_t most = parsed->load ? options().maxUpload : std::min(options().maxUpload, kMaxStateFile);
@@ -299,7 +307,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
         return errorReply(
             {ErrorCode::bad_token, "an upload needs the session's token in the header field Session-Token"});
     }
-    if (!client_->mayTryToken(AddressAccount::Clock::now()))
+    if (!client_->mayTryToken(clock().now()))
         return tooManyReply("this address has sent too many wrong tokens; try again in a minute\n");
     token = {given->value().data(), given->value().size()};
     upload = std::move(*parsed);
@@ -309,7 +317,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
 asio::awaitable<SessionManager::JoinResult> HttpConnection::joinSession(std::string session, std::string token) {
     auto join = sessionJoiner(std::move(session), std::move(token));
     auto joined = co_await awaitCallback<SessionManager::JoinResult>(std::move(join));
-    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(AddressAccount::Clock::now());
+    if (!joined && joined.error().code == ErrorCode::bad_token) client_->countWrongToken(clock().now());
     co_return joined;
 }
 
@@ -327,17 +335,19 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
     TransferDeadline deadline(options(), context_.services.clock);
     if (left > 0 && buffer_.size() == 0 && request.count(http::field::expect) > 0) {
         constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-        stream_.expires_after(deadline.nextFragmentTimeout());
+        startDeadline(deadline.nextFragmentTimeout());
         const auto [fault, size] = co_await asio::async_write(stream_, asio::buffer(kContinue), kAsTuple);
+        endDeadline();
         if (fault) stream_.close();
     }
     while (left > 0 && stream_.socket().is_open()) {
         if (buffer_.size() == 0) {
-            stream_.expires_after(deadline.nextFragmentTimeout());
+            startDeadline(deadline.nextFragmentTimeout());
             reading_ = true;
             const auto [fault, size] = co_await stream_.async_read_some(buffer_.prepare(kReadBufferBytes), kAsTuple);
             reading_ = false;
-            if (fault == beast::error::timeout) context_.services.metrics.droppedSlowClients.Increment();
+            endDeadline();
+            if (timedOut_) context_.services.metrics.droppedSlowClients.Increment();
             if (fault) stream_.close();
             buffer_.commit(size);
             deadline.count(size);
@@ -349,10 +359,8 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
         }
         buffer_.consume(taken);
         left -= taken;
-        if (const auto wait = client_->countBytes(taken, AddressAccount::Clock::now()); wait.count() > 0) {
-            asio::steady_timer pause(stream_.get_executor(), toSteadyDuration(wait));
-            co_await pause.async_wait(kAsTuple);
-        }
+        const auto wait = client_->countBytes(taken, clock().now());
+        co_await pauseFor(clock(), stream_.get_executor(), wait);
     }
     co_return std::nullopt;
 }
@@ -376,13 +384,14 @@ asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, Reply r
 asio::awaitable<void> HttpConnection::linger() {
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
-    stream_.expires_after(kLingerTime);
+    startDeadline(kLingerTime);
     buffer_.clear();
     for (std::size_t lingering = 0; lingering < kMaxLingerBytes;) {
         const auto [fault, size] = co_await stream_.async_read_some(buffer_.prepare(kReadBufferBytes), kAsTuple);
         if (fault) break;
         lingering += size;
     }
+    endDeadline();
     stream_.close();
 }
 
@@ -412,10 +421,11 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     http::response_serializer<http::span_body<const char>> serializer(response);
     TransferDeadline deadline(options(), context_.services.clock);
     while (!serializer.is_done()) {
-        stream_.expires_after(deadline.nextFragmentTimeout());
+        startDeadline(deadline.nextFragmentTimeout());
         const auto [fault, size] = co_await http::async_write_some(stream_, serializer, kAsTuple);
+        endDeadline();
         if (fault) {
-            if (fault == beast::error::timeout) context_.services.metrics.droppedSlowClients.Increment();
+            if (timedOut_) context_.services.metrics.droppedSlowClients.Increment();
             co_return false;
         }
         deadline.count(size);
@@ -444,6 +454,22 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
     co_await connection->run(std::move(request));
 }
 
+/// Closes the stream after `timeout`, unless the deadline is started again or ended before. The operation that waits
+/// for the client then fails.
+void HttpConnection::startDeadline(TimerClock::Clock::duration timeout) {
+    deadline_->start(clock().now() + timeout, [weak = weak_from_this(), started = ++deadlineChanges_] {
+        const auto self = weak.lock();
+        if (!self || self->deadlineChanges_ != started) return;
+        self->timedOut_ = true;
+        self->stream_.close();
+    });
+}
+
+void HttpConnection::endDeadline() {
+    ++deadlineChanges_;
+    deadline_->cancel();
+}
+
 void HttpConnection::end(ConnectionRegistry::EndReason reason) {
     stopping_ = true;
     if (reading_ || reason == ConnectionRegistry::EndReason::evicted) stream_.close();
@@ -462,7 +488,7 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
     context.services.metrics.connections.Increment();
     auto& connections = context.services.metrics.connections;
     try {
-        AddressAccountPtr client = context.services.clients.findOrCreate(peer.address());
+        AddressAccountPtr client = context.services.clients.findOrCreate(peer.address(), context.services.clock.now());
         // The limit of connections per client does not apply to a trusted proxy, because its connections serve many
         // clients: each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());

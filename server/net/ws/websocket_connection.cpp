@@ -13,6 +13,7 @@
 #include "net/jobs/parse_long_message_job.hpp"
 #include "net/jobs/run_on_pool.hpp"
 #include "net/live/errors.hpp"
+#include "net/pause.hpp"
 #include "store/secret.hpp"
 #include "wire/messages.hpp"
 #include "wire/parse.hpp"
@@ -33,13 +34,6 @@ constexpr std::size_t kReadChunk = 64U << 10U;       // maximum number of bytes 
 constexpr std::size_t kMinQueue = 64U << 10U;
 
 constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
-
-/// Returns a function that starts the timer, which then calls the function's argument at the time `when`.
-std::function<void(std::function<void(std::monostate)>)> timerStarter(Timer& timer, Timer::Clock::time_point when) {
-    return [&timer, when](const std::function<void(std::monostate)>& done) {
-        timer.start(when, [done] { done(std::monostate{}); });
-    };
-}
 
 }  // namespace
 
@@ -157,7 +151,8 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() 
 /// Handles the message in `message_`.
 asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
     services_.metrics.messagesReceived.Increment();
-    co_await pause(client_->countMessage(message_.size(), services_.clock.now()));
+    const auto wait = client_->countMessage(message_.size(), services_.clock.now());
+    co_await pauseFor(services_.clock, stream_.get_executor(), wait);
     if (closing_) {
         // Ignore all messages that arrive before the client's close frame.
     } else if (!incoming.isText) {
@@ -209,13 +204,6 @@ void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
     } else {
         incoming.refusal = kTooManyBytes;
     }
-}
-
-asio::awaitable<void> WebSocketConnection::pause(std::chrono::duration<double> wait) {
-    if (wait.count() <= 0) co_return;
-    const auto timer = services_.clock.makeTimer(stream_.get_executor());
-    auto start = timerStarter(*timer, services_.clock.now() + toSteadyDuration(wait));
-    co_await awaitCallback<std::monostate>(std::move(start));
 }
 
 /// Waits until `isTrue` returns true or the connection has ended. Calls `isTrue` again whenever the timer `changed` is

@@ -83,7 +83,6 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     boost::asio::awaitable<Incoming> read();
     void admitOrRefuseLongMessage(Incoming& incoming);
     boost::asio::awaitable<void> waitUntil(boost::asio::steady_timer& changed, std::function<bool()> isTrue);
-    boost::asio::awaitable<void> pause(std::chrono::duration<double> wait);
     boost::asio::awaitable<void> parseAndExecute(std::string_view text);
     boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
     boost::asio::awaitable<void> execute(wire::Request request);

@@ -18,14 +18,15 @@ constexpr std::size_t kTotalBytes = 1000;
 
 TEST(Clients, AreIdentifiedByAddress) {
     Clients clients({}, {}, kTotalBytes);
-    EXPECT_EQ(clients.findOrCreate(make_address("192.0.2.1")), clients.findOrCreate(make_address("::ffff:192.0.2.1")));
-    EXPECT_NE(clients.findOrCreate(make_address("192.0.2.1")), clients.findOrCreate(make_address("192.0.2.2")));
-    EXPECT_EQ(clients.findOrCreate(make_address("2001:db8:1:2::1")),
-              clients.findOrCreate(make_address("2001:db8:1:2:ffff::9")));
-    EXPECT_NE(clients.findOrCreate(make_address("2001:db8:1:2::1")),
-              clients.findOrCreate(make_address("2001:db8:1:3::1")));
-    EXPECT_EQ(clients.findOrCreate(make_address("2001:db8:1:2::1"))->name(), "2001:db8:1:2::/64");
-    EXPECT_NE(clients.findOrCreate(make_address("::1")), clients.findOrCreate(make_address("::2")));
+    EXPECT_EQ(clients.findOrCreate(make_address("192.0.2.1"), {}),
+              clients.findOrCreate(make_address("::ffff:192.0.2.1"), {}));
+    EXPECT_NE(clients.findOrCreate(make_address("192.0.2.1"), {}), clients.findOrCreate(make_address("192.0.2.2"), {}));
+    EXPECT_EQ(clients.findOrCreate(make_address("2001:db8:1:2::1"), {}),
+              clients.findOrCreate(make_address("2001:db8:1:2:ffff::9"), {}));
+    EXPECT_NE(clients.findOrCreate(make_address("2001:db8:1:2::1"), {}),
+              clients.findOrCreate(make_address("2001:db8:1:3::1"), {}));
+    EXPECT_EQ(clients.findOrCreate(make_address("2001:db8:1:2::1"), {})->name(), "2001:db8:1:2::/64");
+    EXPECT_NE(clients.findOrCreate(make_address("::1"), {}), clients.findOrCreate(make_address("::2"), {}));
 }
 
 TEST(Clients, ForwardedForIsUsedOnlyFromTrustedProxies) {
