@@ -158,18 +158,23 @@ def test_the_client_rejoins_its_session_after_restarts(tmp_path):
 
 
 def test_a_client_can_be_closed_while_it_reconnects(server, monkeypatch):
-    reconnects = threading.Event()
+    reconnects, closed = threading.Event(), asyncio.Event()
     original = oval4d_client.Client._open
 
     async def open_late(self, *arguments):
         reconnects.set()
-        while not self._closing:
-            await asyncio.sleep(0.01)
-        await asyncio.sleep(0.1)  # meanwhile, the lost connection is closed
+        await closed.wait()
         return await original(self, *arguments)
 
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
+        close_lost_connection = oval._socket.close
+
+        async def close():  # only Client.close() calls it, before it waits for the reader, which reconnects
+            await close_lost_connection()
+            closed.set()
+
+        monkeypatch.setattr(oval._socket, "close", close)
         monkeypatch.setattr(oval4d_client.Client, "_open", open_late)
         oval._loop.call_soon_threadsafe(oval._socket.transport.abort)
         assert reconnects.wait(DEADLINE)

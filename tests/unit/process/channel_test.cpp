@@ -5,12 +5,15 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
 
+#include "hang_limit.hpp"
 #include "process/channel.hpp"
 
 namespace oval4d::process {
@@ -31,6 +34,13 @@ WaitLimit stopped() {
     std::stop_source stop;
     stop.request_stop();
     return {WaitLimit::Clock::time_point::max(), stop.get_token()};
+}
+
+/// Returns whether the main thread of this process waits in the kernel.
+bool mainThreadWaits() {
+    std::ifstream file("/proc/self/stat");
+    const std::string stat(std::istreambuf_iterator<char>(file), {});
+    return stat.at(stat.rfind(')') + 2) == 'S';  // the state follows the name, which is in parentheses (proc(5))
 }
 
 TEST(Channel, KnowsWhenNobodyIsThere) {
@@ -64,7 +74,7 @@ TEST(Channel, WaitsNoLongerWhenAskedToStop) {
     const Channel channel(here), hanging(there);
     std::stop_source stop;
     std::thread stopping([&] {
-        std::this_thread::sleep_for(20ms);
+        EXPECT_TRUE(support::eventually(mainThreadWaits));  // in receive()
         stop.request_stop();
     });
     MessageType type{};
