@@ -209,8 +209,8 @@ session::LoadObject bodyOf(const json& message) {
     if (message.contains("data") && message.contains("path"))
         throw InvalidRequest{"load: give either /data or /path, not both"};
     if (message.contains("data") && !message.contains("format")) throw InvalidRequest{"load: /format is missing"};
-    session::LoadObject load{message.at("name"), message.value("format", ""), message.value("data", ""),
-                             message.value("continues", false)};
+    // parse() adds the member `data`.
+    session::LoadObject load{message.at("name"), message.value("format", ""), {}, message.value("continues", false)};
     load.dataName = message.value("path", "");
     load.axes = message.value("axes", "");
     load.variable = message.value("variable", "");
@@ -276,14 +276,21 @@ Get bodyOf(const json& message) {
 
 using RequestBody = decltype(Request::body);
 
-// A type of messages, and the function that parses a valid message of this type.
+// A type of messages, and the function that parses a valid message of this type. The function may move strings out of
+// the message.
 struct RequestType {
     std::string_view name;
-    RequestBody (*bodyOf)(const json& message);
+    RequestBody (*parse)(json& message);
 };
 template <typename T>
-RequestBody parse(const json& message) {
-    if constexpr (boost::mp11::mp_contains<session::Command, T>::value) {
+RequestBody parse(json& message) {
+    if constexpr (std::is_same_v<T, session::LoadObject>) {
+        auto load = bodyOf<session::LoadObject>(message);
+        // The text of a file may have many megabytes, so it is not copied.
+        if (const auto data = message.find("data"); data != message.end())
+            load.data = std::move(data->get_ref<std::string&>());
+        return session::Command{std::move(load)};
+    } else if constexpr (boost::mp11::mp_contains<session::Command, T>::value) {
         return session::Command{bodyOf<T>(message)};
     } else {
         return bodyOf<T>(message);
@@ -375,7 +382,7 @@ std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
     }
     if (read.repaired) return refuse(ErrorCode::bad_json, std::move(read.fault));
     try {
-        return Request{id, known->bodyOf(message)};
+        return Request{id, known->parse(read.value)};
     } catch (const InvalidRequest& invalid) {
         return refuse(invalid.code, invalid.message);
     }

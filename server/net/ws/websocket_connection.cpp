@@ -126,11 +126,15 @@ void WebSocketConnection::startHandling(Incoming incoming) {
     watching_ = false;
     asio::co_spawn(stream_.get_executor(), handleMessage(std::move(incoming)),
                    [self = shared_from_this()](const std::exception_ptr& /*failure*/) {
-                       self->message_.consume(self->message_.size());
-                       if (self->message_.capacity() > kMaxIdleBuffer) self->message_.shrink_to_fit();
+                       self->discardMessage();
                        self->executing_ = false;
                        self->executedSignal_.cancel();
                    });
+}
+
+void WebSocketConnection::discardMessage() {
+    message_.consume(message_.size());
+    if (message_.capacity() > kMaxIdleBuffer) message_.shrink_to_fit();
 }
 
 /// Reads the next message. First waits until the current message has been executed, so that a client that closes the
@@ -226,6 +230,7 @@ asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text
             co_return;
         }
         auto parsed = co_await parse(text);
+        discardMessage();  // the text of a long message need not be in memory twice while its object is built
         const auto* bad = std::get_if<wire::BadRequest>(&parsed);
         id = bad != nullptr ? bad->id : std::get<wire::Request>(parsed).id;
         if (bad != nullptr) {

@@ -78,6 +78,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     void closeWithoutHello();
     boost::asio::awaitable<void> readLoop();
     void startHandling(Incoming incoming);
+    void discardMessage();
     boost::asio::awaitable<void> handleMessage(Incoming incoming);
     boost::asio::awaitable<Incoming> readAhead();
     boost::asio::awaitable<Incoming> read();
