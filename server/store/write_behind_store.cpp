@@ -1,4 +1,4 @@
-// The functions of the store's thread and those of its callers are in one file, although it is long, because they share
+// The functions of the store thread and those of its callers are in one file, although it is long, because they share
 // one lock.
 
 #include "store/write_behind_store.hpp"
@@ -37,7 +37,7 @@ WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, WriteBehindSett
       settings_(settings),
       listener_(std::move(listener)),
       now_(std::move(now)),
-      thread_([this] { runThread(); }) {}
+      storeThread_([this] { runThread(); }) {}
 
 WriteBehindStore::~WriteBehindStore() { stop(0ms); }
 
@@ -48,7 +48,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
         stopAt_ = now_() + limit;
     }
     wake_.notify_one();
-    if (thread_.joinable()) thread_.join();
+    if (storeThread_.joinable()) storeThread_.join();
     // The callbacks may own large objects, so destroy the callbacks before this function returns, but without holding
     // the lock.
     CachedSessions cached;

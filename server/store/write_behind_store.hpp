@@ -23,9 +23,9 @@
 namespace oval4d::store {
 
 /// A write-behind cache in front of a Store: it keeps changes in memory and writes them to the store later. It holds
-/// the sessions that are open on this server, and the closed ones whose last change is not yet in the store. Only the
-/// cache's own thread uses the store. If several changes to a session are pending, the cache writes only the newest
-/// state.
+/// the sessions that are open on this server, and the closed ones whose last change is not yet in the store. Only one
+/// thread uses the store: the store thread, which this object starts. If several changes to a session are pending, the
+/// cache writes only the newest state.
 ///
 /// The store counts as unavailable after a failed operation, such as a write to a full store, until its operations
 /// succeed again. While the store is unavailable, changes wait in memory, and no caller waits for the store; the cache
@@ -33,8 +33,8 @@ namespace oval4d::store {
 /// evicted from it. If the store is unavailable and the closed sessions in memory take more than
 /// `WriteBehindSettings::quota`, some of them are evicted from memory. An open session is never evicted.
 ///
-/// Thread-safe. Callbacks must return quickly: they run on the cache's thread, or on the thread that calls a function
-/// of this class.
+/// Thread-safe. Callbacks must return quickly: they run on the store thread, or on the thread that calls a function of
+/// this class.
 class WriteBehindStore {
   public:
     struct WriteBehindSettings {
@@ -82,12 +82,12 @@ class WriteBehindStore {
     /// session is not in the store until it is saved.
     SessionCredentials create();
 
-    /// Makes the cache's thread read a session, and then call `done` as claimAndFetch() does. A session in memory is
+    /// Makes the store thread read a session, and then call `done` as claimAndFetch() does. A session in memory is
     /// passed as by claimAndFetch(). Any other session is not claimed, and `record` must not be written: nothing
     /// changes, neither in memory nor in the store.
     void read(SessionCredentials credentials, std::function<void(FetchResult)> done);
 
-    /// Makes the cache's thread claim a session for this server and then call `done` with the session or with an error:
+    /// Makes the store thread claim a session for this server and then call `done` with the session or with an error:
     /// `not_found`, `bad_token`, or `internal` if the session cannot be fetched now. If `done` receives a record, the
     /// caller must decode it, and then call setStoredKeys() or, if the record cannot be decoded, discardFetched().
     void claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done);
@@ -131,7 +131,7 @@ class WriteBehindStore {
     /// Returns the text of the last error of the store; an empty string while the store is available.
     std::string lastError() const;
 
-    /// Writes pending changes for at most about `limit`, and then ends the cache's thread.
+    /// Writes pending changes for at most about `limit`, and then ends the store thread.
     void stop(Milliseconds limit);
 
   private:
@@ -146,7 +146,7 @@ class WriteBehindStore {
     enum class Access : std::uint8_t { read, claim };
     void requestFetch(SessionCredentials credentials, Access access, std::function<void(FetchResult)> done);
 
-    // The following functions run on the cache's thread.
+    // The following functions run on the store thread.
     void runThread();
     void write();
     void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
@@ -183,7 +183,7 @@ class WriteBehindStore {
     std::condition_variable wake_;
     // Guarded by mutex_.
     CachedSessions cached_;
-    std::deque<std::function<void()>> tasks_;  // do not use the store; the cache's thread runs them before all else
+    std::deque<std::function<void()>> tasks_;  // do not use the store; the store thread runs them before all else
     std::deque<std::function<void()>>
         requests_;                    // calls of read(), claimAndFetch(), remove(); take turns with writes and polls
     std::set<std::string> removals_;  // ids to remove from the store
@@ -195,12 +195,12 @@ class WriteBehindStore {
     bool stopping_ = false;
     Clock::time_point stopAt_;  // if `stopping_`: the time at which the thread ends even if changes are pending
 
-    // Used only by the cache's thread.
+    // Used only by the store thread.
     StoredObjectKeys objects_;
     Backoff backoff_;
     Clock::time_point refreshAt_;  // time of the next renewAndExpireSessions()
 
-    std::thread thread_;  // the last member, so that the others are initialized before the thread uses them
+    std::thread storeThread_;  // the last member, so that the others are initialized before the thread uses them
 };
 
 }  // namespace oval4d::store
