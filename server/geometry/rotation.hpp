@@ -26,7 +26,7 @@ constexpr Plane perpendicular(Plane plane) { return static_cast<Plane>(5 - stati
 /// Returns the name of a plane, from "xy" to "zw".
 std::string_view name(Plane plane);
 
-/// Returns the plane with this name, or std::nullopt if no plane has this name.
+/// Returns the plane with this name, or an empty optional if no plane has this name.
 std::optional<Plane> planeNamed(std::string_view text);
 
 /// A rotation, described by angles in coordinate planes, in radians. It turns in all these planes at the same time: it
@@ -41,7 +41,7 @@ class Turn {
     /// perpendicular plane.
     Turn(Plane plane, double alpha, std::optional<double> beta = {});
 
-    /// Returns the angle in a plane, in radians; std::nullopt if the turn has no angle in this plane.
+    /// Returns the angle in a plane, in radians; an empty optional if the turn has no angle in this plane.
     const std::optional<double>& operator[](Plane plane) const { return angles_[static_cast<std::size_t>(plane)]; }
     std::optional<double>& operator[](Plane plane) { return angles_[static_cast<std::size_t>(plane)]; }
 
@@ -72,14 +72,14 @@ class Rotation {
     /// The rotation exp(Σ θ_ab G_ab) of a turn.
     explicit Rotation(const Turn& turn);
 
-    /// Returns the rotation with the matrix M (v' = M v), or std::nullopt if M is not a rotation matrix. M counts as a
-    /// rotation matrix if each of its entries differs by at most `tolerance` from the corresponding entry of the matrix
-    /// of the returned rotation.
+    /// Returns the rotation with the matrix M (v' = M v), or an empty optional if M is not a rotation matrix. M counts
+    /// as a rotation matrix if each of its entries differs by at most `tolerance` from the corresponding entry of the
+    /// matrix of the returned rotation.
     static std::optional<Rotation> fromMatrix(const glm::dmat4& matrix, double tolerance = 1e-6);
 
     /// Returns the rotation with exactly these quaternions. Does not normalize the quaternions again, so that a stored
-    /// rotation is restored bit by bit. Returns std::nullopt if the length of a quaternion differs from 1 by 1e-10 or
-    /// more.
+    /// rotation is restored bit by bit. Returns an empty optional if the length of a quaternion differs from 1 by 1e-10
+    /// or more.
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
     /// Returns the simple rotation by the smallest angle that takes the direction of `from` to the direction of `to`.

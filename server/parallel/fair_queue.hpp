@@ -157,9 +157,9 @@ class FairQueue {
     /// and does not queue the job, if a limit is reached.
     [[nodiscard]] bool push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clock::time_point now);
 
-    /// Removes and returns the job to start now. Returns std::nullopt if no job is waiting, or if only long jobs are
-    /// waiting and they must wait longer: all threads that are not reserved run long jobs, and the next long job may
-    /// not start on a reserved thread.
+    /// Removes and returns the job to start now. Returns an empty optional if no job is waiting, or if only long jobs
+    /// are waiting and they must wait longer: all threads that are not reserved run long jobs, and the next long job
+    /// may not start on a reserved thread.
     std::optional<DueJob> popStartableJob(Clock::time_point now);
 
     /// Records that the job ended. `took`: the measured running time.

@@ -74,8 +74,8 @@ class ConvexityTest {
     }
 
     // Returns the point nearest to the origin in the flat through points_, which is an affine subspace of this
-    // dimension. Returns std::nullopt if the points span only a flat of lower dimension, or if the flat contains the
-    // origin. Overwrites points_.
+    // dimension. Returns an empty optional if the points span only a flat of lower dimension, or if the flat contains
+    // the origin. Overwrites points_.
     std::optional<glm::dvec4> footOf(int dimension) {
         glm::dvec4 foot = points_.front();
         for (glm::dvec4& point : points_) point -= foot;
@@ -184,8 +184,8 @@ class ConvexityTest {
         return std::all_of(turn.begin(), turn.end(), [](double t) { return t < kMaxTurn; });
     }
 
-    // Returns an orthonormal basis of the plane perpendicular to a and b, or std::nullopt if a and b are parallel or a
-    // is 0.
+    // Returns an orthonormal basis of the plane perpendicular to a and b, or an empty optional if a and b are parallel
+    // or a is 0.
     static std::optional<std::array<glm::dvec4, 2>> orthogonalPlane(const glm::dvec4& a, const glm::dvec4& b) {
         const double length = glm::length(a);
         if (!(length > 0)) return {};

@@ -62,8 +62,8 @@ geometry::Rotation rotationToW(const Object& object, const Element& element, con
 /// `orientation`. If `incident` is given, considers only elements that contain `incident` or are contained in it; among
 /// elements of the kind of `incident`, considers only `incident` itself. If the closest element already points to +w,
 /// returns instead the considered element with the next greater index or, after the last one, the first. Therefore a
-/// caller that turns each result to +w visits one element after another. Returns std::nullopt if there is no element to
-/// consider. Takes time linear in the size of the object.
+/// caller that turns each result to +w visits one element after another. Returns an empty optional if there is no
+/// element to consider. Takes time linear in the size of the object.
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident = {});
 
@@ -129,7 +129,7 @@ std::string nameOfFace(const Object& object, std::size_t face);
 /// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
 /// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
 /// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlaneTolerance
-/// circumradii (see slice_set.hpp) count as equal. Returns std::nullopt if there is no such vertex.
+/// circumradii (see slice_set.hpp) count as equal. Returns an empty optional if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 

@@ -64,7 +64,7 @@ consteval std::array<Row, size> completeTable(const Row (&rows)[size]) {
     return table;
 }
 
-/// Returns the value with this name or alias; std::nullopt if the table does not contain the name.
+/// Returns the value with this name or alias; an empty optional if the table does not contain the name.
 template <typename Choices>
 constexpr auto valueNamed(const Choices& choices, std::string_view name)
     -> std::optional<decltype(choices.begin()->value)> {

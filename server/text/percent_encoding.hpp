@@ -7,7 +7,7 @@
 
 namespace oval4d::text {
 
-/// Decodes percent escapes. Returns std::nullopt if a "%" is not followed by two hexadecimal digits.
+/// Decodes percent escapes. Returns an empty optional if a "%" is not followed by two hexadecimal digits.
 std::optional<std::string> percentDecoded(std::string_view text);
 
 /// Encodes all bytes except unreserved characters (letters, digits and -._~) and the characters in `plain`. `plain`

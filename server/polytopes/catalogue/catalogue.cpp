@@ -153,7 +153,7 @@ std::vector<NearMatch> nearest(std::string_view text) {
     return best;
 }
 
-// Returns the reason why a polytope is too large to be built; std::nullopt if it is not too large.
+// Returns the reason why a polytope is too large to be built; an empty optional if it is not too large.
 std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices) {
     const auto error = [&](const std::string& what, std::uint64_t most) {
         return NameError{NameError::Reason::too_large,

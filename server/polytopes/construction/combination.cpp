@@ -41,8 +41,8 @@ struct Operand {
 
 using Words = std::vector<std::string>;
 
-// Returns the index of the "and" between the two operands; std::nullopt if there is none. Skips an "and" that belongs
-// to a combination within the first operand.
+// Returns the index of the "and" between the two operands; an empty optional if there is none. Skips an "and" that
+// belongs to a combination within the first operand.
 std::optional<std::size_t> findAnd(const Words& words) {
     int nested = 0;
     for (std::size_t i = 2; i < words.size(); ++i) {
@@ -135,7 +135,7 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
 
 // Parses the name of a combination of two polytopes: "hull of tesseract and 16-cell", "intersection of 120-cell and
 // 600-cell of circumradius 4", "product of 5-gon and 7-gon". Returns an error if the text begins with "hull of",
-// "intersection of" or "product of" but is not a valid name; std::nullopt for other texts.
+// "intersection of" or "product of" but is not a valid name; an empty optional for other texts.
 //
 // Both polytopes of a hull or an intersection must be convex; each is centered at the origin. By default, the first
 // polytope has the size with which it is built alone, and the second polytope is scaled to the circumradius of the

@@ -112,7 +112,7 @@ class SetOrbits {
     geometry::JaggedArray lists;
     ReflectionImages images;
 
-    /// Adds the orbit of `seed` to `lists`, and returns the index of `seed` there; std::nullopt if an orbit added
+    /// Adds the orbit of `seed` to `lists`, and returns the index of `seed` there; an empty optional if an orbit added
     /// before contains `seed`. `memberImages` holds the images, under the reflections, of all members of sets.
     std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed,
                                           const ReflectionImages& memberImages) {

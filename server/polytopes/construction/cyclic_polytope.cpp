@@ -103,7 +103,7 @@ class CyclicPolytopeRecipe : public Recipe {
     std::uint32_t n_;
 };
 
-// Returns n for the symbol "c(n,4)"; std::nullopt for other texts.
+// Returns n for the symbol "c(n,4)"; an empty optional for other texts.
 std::optional<Branch> verticesInSymbol(std::string_view symbol) {
     constexpr std::string_view kBegin = "c(", kEnd = ")";
     if (!symbol.starts_with(kBegin) || !symbol.ends_with(kEnd)) return {};
@@ -116,7 +116,7 @@ std::optional<Branch> verticesInSymbol(std::string_view symbol) {
 
 // Parses the name of a cyclic polytope: "cyclic polytope C(7,4)", "C(7, 4)", "7-cyclic polytope". Returns an error if
 // the text begins or ends with "cyclic polytope" or begins with "C(", but names no number of vertices that is allowed;
-// std::nullopt for other texts. The design for five vertices is that of the 5-cell.
+// an empty optional for other texts. The design for five vertices is that of the 5-cell.
 std::optional<DesignOrError> cyclicPolytopeNamed(const NameWords& text) {
     const std::vector<std::string>& words = text.words;
     const auto isFamily = [&](std::size_t at) {

@@ -123,7 +123,7 @@ std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
 }
 
 // Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the ringed mirrors, where
-// mirror 0 is the first one of the symbol; std::nullopt for an unknown operation.
+// mirror 0 is the first one of the symbol; an empty optional for an unknown operation.
 std::optional<MirrorSet> parseRingPrefix(std::string_view text) {
     constexpr std::pair<std::string_view, MirrorSet> kNamed[] = {
         {"", 1}, {"r", 2}, {"t", 3}, {"2r", 4}, {"rr", 5}, {"2t", 6}, {"tr", 7}, {"2rr", 10}, {"2tr", 14}};

@@ -48,7 +48,7 @@ std::string schlaefliOf(const Diagram& diagram);
 std::string textOf(Branch branch);
 
 /// Parses a branch such as "5" or "5/2": an integer of at least 2, or a fraction in lowest terms greater than 2. The
-/// numerator is at most 1,000,000. Returns std::nullopt for other texts.
+/// numerator is at most 1,000,000. Returns an empty optional for other texts.
 std::optional<Branch> parseBranch(std::string_view text);
 
 }  // namespace oval4d::polytopes

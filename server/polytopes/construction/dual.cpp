@@ -112,7 +112,7 @@ std::optional<Diagram> regularDiagram(const Design& design) {
 namespace {
 
 // Parses a text such as "dual of rectified 5-cell". Returns the design of the dual, an error if the rest of the text
-// names no polytope, or std::nullopt if the text does not begin with "dual".
+// names no polytope, or an empty optional if the text does not begin with "dual".
 //
 // The dual is the polar reciprocal of the named polytope (Coxeter, Regular Polytopes, §7.5): a vertex v of the dual
 // corresponds to the cell of the polytope in the hyperplane v · x = r², where r² is the circumradius times the least

@@ -21,7 +21,7 @@ std::vector<glm::dvec4> polesOf(const Polytope& polytope);
 Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices);
 
 /// Returns the diagram of a regular polytope: a chain whose only ringed mirror is the first one, with the branches in
-/// the order of the Schläfli symbol. Returns std::nullopt for other polytopes.
+/// the order of the Schläfli symbol. Returns an empty optional for other polytopes.
 std::optional<Diagram> regularDiagram(const Design& design);
 
 }  // namespace oval4d::polytopes

@@ -131,8 +131,8 @@ class DuoantiprismRecipe : public Recipe {
 
 // Parses the name of a duoantiprism of two regular polygons: "3,4-duoantiprism", "3-4 duoantiprism",
 // "triangular-square duoantiprism", "pentagonal duoantiprism" (of two pentagons). Returns an error if the text ends
-// with "duoantiprism", but does not name two polygons before it, or if one of them is a star; std::nullopt for other
-// texts. The canonical name has the smaller number of sides first, as in "3,4-duoantiprism".
+// with "duoantiprism", but does not name two polygons before it, or if one of them is a star; an empty optional for
+// other texts. The canonical name has the smaller number of sides first, as in "3,4-duoantiprism".
 //
 // The duoantiprism of a p-gon and a q-gon is the convex hull of every other vertex of the duoprism of a 2p-gon and a
 // 2q-gon. Its cells are 2p q-gonal antiprisms, 2q p-gonal antiprisms and, in place of the removed vertices, 2pq

@@ -45,7 +45,7 @@ struct Notation {
     /// Y".
     std::string_view constructions = {};
     /// Parses a text. Returns the design; an error if the text is in this notation but denotes no polytope;
-    /// std::nullopt if the text is not in this notation.
+    /// an empty optional if the text is not in this notation.
     std::optional<DesignOrError> (*parse)(const NameWords& text);
 };
 

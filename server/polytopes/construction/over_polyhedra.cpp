@@ -117,8 +117,8 @@ Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
 
 // Parses the name of a prism, pyramid or bipyramid over a polyhedron: "prism of cube", "pyramid of rhombic
 // dodecahedron", "bipyramid of 5-gonal antiprism". solids.hpp describes the polyhedra. Returns an error if the text
-// begins with "prism of", "pyramid of" or "bipyramid of", but the rest names no convex polyhedron; std::nullopt for
-// other texts.
+// begins with "prism of", "pyramid of" or "bipyramid of", but the rest names no convex polyhedron; an empty optional
+// for other texts.
 //
 // The prism has the height 2. If the polyhedron is uniform and its circumradius is less than 2, the height of a
 // pyramid, and of each half of a bipyramid, is such that all edges to the apex have length 2; otherwise the height is

@@ -40,13 +40,13 @@ std::string adjectiveOf(RegularPolygon polygon);
 std::string nounOf(RegularPolygon polygon);
 
 /// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
-/// std::nullopt if the word names no polygon. The result for "2" is a polygon of two sides; callers that need at least
-/// three sides must reject it.
+/// an empty optional if the word names no polygon. The result for "2" is a polygon of two sides; callers that need at
+/// least three sides must reject it.
 std::optional<RegularPolygon> polygonNamed(std::string_view word);
 
 /// Returns the polygons that `words` name: the words before "duoprism" or the like in the name of a polytope. The
 /// result has two polygons for "5,7", "5x7", "5" "7" or "triangular" "square". If the words name a single polygon, such
-/// as "pentagonal", the result has this polygon twice. Returns std::nullopt if one of the words names no polygon.
+/// as "pentagonal", the result has this polygon twice. Returns an empty optional if one of the words names no polygon.
 /// Callers must reject a result that does not have exactly two polygons; callers that need at least three sides must
 /// also reject polygons of two sides.
 std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std::string> words);

@@ -18,7 +18,7 @@ namespace {
 
 // Parses the name of a duoprism of two regular polygons: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism",
 // "pentagonal duoprism" (of two pentagons). Returns an error if the text ends with "duoprism", but does not name two
-// polygons with at least three sides before it; std::nullopt for other texts.
+// polygons with at least three sides before it; an empty optional for other texts.
 std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
     if (text.words.back() != "duoprism") return {};
     const auto polygons = duoprismPolygonsNamed(text.withoutLast());
@@ -33,7 +33,7 @@ std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
 
 // Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube
 // prism", "truncated cubic prism". Returns an error for a polygon with fewer than three sides, and for a star as the
-// polygon of an antiprism; std::nullopt for other texts.
+// polygon of an antiprism; an empty optional for other texts.
 std::optional<DesignOrError> prismNamed(const NameWords& text) {
     if (text.words.back() != "prism" || text.words.size() < 2) return {};
     const std::vector<std::string> words = text.withoutLast();
@@ -55,8 +55,8 @@ std::optional<DesignOrError> prismNamed(const NameWords& text) {
     return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
 }
 
-// Parses the diagram of a prism over a snub polyhedron or an antiprism: "s4s3s x", "x s2s5s". Returns std::nullopt for
-// other texts.
+// Parses the diagram of a prism over a snub polyhedron or an antiprism: "s4s3s x", "x s2s5s". Returns an empty optional
+// for other texts.
 std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
     const std::string wanted = text::normalizedName(text.joinedFrom(0));
     for (const NamedPolyhedron& base : namedPolyhedra()) {

@@ -34,8 +34,8 @@ struct Solid {
 
 /// Returns the solid that the words (lower case, at least one) name, such as "truncated cube", "5 gonal prism",
 /// "pentagonal antiprism", "dual of cuboctahedron", "rhombic dodecahedron" or "hexagonal bipyramid". Returns an error
-/// if the name is that of a star, or of a solid over a polygon of fewer than three sides; std::nullopt if the words
-/// name no polyhedron. All names of a solid give equal values: "dual of cube" gives the value of "octahedron".
+/// if the name is that of a star, or of a solid over a polygon of fewer than three sides; an empty optional if the
+/// words name no polyhedron. All names of a solid give equal values: "dual of cube" gives the value of "octahedron".
 std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words);
 
 /// Returns the name, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".

@@ -61,7 +61,7 @@ bool isConvex(const Diagram& diagram) {
 
 // Parses the name of a convex polytope whose vertices are cut off: "truncation of grand antiprism", "rectification of
 // dual of 5,7-duoprism". Returns an error if the text begins with "truncation of" or "rectification of", but the rest
-// names no polytope; std::nullopt for other texts.
+// names no polytope; an empty optional for other texts.
 //
 // The rectification is the convex hull of the midpoints of the edges. The truncation is the convex hull of the points
 // that divide the edges into thirds. If the midpoints or dividing points next to a vertex do not lie in one hyperplane,

@@ -197,8 +197,8 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayout
 }
 
 // If the file has as many lines as records, returns the fault of the first record whose line has too few words;
-// otherwise std::nullopt. Without this function, the error would name a later record: a reader that ignores line breaks
-// completes the short record with words of the next line. `file` is a copy, which begins after the header.
+// otherwise an empty optional. Without this function, the error would name a later record: a reader that ignores line
+// breaks completes the short record with words of the next line. `file` is a copy, which begins after the header.
 std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;

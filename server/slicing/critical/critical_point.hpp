@@ -20,8 +20,8 @@ struct PlacedFunction {
 
 /// Finds a point near `start` at which a level set is tangent to a hyperplane w = const: a point where f = `level` and
 /// ∂f/∂x = ∂f/∂y = ∂f/∂z = 0. Uses Newton's method with damped least squares, which converges even if such points are
-/// not isolated. All lengths are in the units of the object. Returns std::nullopt if the iteration does not converge
-/// within the distance `reach` of `start`, or if ∂f/∂w is also 0 at the point.
+/// not isolated. All lengths are in the units of the object. Returns an empty optional if the iteration does not
+/// converge within the distance `reach` of `start`, or if ∂f/∂w is also 0 at the point.
 std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double level, const glm::dvec4& start,
                                             double reach);
 

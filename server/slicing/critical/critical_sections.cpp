@@ -318,8 +318,8 @@ class CriticalSearch {
 
     // Refines the critical w of a change of this kind on finer lattices around the points where the section is most
     // nearly tangent to the hyperplane. Parts that merge or vanish are tangent in the section `before`; parts that
-    // split or appear are tangent in the section `after`. Returns std::nullopt for a change of handles, because finer
-    // lattices show additional handles where the surface has creases.
+    // split or appear are tangent in the section `after`. Returns an empty optional for a change of handles, because
+    // finer lattices show additional handles where the surface has creases.
     std::optional<double> searchOnFinerLattices(const TopologyChange& change, SectionChange kind,
                                                 const SliceSurface& before, const SliceSurface& after) const {
         constexpr std::size_t kStarts = 24;

@@ -103,7 +103,7 @@ inline constexpr double kCriticalTolerance = 1e-4;   // CriticalSections::tolera
 inline constexpr double kCriticalResolution = 1e-3;  // CriticalSections::resolution / range of w
 
 /// Returns the next critical w above `w` or, if `upward` is false, below it. Values that differ by at most `same` count
-/// as equal. Returns std::nullopt if there is no such critical w.
+/// as equal. Returns an empty optional if there is no such critical w.
 std::optional<double> nextCriticalW(const CriticalSections& sections, double w, bool upward, double same);
 
 }  // namespace oval4d::slicing

@@ -54,8 +54,8 @@ class LocalChangeSearch {
     LocalChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
                       fields::Inside inside, std::function<bool()> mustEnd);
 
-    /// Returns the w of the change. Returns std::nullopt if there is no change in the first window, or if the smaller
-    /// windows do not have the same change.
+    /// Returns the w of the change. Returns an empty optional if there is no change in the first window, or if the
+    /// smaller windows do not have the same change.
     std::optional<double> find(const Change& change, const Start& start);
 
   private:

@@ -34,7 +34,7 @@ SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t leve
 
 /// Returns the mean of a function over the level set, without caps, weighted by area. `values` are the values of the
 /// function at the points of the surface; the function is treated as linear in each triangle. Ignores triangles with a
-/// value that is not finite. Returns std::nullopt if the area of the other triangles is 0.
+/// value that is not finite. Returns an empty optional if the area of the other triangles is 0.
 std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<const float> values);
 
 /// The connected parts of the surface of one level.
