@@ -1,6 +1,5 @@
 #include "render/renderer.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -39,8 +38,7 @@ std::string fontFile() {
 namespace {
 
 // With OpenGL, the patches (see shape_batch.hpp) of convex slices are drawn in batches of at least this many. Only the
-// last batch, and the last one before the projection of the whole object, may be smaller. While the threads of the
-// driver rasterize one batch, this thread prepares the next one.
+// last batch may be smaller. While the threads of the driver rasterize one batch, this thread prepares the next one.
 constexpr std::size_t kBatchPatches = 2'000;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
@@ -120,19 +118,36 @@ struct Renderer::Impl {
           overlay(font) {}
 
     void flushShapes();
+    PixelArea depthAreaOfProjection(const scene::Scene& scene) const;
+    void prepareProjection(const scene::Scene& scene);
+    void addProjection();
+    void drawProjection(const scene::Scene& scene);
+    void addConvexSlices(const scene::Scene& scene);
     void drawConvexSlices(const scene::Scene& scene);
-    std::size_t addConvexSlices(const scene::Scene& scene);
     void addLayers(const scene::Scene& scene);
     void drawLayers(const scene::Scene& scene);
-    void drawProjection(DepthRange depths);
+    void drawOpaqueSurfaces(DepthRange depths);
     void prepareFog(const scene::Scene& scene, DepthRange depths);
     void drawFogBehindFrame(const scene::Scene& scene);
     void drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths);
 
-    /// The surfaces of the nearer or of the farther slices, for drawing without OpenGL.
-    struct NearOrFarSurfaces {
+    /// Surfaces for drawing without OpenGL.
+    struct SurfacesInMemory {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
+
+        void prepare(const scene::Scene& scene, SurfaceBatch::Selection selection) {
+            DepthRange depths;  // collect() writes it, but only drawing with OpenGL reads it
+            batch.collect(scene, depths, selection);
+            rasterizer.projectAndLight(scene.viewport, scene.style(), batch);
+        }
+        std::span<const std::uint32_t> opaque() const {
+            return std::span(batch.opaqueIndices()).first(batch.fringesBegin());
+        }
+        std::span<const std::uint32_t> fringes() const {
+            return std::span(batch.opaqueIndices()).subspan(batch.fringesBegin());
+        }
+        std::span<const std::uint32_t> translucent() const { return batch.translucentIndices(); }
     };
 
     parallel::ThreadOwnerAssertion owner;
@@ -150,9 +165,10 @@ struct Renderer::Impl {
     NonconvexShapeCollector::Layers layers;
     ProjectionShapeCollector projectionCollector;
     ProjectionShapeCollector::Layers projectionLayers;
-    SurfaceBatch surfaces;                           // of all slices, for drawing with OpenGL
-    std::array<NearOrFarSurfaces, 2> surfaceHalves;  // of the nearer slices; of the farther slices
-    std::optional<FogPainter> fogPainter;            // made for the first picture with fog
+    SurfaceBatch surfaces;                          // of the projection and then of all slices, for drawing with OpenGL
+    std::array<SurfacesInMemory, 2> surfaceHalves;  // of the nearer slices; of the farther slices
+    SurfacesInMemory projectionSurfaces;
+    std::optional<FogPainter> fogPainter;  // made for the first picture with fog
 };
 
 void Renderer::Impl::flushShapes() {
@@ -161,45 +177,69 @@ void Renderer::Impl::flushShapes() {
     shapes.clear();
 }
 
-// Draws convex slices and the projection of the whole object with OpenGL.
+// Returns a part of the picture that contains the projection of the whole object, which must have been collected. Where
+// it is small, clearing the whole depth buffer would take longer than drawing the projection.
+PixelArea Renderer::Impl::depthAreaOfProjection(const scene::Scene& scene) const {
+    if (scene.projection.focusSurface) return {{0, 0}, {scene.viewport.width, scene.viewport.height}};
+    return areaOf(projectionLayers, scene.viewport);
+}
+
+// Prepares the projection of the whole object for drawing without OpenGL.
+void Renderer::Impl::prepareProjection(const scene::Scene& scene) {
+    projectionCollector.collect(scene, projectionLayers);
+    projectionSurfaces.prepare(scene, SurfaceBatch::Selection::projection);
+}
+
+// Adds the projection of the whole object, which must have been prepared, to the rasterizer. What is added later must
+// not be hidden by its depths.
+void Renderer::Impl::addProjection() {
+    using DepthUse = ShapeRasterizer::DepthUse;
+    using Blending = SurfaceRasterizer::Blending;
+    const auto& [solid, translucent, depths] = projectionLayers;
+    const SurfacesInMemory& own = projectionSurfaces;
+    shapeRasterizer.add(own.rasterizer, own.opaque(), Blending::none);
+    shapeRasterizer.add(own.rasterizer, own.fringes(), Blending::alpha);
+    shapeRasterizer.add(solid, 0, solid.patches().size(), DepthUse::written);
+    shapeRasterizer.add(translucent, 0, translucent.patches().size(), DepthUse::tested);
+    shapeRasterizer.add(own.rasterizer, own.translucent(), Blending::alpha);
+}
+
+// Draws the projection of the whole object with OpenGL, if it is shown. Afterward, its depths are in the depth buffer;
+// slices must not be tested against them.
+void Renderer::Impl::drawProjection(const scene::Scene& scene) {
+    if (!scene.projectionPlacement.shown) return;
+    projectionCollector.collect(scene, projectionLayers);
+    DepthRange depths = projectionLayers.depths;
+    surfaces.collect(scene, depths, SurfaceBatch::Selection::projection);
+    glEnable(GL_DEPTH_TEST);
+    clearDepth(depthAreaOfProjection(scene));
+    drawOpaqueSurfaces(depths);
+    surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
+    context.flush();
+    glDepthMask(GL_FALSE);
+    surfaceDepthProgram.drawWithDepth(depths, projectionLayers.translucent);
+    surfaceProgram.draw(depths, surfaces, surfaces.translucentIndices());
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+// Draws convex slices with OpenGL, without a depth buffer.
 void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
     const auto painted = [this] {
         if (shapes.patches().size() >= kBatchPatches) flushShapes();
     };
-    const auto paintProjection = [this, &scene] {
-        flushShapes();
-        projectionCollector.collect(scene, projectionLayers);
-        glEnable(GL_DEPTH_TEST);
-        // Clears only a part, because clearing the whole depth buffer would take longer than drawing the projection.
-        clearDepth(areaOf(projectionLayers, scene.viewport));
-        drawProjection(projectionLayers.depths);
-        glDisable(GL_DEPTH_TEST);
-    };
-    convexCollector.collect(scene, shapes, painted, paintProjection);
+    convexCollector.collect(scene, shapes, painted);
 }
 
-// Prepares convex slices and the projection of the whole object for drawing without OpenGL: collects the slices in
-// `shapes`, and adds the slices that are farther than the projection, and then the projection, to the rasterizer.
-// Returns the index of the first patch of `shapes` that is not added; the caller must add the patches from there on. If
-// the projection is not shown, adds nothing to the rasterizer and returns 0.
-std::size_t Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
-    using DepthUse = ShapeRasterizer::DepthUse;
-    std::size_t nearer = 0;
-    const auto paintSlices = [&] {
-        convexCollector.collect(scene, shapes, [] {}, [&] { nearer = shapes.patches().size(); });
-    };
-    if (!scene.projectionPlacement.shown) {
-        paintSlices();
-        return 0;
-    }
-    const auto paintProjection = [&] { projectionCollector.collect(scene, projectionLayers); };
-    parallel::invoke(forkJoin, std::ref(paintSlices), std::ref(paintProjection));
-    shapeRasterizer.setDepthArea(areaOf(projectionLayers, scene.viewport));
-    shapeRasterizer.add(shapes, 0, nearer, DepthUse::unused);
-    const auto& [solid, translucent, depths] = projectionLayers;
-    shapeRasterizer.add(solid, 0, solid.patches().size(), DepthUse::written);
-    shapeRasterizer.add(translucent, 0, translucent.patches().size(), DepthUse::tested);
-    return nearer;
+// Prepares convex slices and, if shown, the projection of the whole object for drawing without OpenGL: adds the
+// projection to the rasterizer, and collects the slices in `shapes`, which the caller must add.
+void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
+    const auto collectSlices = [&] { convexCollector.collect(scene, shapes, [] {}); };
+    if (!scene.projectionPlacement.shown) return collectSlices();
+    const auto collectProjection = [&] { prepareProjection(scene); };
+    parallel::invoke(forkJoin, std::ref(collectSlices), std::ref(collectProjection));
+    shapeRasterizer.setDepthArea(depthAreaOfProjection(scene));
+    addProjection();
 }
 
 // Prepares slices that may be nonconvex, surfaces and, if shown, the projection of the whole object for drawing without
@@ -208,66 +248,49 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
     auto& [near, far] = surfaceHalves;
-    const auto prepare = [&](NearOrFarSurfaces& pass, SurfaceBatch::DepthHalf half) {
-        DepthRange depths;  // collect() writes it, but only drawing with OpenGL reads it
-        pass.batch.collect(scene, depths, half);
-        pass.rasterizer.projectAndLight(scene.viewport, scene.style(), pass.batch);
-    };
     const auto prepareNear = [&] {
-        prepare(near, SurfaceBatch::DepthHalf::near);
+        near.prepare(scene, SurfaceBatch::Selection::nearer_slices);
         nonconvexCollector.collect(scene, layers);
     };
     const auto prepareFar = [&] {
-        prepare(far, SurfaceBatch::DepthHalf::far);
-        if (scene.projectionPlacement.shown) projectionCollector.collect(scene, projectionLayers);
+        far.prepare(scene, SurfaceBatch::Selection::farther_slices);
+        if (scene.projectionPlacement.shown) prepareProjection(scene);
     };
     parallel::invoke(forkJoin, std::ref(prepareNear), std::ref(prepareFar));
 
     shapeRasterizer.setDepthArea({{0, 0}, {scene.viewport.width, scene.viewport.height}});
-    const auto opaque = [](const NearOrFarSurfaces& pass) { return std::span(pass.batch.opaqueIndices()); };
+    if (scene.projectionPlacement.shown) {
+        addProjection();
+        shapeRasterizer.addDepthClearing(depthAreaOfProjection(scene));
+    }
     const auto add = [this](const ShapeBatch& batch, DepthUse depth) {
         shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
     };
     add(layers.faces, DepthUse::written);
-    for (const NearOrFarSurfaces* pass : {&near, &far})
-        shapeRasterizer.add(pass->rasterizer, opaque(*pass).first(pass->batch.fringesBegin()), Blending::none);
-    for (const NearOrFarSurfaces* pass : {&near, &far})
-        shapeRasterizer.add(pass->rasterizer, opaque(*pass).subspan(pass->batch.fringesBegin()), Blending::alpha);
+    for (const SurfacesInMemory* pass : {&near, &far})
+        shapeRasterizer.add(pass->rasterizer, pass->opaque(), Blending::none);
+    for (const SurfacesInMemory* pass : {&near, &far})
+        shapeRasterizer.add(pass->rasterizer, pass->fringes(), Blending::alpha);
     add(layers.skeleton, DepthUse::written);
-    if (scene.projectionPlacement.shown) {
-        add(projectionLayers.solid, DepthUse::written);
-        add(projectionLayers.translucent, DepthUse::tested);
-    }
-    for (const NearOrFarSurfaces* pass : {&far, &near})
-        shapeRasterizer.add(pass->rasterizer, pass->batch.translucentIndices(), Blending::alpha);
+    for (const SurfacesInMemory* pass : {&far, &near})
+        shapeRasterizer.add(pass->rasterizer, pass->translucent(), Blending::alpha);
     add(layers.faded, DepthUse::tested);
 }
 
-// Uses OpenGL to draw slices that may be nonconvex, surfaces, fog and, if shown, the projection of the whole object.
+// Uses OpenGL to draw slices that may be nonconvex, surfaces and fog.
 void Renderer::Impl::drawLayers(const scene::Scene& scene) {
+    nonconvexCollector.collect(scene, layers);
     DepthRange depths = layers.depths;
     surfaces.collect(scene, depths);
-    if (scene.projectionPlacement.shown) {
-        projectionCollector.collect(scene, projectionLayers);
-        const DepthRange more = projectionLayers.depths;
-        depths = {std::min(depths.from, more.from), std::max(depths.to, more.to)};
-    }
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
     const bool hasFog = !scene.fog.empty();
     if (hasFog) prepareFog(scene, depths);
     glDisable(GL_BLEND);
     patchDepthProgram.drawWithDepth(depths, layers.faces);
-    surfaceProgram.load(depths, surfaces, surfaces.opaqueIndices());
-    surfaceProgram.drawPart(0, surfaces.fringesBegin());
-    context.flush();
-    glEnable(GL_BLEND);
-    glDepthMask(GL_FALSE);
-    surfaceProgram.drawPart(surfaces.fringesBegin(), surfaces.opaqueIndices().size());
-    glDepthMask(GL_TRUE);
+    drawOpaqueSurfaces(depths);
     if (hasFog) drawFogBehindFrame(scene);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
-    if (scene.projectionPlacement.shown) drawProjection(depths);
     glDepthMask(GL_FALSE);
     if (hasFog) {
         drawFogAndSurfaces(scene, depths);
@@ -279,6 +302,18 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     glDisable(GL_DEPTH_TEST);
 }
 
+// Draws the opaque ones of `surfaces`. The depth test must be enabled. Leaves blending enabled.
+void Renderer::Impl::drawOpaqueSurfaces(DepthRange depths) {
+    glDisable(GL_BLEND);
+    surfaceProgram.load(depths, surfaces, surfaces.opaqueIndices());
+    surfaceProgram.drawPart(0, surfaces.fringesBegin());
+    context.flush();
+    glEnable(GL_BLEND);
+    glDepthMask(GL_FALSE);
+    surfaceProgram.drawPart(surfaces.fringesBegin(), surfaces.opaqueIndices().size());
+    glDepthMask(GL_TRUE);
+}
+
 // Prepares for drawing fog: loads the lattices of the slices, and copies the depths of opaque balls and bars to the fog
 // painter. Leaves the depth buffer cleared.
 void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
@@ -286,7 +321,6 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     fogPainter->begin(scene, depths);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
-    if (scene.projectionPlacement.shown) surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::frame);
     glClear(GL_DEPTH_BUFFER_BIT);
@@ -295,32 +329,20 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
 // Draws the fog behind balls and bars. Must be called when the opaque surfaces, but no balls and bars, have been drawn.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
-    for (const SurfaceBatch::Place& place : surfaces.placesFarToNear()) {
-        if (!place.isProjection) fogPainter->draw(scene, place.slice, FogPainter::FogPart::behind);
-    }
+    for (const SurfaceBatch::Place& place : surfaces.placesFarToNear())
+        fogPainter->draw(scene, place.slice, FogPainter::FogPart::behind);
 }
 
-// Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog. The projection of
-// the whole object shows no fog.
+// Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
 void Renderer::Impl::drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths) {
     surfaceProgram.load(depths, surfaces, surfaces.translucentIndices());
     std::size_t begin = 0;
     for (std::size_t i = 0; i < surfaces.placesFarToNear().size(); ++i) {
         const std::size_t end = surfaces.translucentEnds()[i];
         surfaceProgram.drawPart(begin, end);
-        const SurfaceBatch::Place& place = surfaces.placesFarToNear()[i];
-        if (!place.isProjection) fogPainter->draw(scene, place.slice, FogPainter::FogPart::in_front);
+        fogPainter->draw(scene, surfaces.placesFarToNear()[i].slice, FogPainter::FogPart::in_front);
         begin = end;
     }
-}
-
-// Draws the projection of the whole object from projectionLayers. The depth test must be enabled.
-void Renderer::Impl::drawProjection(DepthRange depths) {
-    surfaceDepthProgram.drawWithDepth(depths, projectionLayers.solid);
-    context.flush();
-    glDepthMask(GL_FALSE);
-    surfaceDepthProgram.drawWithDepth(depths, projectionLayers.translucent);
-    glDepthMask(GL_TRUE);
 }
 
 Renderer::Renderer(const std::string& font, ShapeBackend drawing, parallel::ForkJoin* forkJoin) {
@@ -351,6 +373,7 @@ void Renderer::freeMemory() {
     impl_->projectionLayers = {};
     impl_->surfaces = {};
     impl_->surfaceHalves = {};
+    impl_->projectionSurfaces = {};
     if (impl_->fogPainter) impl_->fogPainter->freeMemory();
 }
 
@@ -374,13 +397,12 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     overlay.begin(scene.viewport);
     const bool inMemory =
         impl_->shapesInMemory && !needsOpenGl(scene) && scene.viewport.width >= ShapeRasterizer::kMinWidth;
-    std::size_t notAdded = 0;  // the first patch of `shapes` that is not yet added to the rasterizer
     if (inMemory) {
         impl_->shapeRasterizer.begin(scene.viewport, scene.style(), pixels);
         if (scene.needsDepthBuffer) {
             impl_->addLayers(scene);
         } else {
-            notAdded = impl_->addConvexSlices(scene);
+            impl_->addConvexSlices(scene);
         }
     } else {
         setClearColor(scene.style());
@@ -388,11 +410,15 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     }
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colors are premultiplied by alpha, because blending is then cheaper
-    if (scene.needsDepthBuffer && !inMemory) {
-        impl_->nonconvexCollector.collect(scene, impl_->layers);
-        impl_->drawLayers(scene);
-    } else if (!inMemory) {
-        impl_->drawConvexSlices(scene);
+    // The projection is drawn before the slices, and slices are not tested against its depths, so that it never covers
+    // a slice, wherever the viewer moves the camera.
+    if (!inMemory) {
+        impl_->drawProjection(scene);
+        if (scene.needsDepthBuffer) {
+            impl_->drawLayers(scene);
+        } else {
+            impl_->drawConvexSlices(scene);
+        }
     }
     addAxes(scene, shapes, overlay);
     addCoordinates(scene, overlay);
@@ -400,7 +426,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     addMatrixAndFocusLines(scene, overlay);
 
     if (inMemory) {
-        impl_->shapeRasterizer.add(shapes, notAdded, shapes.patches().size(), ShapeRasterizer::DepthUse::unused);
+        impl_->shapeRasterizer.add(shapes, 0, shapes.patches().size(), ShapeRasterizer::DepthUse::unused);
         impl_->shapeRasterizer.finish(impl_->forkJoin);
         impl_->context.replacePicture(pixels.data());
     } else {

@@ -8,36 +8,26 @@
 
 namespace oval4d::render {
 
-void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
-                                   const std::function<void()>& paintProjection) {
+void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted) {
     const glm::dmat4 toView = scene.camera.view();
     out.setProjection(Projection::of(scene.camera, scene.viewport));
     placementOrder_.clear();
     for (std::uint32_t i = 0; i < scene.placements.size(); ++i)
         if (scene.placements[i].drawn && scene.slices->vertexBegin[i] < scene.slices->vertexBegin[i + 1])
             placementOrder_.push_back(i);
-    const auto distanceOf = [&](const glm::dvec3& position) {
-        const glm::dvec3 d = position - scene.camera.eye;
+    const auto distance = [&](std::uint32_t i) {
+        const glm::dvec3 d = scene.placements[i].position - scene.camera.eye;
         return glm::dot(d, d);
     };
-    const auto distance = [&](std::uint32_t i) { return distanceOf(scene.placements[i].position); };
     // Slices at the same distance are sorted by index, so that equal scenes give equal pictures.
     std::sort(placementOrder_.begin(), placementOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
         const double da = distance(a), db = distance(b);
         return da != db ? da > db : a < b;
     });
-    bool projectionDue = scene.projectionPlacement.shown;
-    const auto paintProjectionIfDue = [&](double nextDistance) {
-        if (!projectionDue || nextDistance >= distanceOf(scene.projectionPlacement.position)) return;
-        projectionDue = false;
-        paintProjection();
-    };
     for (const std::uint32_t i : placementOrder_) {
-        paintProjectionIfDue(distance(i));
         paintSlice({*scene.slices, scene, toView, i}, out);
         painted();
     }
-    paintProjectionIfDue(-1);
 }
 
 void ConvexShapeCollector::paintSlice(const SliceRef& slice, ShapeBatch& out) {

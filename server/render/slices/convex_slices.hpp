@@ -21,11 +21,8 @@ namespace oval4d::render {
 class ConvexShapeCollector {
   public:
     /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; this
-    /// function may draw the shapes in `out` and clear `out`. If the projection of the whole object is shown, calls
-    /// `paintProjection` once, after the slices that are farther from the eye than the projection, and before the
-    /// nearer ones.
-    void collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted,
-                 const std::function<void()>& paintProjection);
+    /// function may draw the shapes in `out` and clear `out`.
+    void collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted);
 
   private:
     enum class Side : std::uint8_t { away, toward };

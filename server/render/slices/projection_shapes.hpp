@@ -13,7 +13,8 @@ namespace oval4d::render {
 
 /// Sorts the shapes of the projection of the whole object, and of the sections that are shown in it, into layers, and
 /// converts them to patches. Drawing them needs a depth buffer, because bars of the projection cross each other
-/// everywhere in the picture. Reuses its memory for the next picture.
+/// everywhere in the picture. The projection must be drawn before the slices, which hide it wherever they are drawn.
+/// Reuses its memory for the next picture.
 class ProjectionShapeCollector {
   public:
     /// The layers, in drawing order, each from far to near. `solid` has the opaque balls and bars of the object;

@@ -41,14 +41,15 @@ void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVert
 }  // namespace
 
 struct ShapeRasterizer::Impl {
-    /// The patches or the triangles that one call of add() has added.
+    /// The patches or the triangles that one call of add() has added, or what addDepthClearing() has.
     struct AddedShapes {
-        const ShapeBatch* shapes;  // null for triangles
-        std::size_t first, end;    // the patches first … end − 1
-        DepthUse depth;
-        const SurfaceRasterizer* surfaces;         // null for patches
-        std::span<const std::uint32_t> triangles;  // three indices of vertices each
-        SurfaceRasterizer::Blending blending;
+        const ShapeBatch* shapes = nullptr;  // null for triangles
+        std::size_t first = 0, end = 0;      // the patches first … end − 1
+        DepthUse depth = DepthUse::unused;
+        const SurfaceRasterizer* surfaces = nullptr;    // null for patches
+        std::span<const std::uint32_t> triangles = {};  // three indices of vertices each
+        SurfaceRasterizer::Blending blending = SurfaceRasterizer::Blending::none;
+        PixelArea cleared{{0, 0}, {0, 0}};  // with neither patches nor triangles: where depths are cleared
 
         std::span<const Patch> patches() const {
             return shapes == nullptr ? std::span<const Patch>() : shapes->patches().subspan(first, end - first);
@@ -63,6 +64,7 @@ struct ShapeRasterizer::Impl {
 
     int middleRow() const;
     void drawRows(const RowRange& rows, Workspace& workspace) const;
+    void clearDepth(const RowRange& rows, const PixelArea& area) const;
     void drawPatches(const PatchCanvas& part, const AddedShapes& layer, Workspace& workspace) const;
 
     PatchCanvas canvas;
@@ -93,13 +95,15 @@ void ShapeRasterizer::begin(scene::Viewport viewport, const scene::Style& style,
 }
 
 void ShapeRasterizer::add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth) {
-    impl_->layers.push_back({&shapes, first, end, depth, nullptr, {}, {}});
+    impl_->layers.push_back({.shapes = &shapes, .first = first, .end = end, .depth = depth});
 }
 
 void ShapeRasterizer::add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
                           SurfaceRasterizer::Blending blending) {
-    impl_->layers.push_back({nullptr, 0, 0, DepthUse::tested, &surfaces, indices, blending});
+    impl_->layers.push_back({.surfaces = &surfaces, .triangles = indices, .blending = blending});
 }
+
+void ShapeRasterizer::addDepthClearing(const PixelArea& area) { impl_->layers.push_back({.cleared = area}); }
 
 void ShapeRasterizer::setDepthArea(const PixelArea& area) {
     Impl& m = *impl_;
@@ -147,16 +151,25 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace)
     part.right = workspace.right.data();
     const auto startOf = [&](int y) { return static_cast<std::ptrdiff_t>(y) * canvas.width; };
     std::fill(canvas.pixels + startOf(rows.begin), canvas.pixels + startOf(rows.end), background);
-    const auto& [from, to] = depthArea;
-    for (int y = std::max(rows.begin, from.y); y < std::min(rows.end, to.y); ++y)
-        std::fill(canvas.nearness + startOf(y) + from.x, canvas.nearness + startOf(y) + to.x, 0.0F);
+    clearDepth(rows, depthArea);
     for (const AddedShapes& layer : layers) {
         if (layer.shapes != nullptr) {
             drawPatches(part, layer, workspace);
+        } else if (layer.surfaces == nullptr) {
+            clearDepth(rows, layer.cleared);
         } else {
             layer.surfaces->draw({canvas.width, canvas.height, rows.begin, rows.end, canvas.pixels, canvas.nearness},
                                  layer.triangles, layer.blending);
         }
+    }
+}
+
+// Clears the depths of the part of `area` that is in these rows and in the depth area.
+void ShapeRasterizer::Impl::clearDepth(const RowRange& rows, const PixelArea& area) const {
+    const glm::ivec2 from = glm::max(area.from, depthArea.from), to = glm::min(area.to, depthArea.to);
+    for (int y = std::max(rows.begin, from.y); from.x < to.x && y < std::min(rows.end, to.y); ++y) {
+        float* const row = canvas.nearness + static_cast<std::ptrdiff_t>(y) * canvas.width;
+        std::fill(row + from.x, row + to.x, 0.0F);
     }
 }
 
@@ -194,6 +207,7 @@ void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, std::size_t /*first*/, s
 void ShapeRasterizer::add(const SurfaceRasterizer& /*surfaces*/, std::span<const std::uint32_t> /*indices*/,
                           SurfaceRasterizer::Blending /*blending*/) {}
 void ShapeRasterizer::setDepthArea(const PixelArea& /*area*/) {}
+void ShapeRasterizer::addDepthClearing(const PixelArea& /*area*/) {}
 void ShapeRasterizer::finish(parallel::ForkJoin* /*forkJoin*/) {}
 void ShapeRasterizer::freeMemory() {}
 

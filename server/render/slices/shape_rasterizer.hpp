@@ -67,6 +67,10 @@ class ShapeRasterizer {
     /// other than `unused`, must lie in this part. Must be called after begin(), which makes the part empty.
     void setDepthArea(const PixelArea& area);
 
+    /// Clears the depth buffer in this part of the picture when everything that was added before has been drawn: it
+    /// hides nothing that is added later.
+    void addDepthClearing(const PixelArea& area);
+
     /// Draws everything that was added. If `forkJoin` is not null, draws the upper and the lower part of the picture in
     /// parallel.
     void finish(parallel::ForkJoin* forkJoin);

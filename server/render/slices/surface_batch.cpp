@@ -23,7 +23,7 @@ constexpr std::uint32_t kNone = 0xffffffffU;
 
 }  // namespace
 
-void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthHalf half) {
+void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Selection selection) {
     vertices_.clear();
     opaqueIndices_.clear();
     fringes_.clear();
@@ -34,16 +34,17 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
     if (scene.surfaces.empty() && scene.fog.empty()) return;
     projection_ = Projection::of(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
-    for (std::uint32_t slice = 0; slice < scene.placements.size(); ++slice)
-        order_.push_back({slice, scene.placements[slice].position, scene.scale, false});
-    if (scene.projectionPlacement.shown && scene.projection.focusSurface) {
+    if (selection != Selection::projection) {
+        for (std::uint32_t slice = 0; slice < scene.placements.size(); ++slice)
+            order_.push_back({slice, scene.placements[slice].position, scene.scale});
+    } else if (scene.projectionPlacement.shown && scene.projection.focusSurface) {
         const auto& [slice, scale] = *scene.projection.focusSurface;
-        order_.push_back({static_cast<std::uint32_t>(slice), scene.projectionPlacement.position, scale, true});
+        order_.push_back({static_cast<std::uint32_t>(slice), scene.projectionPlacement.position, scale});
     }
     const auto depth = [&](const Place& place) { return -(toView * glm::dvec4(place.position, 1)).z; };
     std::ranges::sort(order_, std::greater<>(),
-                      [&](const Place& place) { return std::tuple(depth(place), place.slice, place.isProjection); });
-    if (half != DepthHalf::whole) keepHalf(scene, half);
+                      [&](const Place& place) { return std::tuple(depth(place), place.slice); });
+    if (selection == Selection::nearer_slices || selection == Selection::farther_slices) keepHalf(scene, selection);
     const auto add = [&](const Place& place, bool opaque) {
         const std::uint32_t slice = place.slice;
         const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
@@ -76,7 +77,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, DepthH
 }
 
 // Removes the slices that do not belong to `half` from order_.
-void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
+void SurfaceBatch::keepHalf(const scene::Scene& scene, Selection half) {
     const auto triangles = [&](const Place& place) {
         return scene.placements[place.slice].drawn ? scene.slices->surfaces[place.slice].triangles.size() : 0;
     };
@@ -84,7 +85,7 @@ void SurfaceBatch::keepHalf(const scene::Scene& scene, DepthHalf half) {
     for (const Place& place : order_) all += triangles(place);
     auto middle = order_.begin();
     while (middle != order_.end() && 2 * farther < all) farther += triangles(*middle++);
-    if (half == DepthHalf::near) {
+    if (half == Selection::nearer_slices) {
         order_.erase(order_.begin(), middle);
     } else {
         order_.erase(middle, order_.end());

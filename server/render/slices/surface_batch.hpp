@@ -24,28 +24,27 @@ struct SurfaceVertex {
 /// The triangles of all surfaces of a scene, in drawing order. Reuses its memory for the next picture.
 class SurfaceBatch {
   public:
-    /// The slices whose surfaces are collected: all slices, the nearer ones, or the farther ones. The nearer and the
-    /// farther slices have about half of the triangles each.
-    enum class DepthHalf : std::uint8_t { whole, near, far };
+    /// Whose surfaces are collected: those of all slices, of the nearer ones or of the farther ones, or the surfaces of
+    /// the focus slice that the projection of the whole object shows. The nearer and the farther slices have about half
+    /// of the triangles each.
+    enum class Selection : std::uint8_t { slices, nearer_slices, farther_slices, projection };
 
     /// The place of the surfaces of a slice in the picture.
     struct Place {
         std::uint32_t slice;  ///< the index of the slice
         glm::dvec3 position;  ///< the origin of the slice, in world coordinates
         double scale;         ///< world units per unit of the object
-        bool isProjection;    ///< whether this is the focus slice in the projection of the whole object
     };
 
-    /// Collects the surfaces of a scene, or of its nearer or farther slices. The focus slice in the projection of the
-    /// whole object counts as a further slice. Afterward, opaqueIndices() has the opaque surfaces, from the nearest
-    /// slice to the farthest. If caps close a surface, opaqueIndices() omits the triangles of this surface that face
+    /// Collects surfaces of a scene. Afterward, opaqueIndices() has the opaque surfaces, from the nearest slice to the
+    /// farthest. If caps close a surface, opaqueIndices() omits the triangles of this surface that face
     /// away from the eye, because the surface hides them. translucentIndices() has the translucent surfaces, from the
     /// farthest slice to the nearest; within a slice, from the innermost level to the outermost; and within a level,
     /// first the triangles that face away from the eye. Extends `depths` to include the depths of the surfaces.
     ///
     /// The silhouettes of closed opaque surfaces get fringes: strips outside of them, one pixel wide, whose opacity
     /// decreases outward to 0. Blended with what is behind them, they antialias the silhouettes.
-    void collect(const scene::Scene& scene, DepthRange& depths, DepthHalf half = DepthHalf::whole);
+    void collect(const scene::Scene& scene, DepthRange& depths, Selection selection = Selection::slices);
 
     const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
     /// Returns the opaque triangles, each as three indices of vertices. The entries from fringesBegin() on are the
@@ -54,7 +53,7 @@ class SurfaceBatch {
     std::size_t fringesBegin() const { return fringesBegin_; }
     const std::vector<std::uint32_t>& translucentIndices() const { return translucentIndices_; }
     /// Returns the places of the collected slices, from the farthest to the nearest. Empty if the scene has neither
-    /// surfaces nor fog.
+    /// surfaces nor fog, or if the projection was selected and shows no surfaces.
     const std::vector<Place>& placesFarToNear() const { return order_; }
     /// Returns, for each entry of placesFarToNear(), the end of its triangles: an index in translucentIndices().
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
@@ -67,7 +66,7 @@ class SurfaceBatch {
         std::uint32_t from, to, triangle;
     };
 
-    void keepHalf(const scene::Scene& scene, DepthHalf half);
+    void keepHalf(const scene::Scene& scene, Selection half);
     void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level);
     void addFringesOfLastLevel(const scene::Scene& scene, std::size_t slice,
                                const scene::SurfaceLook::LevelLook& level);

@@ -68,7 +68,7 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
     EXPECT_LT(used.size(), triangles) << "in a mesh, there are about half as many vertices as triangles";
 }
 
-TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionToo) {
+TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTheSlices) {
     auto field = fields::fieldFromFormula("test", "x^2 + y^2 + z^2 + w^2 - 2");
     ASSERT_TRUE(field);
     const slicing::Object object = std::make_shared<const fields::Field>(std::move(*field));
@@ -91,8 +91,8 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionToo) {
 
     SurfaceBatch batch;
     DepthRange depths;
-    const auto clipPoints = [&] {
-        batch.collect(scene, depths);
+    const auto clipPoints = [&](SurfaceBatch::Selection selection) {
+        batch.collect(scene, depths, selection);
         std::set<std::array<float, 3>> points;
         for (const SurfaceVertex& vertex : batch.vertices()) {
             const bool isOuterRim = vertex.color >> 24U == 0;  // of a fringe
@@ -100,11 +100,10 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionToo) {
         }
         return points;
     };
-    const auto all = clipPoints();
-    EXPECT_EQ(batch.placesFarToNear().size(), 6U);
-    scene.projection.focusSurface.reset();
-    const auto ofSlices = clipPoints();
+    const auto ofSlices = clipPoints(SurfaceBatch::Selection::slices);
     EXPECT_EQ(batch.placesFarToNear().size(), 5U);
+    const auto ofProjection = clipPoints(SurfaceBatch::Selection::projection);
+    EXPECT_EQ(batch.placesFarToNear().size(), 1U);
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
     std::set<std::array<float, 3>> expected;
@@ -114,8 +113,8 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionToo) {
         expected.insert(std::array{clip.x, clip.y, clip.z});
     }
     std::size_t added = 0;
-    for (const std::array<float, 3>& point : all) {
-        if (ofSlices.contains(point)) continue;
+    for (const std::array<float, 3>& point : ofProjection) {
+        EXPECT_FALSE(ofSlices.contains(point));
         ++added;
         const auto distance = [&](const std::array<float, 3>& other) {
             return glm::distance(glm::vec3(other[0], other[1], other[2]), glm::vec3(point[0], point[1], point[2]));
@@ -129,6 +128,8 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionToo) {
     look.parts.faces = false;
     composer.compose(object, {}, slices, 1, look, {1280, 720}, scene);
     EXPECT_FALSE(scene.projection.focusSurface);
+    EXPECT_TRUE(clipPoints(SurfaceBatch::Selection::projection).empty());
+    EXPECT_TRUE(batch.placesFarToNear().empty());
 }
 
 }  // namespace
