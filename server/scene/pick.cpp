@@ -263,7 +263,7 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
     }
     if (isClearedOfSlices(scene, point)) return std::nullopt;
     picker.pickSlices();
-    picker.pickProjection();
+    if (!picker.picked()) picker.pickProjection();  // slices are drawn over the projection
     return picker.picked();
 }
 

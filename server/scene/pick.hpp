@@ -29,12 +29,12 @@ struct PickedElement {
 };
 
 /// Returns the element of `object` that the picture shows at the point (x, y), in pixels from the upper left corner; an
-/// empty optional if there is none. In slices and in the projection, the result is the element whose ball, bar or face
-/// is nearest to the viewer; in the parallel coordinates, the vertex whose lines are drawn there (see
-/// CoordinatesLayout::hasLines()), or the one that vertexInDensityStripAt() finds; in a panel of the matrix, the
-/// element from which the point or edge of the section was cut. Balls, bars, points and edges are found up to 3 pixels
-/// from their centers, or farther where they are drawn thicker. Takes time linear in the size of the slices and in the
-/// number of vertices.
+/// empty optional if there is none. In slices, the result is the element whose ball, bar or face is nearest to the
+/// viewer; where there is none, the nearest one in the projection, over which the slices are drawn; in the parallel
+/// coordinates, the vertex whose lines are drawn there (see CoordinatesLayout::hasLines()), or the one that
+/// vertexInDensityStripAt() finds; in a panel of the matrix, the element from which the point or edge of the section
+/// was cut. Balls, bars, points and edges are found up to 3 pixels from their centers, or farther where they are drawn
+/// thicker. Takes time linear in the size of the slices and in the number of vertices.
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
 /// Returns the 4-D point that a panel of the matrix shows at the point (x, y), in pixels from the upper left corner; an

@@ -46,9 +46,11 @@ class RayCaster {
         direction_ = glm::transpose(glm::dmat3(scene.camera.view())) * ray;
     }
 
-    // Finds the nearest point of a surface whose depth is less than `depth`.
-    std::optional<PickedLevel> nearestBefore(double depth) {
-        nearest_ = depth;
+    // Finds the nearest point of a surface in the slices or, if there is none, in the projection, that is not hidden by
+    // `element`.
+    std::optional<PickedLevel> nearestBefore(const std::optional<PickedElement>& element) {
+        constexpr double kInf = std::numeric_limits<double>::infinity();
+        const bool isElementInProjection = element && element->area == PictureArea::projection;
         std::vector<SliceRay> rays;
         const auto addRay = [&](PictureArea area, std::size_t slice, const glm::dvec3& position, double scale) {
             if (!scene_.placements[slice].drawn) return;
@@ -57,13 +59,13 @@ class RayCaster {
         };
         for (std::size_t i = 0; i < scene_.placements.size(); ++i)
             addRay(PictureArea::slice, i, scene_.placements[i].position, scene_.scale);
-        if (const auto& focus = scene_.projection.focusSurface; scene_.projectionPlacement.shown && focus)
-            addRay(PictureArea::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
         std::ranges::sort(rays, {}, &SliceRay::entry);
-        for (const SliceRay& ray : rays) {
-            if (ray.entry >= nearest_) break;
-            placeSection(ray.slice);
-            cast(ray);
+        castAll(rays, element && !isElementInProjection ? element->depth : kInf);
+        const auto& focus = scene_.projection.focusSurface;
+        if (!found_ && (!element || isElementInProjection) && scene_.projectionPlacement.shown && focus) {
+            rays.clear();
+            addRay(PictureArea::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
+            castAll(rays, element ? element->depth : kInf);
         }
         field_.function->releasePages();
         if (field_.isLost()) throw std::runtime_error("the file of the field can no longer be read");
@@ -76,6 +78,17 @@ class RayCaster {
         double depth;
         bool cap;
     };
+
+    // Finds the nearest point of a surface on the rays, which are sorted by where they enter the box, whose depth is
+    // less than `depth`.
+    void castAll(const std::vector<SliceRay>& rays, double depth) {
+        nearest_ = depth;
+        for (const SliceRay& ray : rays) {
+            if (ray.entry >= nearest_) break;
+            placeSection(ray.slice);
+            cast(ray);
+        }
+    }
 
     void placeSection(std::size_t slice) {
         slicing::placeSection(field_, toFunction_, scene_.placements[slice].w, section_);
@@ -234,8 +247,7 @@ std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& fi
     if (element && !isElementInSpace) return std::nullopt;
     if (const auto shown = matrixPointAt(scene, point)) return pickContour(scene, point, *shown);
     if (isClearedOfSlices(scene, point)) return std::nullopt;
-    return RayCaster(scene, field, orientation, point)
-        .nearestBefore(element ? element->depth : std::numeric_limits<double>::infinity());
+    return RayCaster(scene, field, orientation, point).nearestBefore(element);
 }
 
 }  // namespace oval4d::scene

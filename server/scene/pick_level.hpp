@@ -26,8 +26,9 @@ struct PickedLevel {
 
 /// Returns what the picture shows of the levels of `field`, rotated by `orientation`, at the point (x, y), in pixels
 /// from the upper left corner; an empty optional if it shows none, or if `element`, the result of pickElement() for
-/// this point, is nearer to the viewer. The surface nearest to the viewer is found, also if it is translucent. `scene`
-/// must have the look of the surfaces and the contours, but needs no slices.
+/// this point, is nearer to the viewer. The surface nearest to the viewer is found, also if it is translucent. What
+/// slices show counts as nearer than the projection, over which they are drawn. `scene` must have the look of the
+/// surfaces and the contours, but needs no slices.
 ///
 /// In slices and in the projection, the level is found on the ray through the pixel from the values of the function: at
 /// up to kRaySamples points in the box, or fewer in slices that are smaller than the box or if the function takes long

@@ -186,6 +186,45 @@ TEST(PickLevel, FindsTheSurfaceOfTheFocusSliceInTheProjection) {
     }
 }
 
+TEST(PickLevel, FindsTheSurfacesOfSlicesBeforeThatOfTheProjection) {
+    std::size_t both = 0, onlyProjection = 0;
+    for (const double azimuth : {-1.1, 0.8, 1.1, 1.4}) {
+        Look look;
+        look.view = View::single;
+        look.orbit.azimuth = azimuth;
+        look.orbit.elevation = 0.2;
+        look.projection.kind = ProjectionKind::orthogonal;
+        look.field.levels = {2.5};
+        look.parts.balls = look.parts.bars = look.parts.coordinates = false;
+        FieldPicture picture(kBall, look, {}, kBox);
+        Scene& scene = picture.scene;
+        for (int y = 20; y < kViewport.height; y += 40) {
+            for (int x = 20; x < kViewport.width; x += 40) {
+                const glm::dvec2 pixel(x, y);
+                const auto found = picture.at(pixel);
+                scene.projectionPlacement.shown = false;
+                const auto inSlice = picture.at(pixel);
+                scene.projectionPlacement.shown = true;
+                if (!inSlice) {
+                    onlyProjection += found ? 1 : 0;
+                    continue;
+                }
+                ASSERT_TRUE(found);
+                EXPECT_EQ(found->area, PictureArea::slice);
+                EXPECT_EQ(found->slice, inSlice->slice);
+                EXPECT_EQ(found->point, inSlice->point);
+                // With the slice behind the eye, the projection is found.
+                scene.placements[10].position = 11.0 * scene.camera.eye;
+                const auto alone = picture.at(pixel);
+                both += alone && alone->area == PictureArea::projection ? 1 : 0;
+                scene.placements[10].position = glm::dvec3(0);
+            }
+        }
+    }
+    EXPECT_GT(both, 10U) << "the slice covers a part of the projection";
+    EXPECT_GT(onlyProjection, 10U);
+}
+
 TEST(PickLevel, LeavesWhatIsInFrontOfTheSurface) {
     Look look;
     look.view = View::single;

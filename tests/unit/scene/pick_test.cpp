@@ -257,6 +257,43 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
     }
 }
 
+TEST(Pick, FindsWhatIsInASliceBeforeTheProjectionFromEverywhere) {
+    std::mt19937 random(8);
+    std::uniform_real_distribution<double> elevation(-1, 1);
+    std::size_t behind = 0;  // pixels at which both are found
+    for (const View view : {View::oval, View::single, View::strip, View::grid}) {
+        for (const double azimuth : {-1.2, 0.6, 1.2}) {
+            Look look;
+            look.view = view;
+            look.orbit.azimuth = azimuth;
+            look.orbit.elevation = elevation(random);
+            look.projection.kind = ProjectionKind::perspective;
+            look.parts.coordinates = false;
+            look.parts.projectionFaces = true;
+            Picture picture("24-cell", look, support::randomRotation(random));
+            for (int y = 20; y < 720; y += 40) {
+                for (int x = 20; x < 1280; x += 40) {
+                    const glm::dvec3 pixel(x, y, 0);
+                    picture.scene.projectionPlacement.shown = true;
+                    const auto found = picture.at(pixel);
+                    picture.scene.projectionPlacement.shown = false;
+                    const auto inSlice = picture.at(pixel);
+                    if (!inSlice) continue;
+                    ASSERT_TRUE(found);
+                    EXPECT_EQ(found->area, PictureArea::slice) << x << ", " << y;
+                    EXPECT_EQ(found->element, inSlice->element);
+                    EXPECT_EQ(found->slice, inSlice->slice);
+                    const glm::dvec3 center = picture.project(picture.scene.projectionPlacement.position);
+                    const double radius = picture.scene.projectionPlacement.radius * 360 /
+                                          std::tan(picture.scene.camera.fieldOfView / 2) / center.z;
+                    behind += center.z > 0 && glm::distance(glm::dvec2(center), glm::dvec2(pixel)) < radius ? 1 : 0;
+                }
+            }
+        }
+    }
+    EXPECT_GT(behind, 20U);
+}
+
 // The height of a vertex's line in a density strip, in viewport heights from the lower edge. `along` is 0 on the axis
 // x, 1 on y, 2 on z and 3 on w.
 double lineHeight(const Picture& picture, std::size_t vertex, double along) {
