@@ -4,6 +4,7 @@ import { test } from "./support/suite.mjs";
 
 import { openWithScript } from "./support/browser.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
+import { labeled, openTurned } from "./support/pointing.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 
 async function picture(page) {
@@ -67,6 +68,44 @@ test("projection: w shows the whole object in the middle of the oval, in the sam
             shown[kind][mode].bounds = bounds;
         }
         assertBounds(shown[kind].geometry.bounds, shown[kind].frames.bounds, 2);
+    }
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("projection: it covers no slice in either stream when the view is moved, and pointing finds the slice", async () => {
+    // From here, the projection is nearer than the focus slice, and about in front of it.
+    const camera = { azimuth: 1.4, elevation: 0.1, zoom: 1 };
+    const opened = await openTurned({ view: "single", camera });
+    const { page, press, size, moveTo, errors, close } = opened;
+    const { scene, slices, projection } = await opened.picture();
+    const places = (elements, at) => worldPoints(at, elements).map((point) => project(scene, point, size));
+    const { position, scale, parts } = projection;
+    const [left, top, right, bottom] = boundsOf(places({ position, vertices: parts[0].vertices }, { scale }));
+    const focus = slices.find((slice) => slice.focus);
+    const balls = places(focus, scene).filter(([x, y]) => {
+        const across = (2 * x - left - right) / (right - left);
+        const down = (2 * y - top - bottom) / (bottom - top);
+        return Math.hypot(across, down) < 0.7;
+    });
+    assert.ok(balls.length >= 3, `${balls.length} balls of the slice are in front of the projection`);
+    for (const mode of ["geometry", "frames"]) {
+        if (mode === "frames") {
+            await page.click("[data-page-tool=frames]");
+            await page.waitForSelector("#drawing[data-drawn-by=frames]");
+        }
+        const before = await picture(page);
+        await press("c"); // fills the projection
+        const after = await picture(page);
+        assert.ok(changedPoints(before, after, [left, top, right, bottom]).length > 1000, mode);
+        for (const [x, y] of balls) {
+            assert.ok(distance(pixelAt(before, x, y), pixelAt(after, x, y)) < 12, `${mode}: a ball at ${x}, ${y}`);
+        }
+        await moveTo(...balls[0]);
+        assert.match(await labeled(page, /\w/), /slice w/, mode);
+        await moveTo(4, 4);
+        await labeled(page, /^$/);
+        await press("c");
     }
     assert.deepEqual(errors, []);
     await close();

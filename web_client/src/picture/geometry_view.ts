@@ -24,7 +24,8 @@ ColorManagement.enabled = false; // colors are sRGB values, shown unchanged
 export class GeometryView {
     readonly viewCamera = new ViewCamera();
     private readonly renderer: WebGLRenderer;
-    private readonly scene = new Scene();
+    private readonly scene = new Scene(); // the slices
+    private readonly projectionScene = new Scene();
     private readonly camera = new Camera();
     private readonly sliceMesh = new SliceMesh();
     private readonly fillMesh = new FillMesh();
@@ -80,15 +81,17 @@ export class GeometryView {
             new Drawing(this.sliceMesh.geometry, this.paintedMaterial),
             new Drawing(this.fillMesh.geometry, this.makeMaterial("painted")),
         ] as const;
-        for (const drawing of [...drawings, ...this.projectionDrawings]) {
-            drawing.frustumCulled = drawing.matrixAutoUpdate = false;
-            this.scene.add(drawing);
+        const scenes = [[this.scene, drawings], [this.projectionScene, this.projectionDrawings]] as const;
+        for (const [scene, contents] of scenes) {
+            for (const drawing of contents) {
+                drawing.frustumCulled = drawing.matrixAutoUpdate = false;
+                scene.add(drawing);
+            }
+            scene.matrixWorldAutoUpdate = false;
         }
         [this.drawing, this.fillDrawing] = drawings;
         this.fillDrawing.renderOrder = 1;
-        this.projectionDrawings[1].renderOrder = 2;
         this.fillDrawing.material.depthTest = this.fillDrawing.material.depthWrite = true;
-        this.scene.matrixWorldAutoUpdate = false;
         this.camera.matrixWorldAutoUpdate = false;
     }
 
@@ -131,8 +134,7 @@ export class GeometryView {
         this.uniforms.shading.value.set(light.ambient, light.diffuse, light.specular, light.shininess);
         this.uniforms.ballRadius.value = picture.scene.shown.balls ? ball : bar;
         this.uniforms.barRadius.value = bar;
-        const projected = this.projectionMesh.update(picture, highlighted);
-        for (const drawing of this.projectionDrawings) drawing.visible = projected;
+        this.projectionMesh.update(picture, highlighted);
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
@@ -162,7 +164,7 @@ export class GeometryView {
         this.viewCamera.set(scene.camera, size, this.pictureOrbit, orbit);
         const { azimuth, elevation } = orbit;
         if (azimuth !== this.sortedOrbit?.azimuth || elevation !== this.sortedOrbit.elevation) {
-            this.sliceMesh.sortForCamera(this.viewCamera, this.picture.projection?.position);
+            this.sliceMesh.sortForCamera(this.viewCamera);
             this.fillMesh.sortForCamera(this.viewCamera);
             if (this.picture.projection) this.projectionMesh.sortForCamera(this.viewCamera);
         }
@@ -204,33 +206,27 @@ export class GeometryView {
     }
 
     /**
-     * Renders the slices and the projection. Painted slices (see makeMaterial()) do not use the depth buffer, so the
-     * projection is drawn after the slices behind it, and before those in front of it.
+     * Renders the projection and then the slices. Slices are not tested against the depths of the projection, so that
+     * it never covers a slice, wherever the viewer moves the camera.
      */
     private render(): void {
-        const { renderer, sliceMesh, drawing, projectionDrawings } = this;
+        const { renderer, fogPainter, surfacePainter, viewCamera } = this;
         renderer.clear();
-        if (!this.picture!.projection || drawing.material === this.solidMaterial) {
-            const { fogPainter, surfacePainter, viewCamera } = this;
-            if (fogPainter.isShown) {
-                fogPainter.drawDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
-                fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", viewCamera));
-            }
-            surfacePainter.draw("opaque", viewCamera);
-            if (fogPainter.isShown) this.drawFogAndSurfaces("behind");
-            renderer.render(this.scene, this.camera);
-            if (fogPainter.isShown) this.drawFogAndSurfaces("inFront");
-            else surfacePainter.draw("translucent", viewCamera);
-            return;
+        if (this.picture!.projection) {
+            surfacePainter.draw("opaque", viewCamera, "projection");
+            renderer.render(this.projectionScene, this.camera);
+            surfacePainter.draw("translucent", viewCamera, "projection");
+            renderer.clearDepth();
         }
-        const passes = [["behindProjection", true], ["all", false], ["inFrontOfProjection", true]] as const;
-        for (const [slices, paintsSlices] of passes) {
-            drawing.visible = paintsSlices;
-            for (const projection of projectionDrawings) projection.visible = !paintsSlices;
-            sliceMesh.select(slices);
-            renderer.render(this.scene, this.camera);
+        if (fogPainter.isShown) {
+            fogPainter.drawDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
+            fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", viewCamera, "slices"));
         }
-        drawing.visible = true;
+        surfacePainter.draw("opaque", viewCamera, "slices");
+        if (fogPainter.isShown) this.drawFogAndSurfaces("behind");
+        renderer.render(this.scene, this.camera);
+        if (fogPainter.isShown) this.drawFogAndSurfaces("inFront");
+        else surfacePainter.draw("translucent", viewCamera, "slices");
     }
 
     /**

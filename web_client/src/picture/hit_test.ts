@@ -96,8 +96,9 @@ const kStride = 5;
 /**
  * The element or the surface of a field at the pixel (x, y) of the picture. Of the meshes with an element or a surface
  * at the pixel, takes the mesh whose center is nearest to the eye, and returns the nearest element or surface of this
- * mesh at the pixel. In the projection of a field, the surface, the bars of the box and those of the section count as
- * one mesh. Undefined if there is none. `ratio` is the number of pixels of the picture per CSS pixel.
+ * mesh at the pixel; slices come before the projection, over which they are drawn. In the projection of a field, the
+ * surface, the bars of the box and those of the section count as one mesh. Undefined if there is none. `ratio` is the
+ * number of pixels of the picture per CSS pixel.
  */
 export function hitAt(
     picture: Slices,
@@ -106,14 +107,15 @@ export function hitAt(
     y: number,
     ratio: number,
 ): Hit | LevelHit | undefined {
-    const meshes = pickableMeshes(picture, viewCamera).sort((a, b) => a.distance - b.distance);
+    const meshes = pickableMeshes(picture, viewCamera);
+    meshes.sort((a, b) => Number(!a.slice) - Number(!b.slice) || a.distance - b.distance);
     const isField = picture.scene.surfaces !== undefined;
-    let [found, distance]: [MeshHit | undefined, number] = [undefined, Infinity];
+    let found: MeshHit | undefined;
     for (const mesh of meshes) {
-        if (found && !(isField && mesh.distance === distance)) break;
+        if (found && !(isField && !found.hit.slice)) break;
         if (!mayContain(mesh, picture, viewCamera, x, y)) continue;
         const hit = new MeshTest(mesh, viewCamera, x, y, kReach * ratio).nearest();
-        if (hit && hit.depth < (found?.depth ?? Infinity)) [found, distance] = [hit, mesh.distance];
+        if (hit && hit.depth < (found?.depth ?? Infinity)) found = hit;
     }
     return found?.hit;
 }

@@ -3,7 +3,7 @@
 // painted from far to near, and each ball is followed by its bars to nearer balls. Therefore a bar covers the farther
 // of its two balls, and the nearer ball covers the bar. This order is exact for convex slices that do not overlap.
 
-import type { Parts, Vector } from "@oval4d/protocol";
+import type { Parts } from "@oval4d/protocol";
 
 import { EdgeBuckets, ensureCapacity, type SliceElements, type SliceRanges } from "./elements";
 import { kQuadTriangles } from "./shape_buffers";
@@ -26,8 +26,6 @@ export class PaintersOrder {
     private readonly edgesByRank = new EdgeBuckets();
     private out = new Uint32Array(0);
     private used = 0;
-    /** How many of the first indices belong to slices farther from the eye than the point passed to writeIndices(). */
-    fartherIndexCount = 0;
 
     constructor(private readonly elements: SliceElements) {}
 
@@ -44,12 +42,11 @@ export class PaintersOrder {
         this.rank = ensureCapacity(this.rank, vertexCount);
     }
 
-    /** Writes the mesh's indices to `out`, and returns their number. Sets `fartherIndexCount` for the point `point`. */
-    writeIndices(viewCamera: ViewCamera, out: Uint32Array<ArrayBuffer>, point: Vector): number {
+    /** Writes the mesh's indices to `out`, and returns their number. */
+    writeIndices(viewCamera: ViewCamera, out: Uint32Array<ArrayBuffer>): number {
         this.out = out;
-        this.used = this.fartherIndexCount = 0;
+        this.used = 0;
         this.sortSlices(viewCamera);
-        const limit = distance(point, viewCamera);
         for (const ranges of this.sliceRanges) {
             this.findFrontElements(ranges, viewCamera);
             this.sortVerticesAndEdgesByDepth(ranges, viewCamera);
@@ -57,15 +54,15 @@ export class PaintersOrder {
                 if (this.shown.faces) this.writeFaceIndices(ranges, front);
                 this.writeBallAndBarIndices(ranges, front);
             }
-            if (ranges.distance >= limit) this.fartherIndexCount = this.used;
         }
         return this.used;
     }
 
-    private sortSlices(viewCamera: ViewCamera): void {
+    private sortSlices({ eye }: ViewCamera): void {
         this.sliceRanges.length = 0;
         for (const ranges of this.elements.sliceRanges) {
-            ranges.distance = distance(ranges.position, viewCamera);
+            const [x, y, z] = ranges.position;
+            ranges.distance = Math.hypot(x - eye.x, y - eye.y, z - eye.z);
             this.sliceRanges.push(ranges);
         }
         this.sliceRanges.sort((a, b) => b.distance - a.distance);
@@ -134,8 +131,4 @@ export class PaintersOrder {
     private writeQuadIndices(number: number): void {
         for (const corner of kQuadTriangles) this.out[this.used++] = 4 * number + corner;
     }
-}
-
-function distance([x, y, z]: Vector, { eye }: ViewCamera): number {
-    return Math.hypot(x - eye.x, y - eye.y, z - eye.z);
 }

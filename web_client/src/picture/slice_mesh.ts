@@ -4,7 +4,7 @@
 
 import { BufferGeometry } from "three";
 
-import type { Slices, Vector } from "@oval4d/protocol";
+import type { Slices } from "@oval4d/protocol";
 
 import { SliceElements } from "./elements";
 import { GrowingBuffer } from "./growing_buffer";
@@ -20,7 +20,6 @@ export class SliceMesh {
     private readonly elements = new SliceElements();
     private readonly order = new PaintersOrder(this.elements);
     private readonly shapes = new ShapeBuffers();
-    private count = 0; // number of indices
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /**
@@ -87,23 +86,11 @@ export class SliceMesh {
         shapes.color.markChanged();
     }
 
-    /**
-     * Orders all elements for this camera, from far to near. `projection` is the world position of the projection of
-     * the whole object: select() can then choose the slices behind this position, or those in front of it.
-     */
-    sortForCamera(viewCamera: ViewCamera, projection: Vector = [0, 0, 0]): void {
-        this.count = this.order.writeIndices(viewCamera, this.index.array, projection);
-        this.index.used = this.count;
+    /** Orders all elements for this camera, from far to near. */
+    sortForCamera(viewCamera: ViewCamera): void {
+        this.index.used = this.order.writeIndices(viewCamera, this.index.array);
         this.index.markChanged();
-        this.select("all");
-    }
-
-    /** Selects the slices to be drawn: all, or those behind or in front of the position of the projection. */
-    select(slices: "all" | "behindProjection" | "inFrontOfProjection"): void {
-        const { fartherIndexCount } = this.order;
-        if (slices === "all") this.geometry.setDrawRange(0, this.count);
-        else if (slices === "behindProjection") this.geometry.setDrawRange(0, fartherIndexCount);
-        else this.geometry.setDrawRange(fartherIndexCount, this.count - fartherIndexCount);
+        this.geometry.setDrawRange(0, this.index.used);
     }
 
     private resizeBuffers(): void {

@@ -78,6 +78,7 @@ interface SliceSurfaces {
     surface: Surface;
     position: Vector;
     scale: number; // world units per unit of the object
+    isInProjection: boolean;
     groups: TrianglesByLevel;
     depth: number; // the distance of the slice's origin from the eye, along the camera's axis
     firstPoint: number;
@@ -105,9 +106,10 @@ export class SurfacePainter {
         for (const slice of picture.slices) {
             const { surface, drawn, position, focus } = slice;
             if (!surface || !drawn) continue;
-            this.addPart(slice, surface, position, scene.scale);
+            this.addPart(slice, surface, { position, scale: scene.scale, isInProjection: false });
             if (focus && projection?.surface_scale !== undefined) {
-                this.addPart(slice, surface, projection.position, projection.surface_scale);
+                const { position, surface_scale: scale } = projection;
+                this.addPart(slice, surface, { position, scale, isInProjection: true });
             }
         }
         if (this.parts.length > 0) {
@@ -117,9 +119,13 @@ export class SurfacePainter {
         return picture.scene.surfaces !== undefined;
     }
 
-    private addPart(slice: Slice, surface: Surface, position: Vector, scale: number): void {
+    private addPart(
+        slice: Slice,
+        surface: Surface,
+        place: Pick<SliceSurfaces, "position" | "scale" | "isInProjection">,
+    ): void {
         const part = this.spare.pop() ?? emptySliceSurfaces(slice, surface);
-        Object.assign(part, { slice, surface, position, scale });
+        Object.assign(part, { slice, surface, ...place });
         part.groups.update(surface);
         this.parts.push(part);
     }
@@ -189,10 +195,10 @@ export class SurfacePainter {
     }
 
     /**
-     * Draws the opaque surfaces, or the translucent ones from far to near: of all slices or, if `only` is given, of
-     * this slice, also in the projection.
+     * Draws the opaque surfaces, or the translucent ones from far to near: of all slices, of one slice, or of the focus
+     * slice in the projection.
      */
-    draw(which: "opaque" | "translucent", viewCamera: ViewCamera, only?: Slice): void {
+    draw(which: "opaque" | "translucent", viewCamera: ViewCamera, of: Slice | "slices" | "projection"): void {
         const { gl, picture, parts } = this;
         const opaque = which === "opaque";
         if (!picture || !this.resources || !this.levels.some((level) => isOpaque(level) === opaque)) return;
@@ -218,7 +224,8 @@ export class SurfacePainter {
         // Opaque surfaces need no order, but are drawn faster if the nearer ones come first.
         for (let i = 0; i < parts.length; ++i) {
             const part = parts[opaque ? parts.length - 1 - i : i]!;
-            if (!only || part.slice === only) this.drawSlice(part, opaque);
+            const isOf = of === "slices" || of === "projection" || part.slice === of;
+            if (isOf && part.isInProjection === (of === "projection")) this.drawSlice(part, opaque);
         }
         gl.bindVertexArray(null);
         this.renderer.resetState();
@@ -304,7 +311,8 @@ function isOpaque({ opacity }: SurfaceLevel): boolean {
 
 function emptySliceSurfaces(slice: Slice, surface: Surface): SliceSurfaces {
     const groups = new TrianglesByLevel();
-    return { slice, surface, position: [0, 0, 0], scale: 1, groups, depth: 0, firstPoint: 0, firstByte: 0 };
+    const place = { position: [0, 0, 0] as Vector, scale: 1, isInProjection: false };
+    return { slice, surface, ...place, groups, depth: 0, firstPoint: 0, firstByte: 0 };
 }
 
 function makeResources(gl: WebGL2RenderingContext): Resources {
