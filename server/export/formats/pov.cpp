@@ -22,6 +22,7 @@
 #include "export/formats/text.hpp"
 #include "export/mesh/field_surfaces.hpp"
 #include "fields/field.hpp"
+#include "scene/projection_enlargement.hpp"
 
 namespace oval4d::exports {
 
@@ -234,13 +235,17 @@ class PovWriter {
 
     void addProjection() {
         const scene::ObjectProjection& projection = scene_.projection;
+        const double larger = scene::enlargementBehindSlices(scene_);
+        const glm::dvec3 eye = scene_.camera.eye;
+        const glm::dvec3 position = eye + larger * (scene_.projectionPlacement.position - eye);
         objects_ += "\n// Projection\n";
+        if (larger > 1) objects_ += "// It is farther away and larger, so that it is seen behind the slices.\n";
         for (std::size_t i = 0; i < projection.parts.size(); ++i) {
             const scene::ProjectionPartLook& look = projection.parts[i];
-            const PovPlacement part{scene_.projectionPlacement.position,
-                                    projection.scale,
-                                    look.ballRadius,
-                                    look.barRadius,
+            const PovPlacement part{position,
+                                    larger * projection.scale,
+                                    larger * look.ballRadius,
+                                    larger * look.barRadius,
                                     look.ballColor,
                                     look.barColor};
             if (projection.drawsPieces(i)) {
@@ -255,7 +260,7 @@ class PovWriter {
         }
         if (projection.focusSurface) {
             addSurfaces(projection.focusSurface->slice,
-                        {scene_.projectionPlacement.position, projection.focusSurface->scale, 0, 0, 0, 0});
+                        {position, larger * projection.focusSurface->scale, 0, 0, 0, 0});
         }
     }
 

@@ -151,6 +151,38 @@ TEST(Pov, hasTheProjectionIfThePictureShowsIt) {
     EXPECT_EQ(vectorsAfter(pov.text.substr(at), "\ncylinder { ").size(), 32U + 12);
 }
 
+TEST(Pov, hasTheProjectionBehindTheSlicesThatItWouldCover) {
+    scene::Look look;
+    look.projection.kind = scene::ProjectionKind::perspective;
+    look.view = scene::View::single;
+    for (const double azimuth : {0.0, 1.4}) {
+        look.orbit.azimuth = azimuth;
+        const PovOfPolytope pov("8-cell", {-1, 3, 0.5}, look);
+        const scene::Scene& s = pov.scene;
+        const auto at = pov.text.find("// Projection");
+        ASSERT_NE(at, std::string::npos);
+        const auto slice = vectorsAfter(pov.text.substr(0, at), "\nsphere { ");
+        const auto projection = vectorsAfter(pov.text.substr(at), "\nsphere { ");
+        ASSERT_FALSE(slice.empty());
+        ASSERT_GE(projection.size(), 16U);
+        double farthest = 0, nearest = 1e9;
+        for (const glm::dvec3& p : slice) farthest = std::max(farthest, glm::distance(p, s.camera.eye));
+        for (std::size_t v = 0; v < 16; ++v) {
+            const glm::dvec3 world =
+                s.projectionPlacement.position + s.projection.scale * s.projection.elements.vertices[v];
+            const glm::dvec3 wanted = world - s.camera.eye, found = projection[v] - s.camera.eye;
+            EXPECT_LT(glm::distance(glm::normalize(found), glm::normalize(wanted)), 1e-5) << "the same image";
+            if (azimuth == 0) {
+                EXPECT_LT(glm::distance(found, wanted), 1e-5) << "the projection is beside the slice";
+            }
+            nearest = std::min(nearest, glm::length(found));
+        }
+        if (azimuth != 0) {
+            EXPECT_GT(nearest, farthest);
+        }
+    }
+}
+
 TEST(Pov, fillsTheStarsOfTheProjection) {
     scene::Look look;
     look.parts.faces = false;
