@@ -100,10 +100,12 @@ test("pointer: orbiting and zooming keep half of the slices in the picture, and 
         const size = await sizeOf(page);
         const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
         const { eye, target } = scene.camera;
+        const { zero, amplitude } = scene.coordinates;
+        const lowest = (1 - zero - amplitude) * size.height; // slices below are covered by the parallel coordinates
         const inFront = ({ position }) => eye.reduce((sum, e, k) => sum + (e - target[k]) * (e - position[k]), 0) > 0;
         const visible = slices.filter((slice) => {
             const [x, y] = project(scene, slice.position, size);
-            return inFront(slice) && x >= 0 && x <= size.width && y >= 0 && y <= size.height;
+            return inFront(slice) && x >= 0 && x <= size.width && y >= 0 && y <= lowest;
         });
         return visible.length / slices.length;
     };

@@ -18,13 +18,17 @@ export class HitTester {
         private readonly orbit: Orbit,
     ) {}
 
-    /** The fraction of the drawn slices whose centers are within a picture of this size, as seen from an orbit. */
+    /**
+     * The fraction of the drawn slices whose centers are within a picture of this size, as seen from an orbit, and are
+     * not covered by the parallel coordinates.
+     */
     visibleShare(orbit: Orbit, size: Viewport): number {
         this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);
         const drawn = this.picture.slices.filter((slice) => slice.drawn);
         const visible = drawn.filter(({ position }) => {
             const at = this.viewCamera.project(position);
-            return at && at.x >= 0 && at.x <= size.width && at.y >= 0 && at.y <= size.height;
+            const isInside = at && at.x >= 0 && at.x <= size.width && at.y >= 0 && at.y <= size.height;
+            return isInside && !this.isCovered(at.y, size);
         });
         return drawn.length === 0 ? 1 : visible.length / drawn.length;
     }
