@@ -243,7 +243,7 @@ void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
 }
 
 // Prepares slices that may be nonconvex, surfaces and, if shown, the projection of the whole object for drawing without
-// OpenGL: adds them to the rasterizer in the order in which drawLayers() draws them.
+// OpenGL: adds them to the rasterizer in the order in which drawProjection() and drawLayers() draw them.
 void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;

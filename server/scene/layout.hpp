@@ -73,7 +73,8 @@ struct AxesSymbolLayout {
     bool operator==(const AxesSymbolLayout&) const = default;
 };
 
-/// The placement of the projection of the whole object. Radii are in world units.
+/// The placement of the projection of the whole object. It is clear of the slices until the viewer moves the camera;
+/// slices are drawn over it in any case. Radii are in world units.
 struct ProjectionPlacement {
     bool shown = false;
     glm::dvec3 position{0};   ///< the center of the projection, in world space

@@ -157,6 +157,26 @@ TEST_F(Depths, WhatIsFartherShowsThroughTheRestOfThePixelsAtAnEdge) {
         for (int y = 8; y < 20; ++y) EXPECT_GT(drawnAt(x, y)[2], 0.74 * face) << "at (" << x << ", " << y << ")";
 }
 
+TEST_F(Depths, HideNothingWhereTheyHaveBeenCleared) {
+    solid.addFace(std::vector<glm::vec3>{{-2, -2, -9}, {2, -2, -9}, {2, 2, -9}, {-2, 2, -9}}, {0, 0, 1}, kRed, 1,
+                  false);
+    translucent.addFace(std::vector<glm::vec3>{{-2, -2, -11}, {2, -2, -11}, {2, 2, -11}, {-2, 2, -11}}, {0, 0, 1},
+                        kBlue, 1, false);
+    image::Image picture{kSize, kSize, std::vector<std::uint8_t>(kSize * kSize * 4)};
+    rasterizer.begin({kSize, kSize}, scene::style(), picture.pixels);
+    rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
+    rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::written);
+    rasterizer.addDepthClearing({{-5, 10}, {kSize / 2, kSize + 5}});
+    rasterizer.add(translucent, 0, translucent.patches().size(), ShapeRasterizer::DepthUse::tested);
+    rasterizer.finish(nullptr);
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            const Rgb color = pixelAt(picture, x, y);
+            EXPECT_EQ(color[2] > color[0], x < kSize / 2 && y >= 10) << x << ", " << y;
+        }
+    }
+}
+
 TEST_F(Depths, PointsThatAreNotFiniteDrawNothingOutsideThePicture) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), huge = std::numeric_limits<float>::max();
     for (const float odd : {nan, huge, -huge}) {
