@@ -83,11 +83,25 @@ struct PartsShowingElement {
     std::vector<std::uint32_t> vertices, edges;  ///< source numbers of slice vertices and of slice edges
     std::vector<std::uint32_t> ownVertices;      ///< the element's vertices, as indices into the object's vertices
 
-    bool hasVertex(std::uint32_t source) const { return std::ranges::binary_search(vertices, source); }
-    bool hasEdge(std::uint32_t source) const { return std::ranges::binary_search(edges, source); }
+    bool hasVertex(std::uint32_t source) const { return contains(vertices, source); }
+    bool hasEdge(std::uint32_t source) const { return contains(edges, source); }
     bool empty() const { return ownVertices.empty(); }
     void clear();
     bool operator==(const PartsShowingElement&) const = default;
+
+  private:
+    // A binary search without branches: it is done for each vertex and edge of all slices, and the processor could not
+    // predict them.
+    static bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t source) {
+        if (sorted.empty()) return false;
+        const std::uint32_t* first = sorted.data();
+        for (std::size_t count = sorted.size(); count > 1;) {
+            const std::size_t half = count / 2;
+            first += half * static_cast<std::size_t>(first[half] <= source);
+            count -= half;
+        }
+        return *first == source;
+    }
 };
 
 /// Finds the parts of a picture that show an element. These parts are:

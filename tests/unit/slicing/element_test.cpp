@@ -404,5 +404,19 @@ TEST(VertexHeights, AreThoseOfCoxetersSections) {
     }
 }
 
+TEST(Elements, AreShownByExactlyTheListedVerticesAndEdgesOfSlices) {
+    constexpr std::uint32_t kSources = 40;
+    PartsShowingElement parts;
+    for (std::size_t count = 0; count < 10; ++count) {
+        for (std::uint32_t source = 0; source < kSources; ++source) {
+            EXPECT_EQ(parts.hasVertex(source), std::ranges::count(parts.vertices, source) == 1)
+                << source << " of " << count;
+            EXPECT_EQ(parts.hasEdge(source), std::ranges::count(parts.edges, source) == 1) << source << " of " << count;
+        }
+        parts.vertices.push_back(static_cast<std::uint32_t>(4 * count));
+        parts.edges.push_back(static_cast<std::uint32_t>(3 * count + 5));
+    }
+}
+
 }  // namespace
 }  // namespace oval4d::slicing
