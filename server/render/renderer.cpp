@@ -159,7 +159,7 @@ struct Renderer::Impl {
     SurfaceProgram surfaceProgram;
     CoordinatesPlot coordinatesPlot;
     Overlay overlay;
-    ShapeBatch shapes;
+    ShapeBatch shapes, strokes;  // `strokes` are drawn without OpenGL over everything else
     ConvexShapeCollector convexCollector;
     NonconvexShapeCollector nonconvexCollector;
     NonconvexShapeCollector::Layers layers;
@@ -365,6 +365,7 @@ Renderer::~Renderer() {
 
 void Renderer::freeMemory() {
     impl_->shapes = {};
+    impl_->strokes = {};
     impl_->shapeRasterizer.freeMemory();
     impl_->convexCollector = {};
     impl_->nonconvexCollector = {};
@@ -393,7 +394,10 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     const auto lock = lockDriver();
     impl_->context.begin(scene.viewport.width, scene.viewport.height, pixels.data());
 
+    ShapeBatch& strokes = impl_->strokes;
     shapes.begin(scene.style());
+    strokes.begin(scene.style());
+    strokes.setProjection(Projection::of(scene.camera, scene.viewport));
     overlay.begin(scene.viewport);
     const bool inMemory =
         impl_->shapesInMemory && !needsOpenGl(scene) && scene.viewport.width >= ShapeRasterizer::kMinWidth;
@@ -421,7 +425,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
         }
     }
     addAxes(scene, shapes, overlay);
-    addCoordinates(scene, overlay);
+    addCoordinates(scene, overlay, inMemory ? &strokes : nullptr);
     addLabels(scene, overlay);
     addMatrixAndFocusLines(scene, overlay);
 
@@ -436,6 +440,10 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     impl_->coordinatesPlot.draw(scene);
     overlay.draw();
     impl_->context.finish();
+    if (strokes.patches().empty()) return;
+    impl_->shapeRasterizer.beginOver(scene.viewport, scene.style(), pixels);
+    impl_->shapeRasterizer.add(strokes, 0, strokes.patches().size(), ShapeRasterizer::DepthUse::unused);
+    impl_->shapeRasterizer.finish(nullptr);  // waking another thread would take longer
 }
 
 }  // namespace oval4d::render

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -107,8 +108,8 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
 }
 
 /// Adds what is drawn over the density strip: its labeled axes, the lines of the vertices of the highlighted element,
-/// and a mark for the focus slice on the w axis.
-void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay) {
+/// and a mark for the focus slice on the w axis. `onTop`: see addCoordinates().
+void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatch* onTop) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
@@ -127,18 +128,30 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay) {
         overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
                      color);
     }
+    if (scene.highlight.empty()) onTop = nullptr;  // the mark belongs to `onTop` only if it is over lines
     const auto lineWidth = static_cast<float>(std::max(1.0, layout.lineWidth * height));
+    const auto addLine = [&](const glm::vec2& from, const glm::vec2& to) {
+        if (onTop == nullptr) return overlay.line(from, to, lineWidth, style.highlight);
+        // Beyond an end, a flat end of this length covers as much as a round one.
+        const float beyond = std::numbers::pi_v<float> / 8 * lineWidth;
+        const glm::vec2 more = beyond * glm::normalize(to - from);
+        onTop->addStroke(from - more, to + more, lineWidth, style.highlight);
+    };
     scene::forEachLineOverDensityStrip(scene.highlight.ownVertices, [&](std::uint32_t v) {
         const glm::dvec4& vertex = scene.slices->rotatedVertices[v];
         const auto pointOn = [&](int k) {
             return glm::vec2(static_cast<float>(middleOf(k)), levelOf(vertex[k] / scene.circumradius));
         };
-        for (int k = 0; k < 3; ++k) overlay.line(pointOn(k), pointOn(k + 1), lineWidth, style.highlight);
+        for (int k = 0; k < 3; ++k) addLine(pointOn(k), pointOn(k + 1));
     });
     for (const scene::SlicePlacement& placement : scene.placements) {
         if (!placement.focus || std::abs(placement.w) > scene.circumradius) continue;
         const auto middle = static_cast<float>(middleOf(3)), reach = static_cast<float>(kFocusReach * height);
         const float level = std::round(levelOf(placement.w / scene.circumradius));
+        if (onTop != nullptr) {
+            onTop->addStroke({middle - reach, level}, {middle + reach, level}, thickness, style.focusText);
+            continue;
+        }
         overlay.box({middle - reach, level - thickness / 2, middle + reach, level + thickness / 2}, style.focusText);
     }
 }
@@ -210,10 +223,14 @@ void addLabels(const scene::Scene& scene, Overlay& overlay) {
                 addLabel(placement, toView, projection, scene, overlay);
 }
 
-void addCoordinates(const scene::Scene& scene, Overlay& overlay) {
+void addCoordinates(const scene::Scene& scene, Overlay& overlay, ShapeBatch* onTop) {
     if (!scene.look.parts.coordinates) return;
     if (!scene.coordinates.hasLines()) {
-        (scene.coordinates.isDensityStrip ? addStripAxesAndLines : addHistogramAxes)(scene, overlay);
+        if (scene.coordinates.isDensityStrip) {
+            addStripAxesAndLines(scene, overlay, onTop);
+        } else {
+            addHistogramAxes(scene, overlay);
+        }
         return;
     }
     const scene::CoordinatesLayout& layout = scene.coordinates;

@@ -18,7 +18,9 @@ void addLabels(const scene::Scene& scene, Overlay& overlay);
 
 /// Adds the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
 /// field is shown instead, adds only its axes and marks, and over a density strip the lines of the highlighted element;
-/// CoordinatesPlot draws the rest. Does nothing if none of these is shown.
-void addCoordinates(const scene::Scene& scene, Overlay& overlay);
+/// CoordinatesPlot draws the rest. Does nothing if none of these is shown. If `onTop` is not null, adds these lines,
+/// and what is drawn over them, as strokes to `onTop` instead; the caller must draw it when everything else is drawn.
+/// Strokes can be drawn without OpenGL, which needs a fraction of the time for long lines.
+void addCoordinates(const scene::Scene& scene, Overlay& overlay, ShapeBatch* onTop);
 
 }  // namespace oval4d::render

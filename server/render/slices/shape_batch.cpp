@@ -9,6 +9,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 
 #include "render/color.hpp"
 
@@ -48,6 +49,7 @@ ClampedRadius clampedRadius(float pixels, int dimensions) {
 void ShapeBatch::begin(const scene::Style& style) {
     light_ = glm::normalize(glm::vec3(style.light));
     halfVector_ = glm::normalize(light_ + glm::vec3(0, 0, 1));
+    ambient_ = static_cast<float>(style.ambient);
     diffuse_ = static_cast<float>(style.diffuse);
     clear();
 }
@@ -148,6 +150,24 @@ void ShapeBatch::addFace(std::span<const glm::vec3> corners, const glm::vec3& no
     }
     addPatch(first, Patch::Form::face);
     if (soft) antialiasFace(first, count);
+}
+
+void ShapeBatch::addStroke(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity) {
+    const float length = glm::distance(from, to);
+    if (!(length > 0)) return;
+    const float half = 0.5F * width;
+    const glm::vec2 along = (to - from) / length, side = glm::vec2(-along.y, along.x) * (half + 0.5F);
+    const std::uint32_t tint = rgba(color, opacity);
+    const auto corner = [&](const glm::vec2& at, float inside) {
+        const glm::vec2 clip = 2.0F * at / glm::vec2(projection_.width, projection_.height) - 1.0F;
+        return ShapeVertex{{clip, 1}, {0, 0, inside}, {0, 0, 1 - ambient_}, {0, 0, 0}, tint};
+    };
+    // On each side of the axis, the coverage falls from the axis to half a pixel outside the edge: at the distance d
+    // from the axis, it is width/2 − d + ½, clamped to 0 … 1.
+    for (const glm::vec2& outward : {-side, side}) {
+        add({corner(from, half), corner(to, half), corner(to + outward, -0.5F), corner(from + outward, -0.5F)},
+            Patch::Form::rim);
+    }
 }
 
 /// Antialiases a face: moves its edges half a pixel inward, and adds a rim whose coverage falls to zero half a pixel

@@ -1,6 +1,6 @@
 #pragma once
-// Converts balls, bars and faces to flat patches of one vertex format, so that one shader draws all of them in one call
-// and in any order.
+// Converts balls, bars, faces and strokes to flat patches of one vertex format, so that one shader draws all of them in
+// one call and in any order.
 
 #include <cstdint>
 #include <initializer_list>
@@ -27,7 +27,7 @@ struct ShapeVertex {
     glm::vec3 clip;  ///< clip coordinates x, y, w
     /// u, v and r/2, for the radius r in pixels. The shape covers the fraction (1 − u² − v²) · r/2 + ½ of the pixel,
     /// clamped to 0 … 1. A face has ½ instead of r/2, so that it covers whole pixels; at the outer edge of its soft
-    /// rim, it has −½, so that it covers nothing.
+    /// rim, it has −½, so that it covers nothing. A stroke has half its width at its axis, and −½ at its outer edges.
     glm::vec3 place;
     glm::vec3 diffuse;    ///< X·L, Y·L, Z·L, times the diffuse intensity
     glm::vec3 specular;   ///< X·H, Y·H, Z·H
@@ -43,7 +43,7 @@ struct Patch {
     /// The form of the shape, and the parts of ShapeVertex::place in which the vertices differ.
     enum class Form : std::uint8_t {
         face,   ///< a face; no part differs
-        rim,    ///< a part of the soft edge of a face; place.z differs
+        rim,    ///< a part of the soft edge of a face, or one side of a stroke; place.z differs
         strip,  ///< a bar without its foot (see ShapeBatch::addBarFromFarEnd()); place.x differs, and place.y is 0
         disk,   ///< a ball, or the foot of a bar; place.x and place.y differ
     };
@@ -82,6 +82,11 @@ class ShapeBatch {
     void addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
                  bool soft);
 
+    /// Adds a stroke: a straight line with flat ends and antialiased sides, which has its color whatever the light.
+    /// `from`, `to` and `width` are in pixels, counted from the lower left corner of the picture. Only the size of the
+    /// picture is taken from the projection. Does nothing if `from` and `to` are equal.
+    void addStroke(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
+
     const Projection& projection() const { return projection_; }
     std::span<const ShapeVertex> vertices() const { return vertices_; }
     std::span<const Patch> patches() const { return patches_; }
@@ -93,7 +98,7 @@ class ShapeBatch {
 
     Projection projection_;
     glm::vec3 light_{0}, halfVector_{0};
-    float diffuse_ = 0;
+    float ambient_ = 0, diffuse_ = 0;
     std::vector<ShapeVertex> vertices_;
     std::vector<Patch> patches_;
     std::vector<glm::vec2> pixels_;

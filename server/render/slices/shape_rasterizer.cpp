@@ -69,6 +69,7 @@ struct ShapeRasterizer::Impl {
 
     PatchCanvas canvas;
     std::uint32_t background = 0;
+    bool keepsPicture = false;  // whether shapes are drawn over the picture that is in memory
     PixelArea depthArea{{0, 0}, {0, 0}};
     std::vector<AddedShapes> layers;
     std::vector<float> nearness;
@@ -89,9 +90,15 @@ void ShapeRasterizer::begin(scene::Viewport viewport, const scene::Style& style,
                      .gloss = static_cast<float>(255 * style.specular),
                      .shininess = static_cast<unsigned>(std::lround(style.shininess)),
                      .opaque = style.backgroundOpacity == 1};
+    impl_->keepsPicture = false;
     impl_->background = impl_->canvas.opaque ? rgba(style.background, 1) : 0;
     impl_->depthArea = {{0, 0}, {0, 0}};
     impl_->layers.clear();
+}
+
+void ShapeRasterizer::beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels) {
+    begin(viewport, style, pixels);
+    impl_->keepsPicture = true;
 }
 
 void ShapeRasterizer::add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth) {
@@ -150,7 +157,7 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace)
     part.left = workspace.left.data();
     part.right = workspace.right.data();
     const auto startOf = [&](int y) { return static_cast<std::ptrdiff_t>(y) * canvas.width; };
-    std::fill(canvas.pixels + startOf(rows.begin), canvas.pixels + startOf(rows.end), background);
+    if (!keepsPicture) std::fill(canvas.pixels + startOf(rows.begin), canvas.pixels + startOf(rows.end), background);
     clearDepth(rows, depthArea);
     for (const AddedShapes& layer : layers) {
         if (layer.shapes != nullptr) {
@@ -202,6 +209,8 @@ ShapeRasterizer::ShapeRasterizer() = default;
 bool ShapeRasterizer::isSupported() { return false; }
 void ShapeRasterizer::begin(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
                             std::span<std::uint8_t> /*pixels*/) {}
+void ShapeRasterizer::beginOver(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
+                                std::span<std::uint8_t> /*pixels*/) {}
 void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, std::size_t /*first*/, std::size_t /*end*/,
                           DepthUse /*depth*/) {}
 void ShapeRasterizer::add(const SurfaceRasterizer& /*surfaces*/, std::span<const std::uint32_t> /*indices*/,

@@ -53,6 +53,9 @@ class ShapeRasterizer {
     /// least kMinWidth wide.
     void begin(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
 
+    /// Like begin(), but draws over the picture that is in `pixels`, instead of the background.
+    void beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
+
     /// Adds the patches `first` … `end` − 1 of `shapes`, which must remain valid until finish() returns. They are drawn
     /// in order, after everything that was added before.
     void add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth);

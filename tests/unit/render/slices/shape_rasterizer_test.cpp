@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -90,6 +92,14 @@ INSTANTIATE_TEST_SUITE_P(
                 {.parts = kSections, .orbit = {}, .projection = {.kind = ProjectionKind::orthogonal}},
                 {640, 360},
                 0.04},
+        Example{"lines_over_a_density",
+                "120-cell",
+                {.view = scene::View::single,
+                 .parts = {},
+                 .orbit = {},
+                 .highlight = slicing::Element{slicing::ElementKind::cell, 1}},
+                {640, 360},
+                2e-3},
         Example{"crossing", "great stellated 120-cell", {}, {640, 360}, 0.02},
         Example{"crossing_faces", "grand 600-cell", {.parts = kOnlyFaces, .orbit = {}}, {640, 360}, 1e-3},
         Example{"crossing_and_projection",
@@ -209,6 +219,24 @@ TEST_F(Depths, FacesAreHiddenWhereSolidShapesAreNearer) {
     EXPECT_GT(drawnAt(32 - 16, 32)[0], drawnAt(32 - 16, 32)[2]) << "the bar is nearer";
     EXPECT_GT(drawnAt(32 + 16, 32)[2], drawnAt(32 + 16, 32)[0]) << "the face is nearer";
     EXPECT_GT(drawnAt(32 - 16, 32 + 16)[2], 60) << "the face beside the bar";
+}
+
+TEST_F(Depths, StrokesHaveTheirColorAndWidthAndLeaveTheRestOfThePicture) {
+    constexpr int kGray = 100;
+    image::Image image{kSize, kSize, std::vector<std::uint8_t>(image::byteCount(kSize, kSize), kGray)};
+    solid.addStroke({10, 20}, {50, 20}, 3, kRed);
+    rasterizer.beginOver({kSize, kSize}, scene::style(), image.pixels);
+    rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::unused);
+    rasterizer.finish(nullptr);
+    for (int y = 0; y < kSize; ++y) {
+        for (int x = 0; x < kSize; ++x) {
+            const double fromEdge = 1.5 - std::abs(y + 0.5 - 20);
+            const double covered = x < 10 || x >= 50 ? 0 : std::clamp(fromEdge + 0.5, 0.0, 1.0);
+            const int red = static_cast<int>(std::lround(kGray + covered * (255 - kGray)));
+            const int other = static_cast<int>(std::lround(kGray * (1 - covered)));
+            EXPECT_LE(difference(pixelAt(image, x, y), Rgb{red, other, other}), 1) << "at (" << x << ", " << y << ")";
+        }
+    }
 }
 
 }  // namespace
