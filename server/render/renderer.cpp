@@ -425,7 +425,9 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
         }
     }
     addAxes(scene, shapes, overlay);
-    addCoordinates(scene, overlay, inMemory ? &strokes : nullptr);
+    addCoordinates(scene, overlay,
+                   {.below = inMemory && !scene.clearsCoordinatesArea() ? &shapes : nullptr,
+                    .above = inMemory ? &strokes : nullptr});
     addLabels(scene, overlay);
     addMatrixAndFocusLines(scene, overlay);
 

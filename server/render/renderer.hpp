@@ -1,7 +1,7 @@
 #pragma once
-// Draws scenes. In pictures without fog, the slices, the projection of the whole object, the axes symbol, and the lines
-// of a highlighted element over a density strip are drawn without OpenGL if the processor has AVX2 and FMA; everything
-// else is drawn with OSMesa.
+// Draws scenes. In pictures without fog, the slices, the projection of the whole object, the axes symbol, and what
+// marks a highlighted element in the parallel coordinates are drawn without OpenGL if the processor has AVX2 and FMA;
+// everything else is drawn with OSMesa.
 
 #include <cstdint>
 #include <memory>

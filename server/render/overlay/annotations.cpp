@@ -108,8 +108,8 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
 }
 
 /// Adds what is drawn over the density strip: its labeled axes, the lines of the vertices of the highlighted element,
-/// and a mark for the focus slice on the w axis. `onTop`: see addCoordinates().
-void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatch* onTop) {
+/// and a mark for the focus slice on the w axis. `above`: see StrokeTargets.
+void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatch* above) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
@@ -128,14 +128,14 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatc
         overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
                      color);
     }
-    if (scene.highlight.empty()) onTop = nullptr;  // the mark belongs to `onTop` only if it is over lines
+    if (scene.highlight.empty()) above = nullptr;  // the mark belongs to `above` only if it is over lines
     const auto lineWidth = static_cast<float>(std::max(1.0, layout.lineWidth * height));
     const auto addLine = [&](const glm::vec2& from, const glm::vec2& to) {
-        if (onTop == nullptr) return overlay.line(from, to, lineWidth, style.highlight);
+        if (above == nullptr) return overlay.line(from, to, lineWidth, style.highlight);
         // Beyond an end, a flat end of this length covers as much as a round one.
         const float beyond = std::numbers::pi_v<float> / 8 * lineWidth;
         const glm::vec2 more = beyond * glm::normalize(to - from);
-        onTop->addStroke(from - more, to + more, lineWidth, style.highlight);
+        above->addStroke(from - more, to + more, lineWidth, style.highlight);
     };
     scene::forEachLineOverDensityStrip(scene.highlight.ownVertices, [&](std::uint32_t v) {
         const glm::dvec4& vertex = scene.slices->rotatedVertices[v];
@@ -148,8 +148,8 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatc
         if (!placement.focus || std::abs(placement.w) > scene.circumradius) continue;
         const auto middle = static_cast<float>(middleOf(3)), reach = static_cast<float>(kFocusReach * height);
         const float level = std::round(levelOf(placement.w / scene.circumradius));
-        if (onTop != nullptr) {
-            onTop->addStroke({middle - reach, level}, {middle + reach, level}, thickness, style.focusText);
+        if (above != nullptr) {
+            above->addStroke({middle - reach, level}, {middle + reach, level}, thickness, style.focusText);
             continue;
         }
         overlay.box({middle - reach, level - thickness / 2, middle + reach, level + thickness / 2}, style.focusText);
@@ -223,11 +223,11 @@ void addLabels(const scene::Scene& scene, Overlay& overlay) {
                 addLabel(placement, toView, projection, scene, overlay);
 }
 
-void addCoordinates(const scene::Scene& scene, Overlay& overlay, ShapeBatch* onTop) {
+void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes) {
     if (!scene.look.parts.coordinates) return;
     if (!scene.coordinates.hasLines()) {
         if (scene.coordinates.isDensityStrip) {
-            addStripAxesAndLines(scene, overlay, onTop);
+            addStripAxesAndLines(scene, overlay, strokes.above);
         } else {
             addHistogramAxes(scene, overlay);
         }
@@ -244,20 +244,25 @@ void addCoordinates(const scene::Scene& scene, Overlay& overlay, ShapeBatch* onT
     const auto lineThickness = snap(lineWidth);
     const auto zeroOf = [&](int row) { return std::round((layout.zero - row * layout.rowStep) * height); };
 
+    // The lines of zero are behind the bands of highlighted vertices, so both are drawn in the same way.
+    ShapeBatch* const below = scene.highlight.empty() ? nullptr : strokes.below;
+    const auto addBand = [&](float left, float right, float middle, float width, scene::Color color, float opacity) {
+        if (below != nullptr) return below->addStroke({left, middle}, {right, middle}, width, color, opacity);
+        overlay.box({left, middle - width / 2, right, middle + width / 2}, color, opacity);
+    };
     for (int row = 0; row * layout.perRow < count; ++row) {
         const int columns = std::min(layout.perRow, count - row * layout.perRow);
         const double left = layout.left * height,
                      right = left + ((columns - 1) * layout.columnStep + 3 * layout.lineStep) * height + lineWidth;
         const auto zero = static_cast<float>(zeroOf(row));
-        overlay.box({snap(left), zero - 0.5f, snap(right), zero + 0.5f}, style.zeroLine);
+        addBand(snap(left), snap(right), zero, 1, style.zeroLine, 1);
     }
     for (const std::uint32_t i : scene.highlight.ownVertices) {
         const double zero = zeroOf(static_cast<int>(i) / layout.perRow), reach = layout.amplitude * height;
         const double column = (layout.left + (static_cast<int>(i) % layout.perRow) * layout.columnStep) * height;
         const double gap = 0.5 * layout.lineStep * height;
-        overlay.box({snap(column - gap), static_cast<float>(zero - reach),
-                     snap(column + 3 * layout.lineStep * height + lineWidth + gap), static_cast<float>(zero + reach)},
-                    style.highlight, kHighlightOpacity);
+        addBand(snap(column - gap), snap(column + 3 * layout.lineStep * height + lineWidth + gap),
+                static_cast<float>(zero), static_cast<float>(2 * reach), style.highlight, kHighlightOpacity);
     }
     for (int i = 0; i < count; ++i) {
         const double zero = zeroOf(i / layout.perRow);
