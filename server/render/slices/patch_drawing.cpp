@@ -53,35 +53,6 @@ OVAL4D_AVX2 inline __m256i inHalves(int first, int second) {
     return _mm256_set_m128i(_mm_set1_epi32(second), _mm_set1_epi32(first));
 }
 
-// Blends a face with the picture, without depths. All pixels of a face have the same color, so integers suffice: the
-// result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255.
-OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
-    const float light = canvas.ambient + paint.diffuse.z, alpha = static_cast<float>(paint.alpha);
-    const auto term = [&](float channel) {
-        return static_cast<std::uint64_t>(std::lround(std::min(channel * light, 255.0F) * alpha));
-    };
-    const std::uint64_t terms = term(paint.color.r) | term(paint.color.g) << 16 | term(paint.color.b) << 32 |
-                                std::uint64_t{255} * paint.alpha << 48;
-    const __m256i added = _mm256_set1_epi64x(static_cast<std::int64_t>(terms));
-    const __m256i kept = _mm256_set1_epi16(static_cast<short>(255 - paint.alpha)), zero = _mm256_setzero_si256();
-    const __m256i rounder = _mm256_set1_epi16(128);
-    for (int y = rows.begin; y < rows.end; ++y) {
-        const int end = canvas.right[y];
-        std::uint32_t* const row = canvas.pixels + static_cast<std::ptrdiff_t>(y) * canvas.width;
-        for (int x = canvas.left[y]; x < end; x += kLanes) {
-            const int at = std::min(x, canvas.width - kLanes);
-            auto* const place = reinterpret_cast<__m256i*>(row + at);
-            const __m256i old = _mm256_loadu_si256(place);
-            __m256i low = _mm256_unpacklo_epi8(old, zero), high = _mm256_unpackhi_epi8(old, zero);
-            low = _mm256_add_epi16(_mm256_add_epi16(_mm256_mullo_epi16(low, kept), added), rounder);
-            high = _mm256_add_epi16(_mm256_add_epi16(_mm256_mullo_epi16(high, kept), added), rounder);
-            low = _mm256_srli_epi16(_mm256_add_epi16(low, _mm256_srli_epi16(low, 8)), 8);
-            high = _mm256_srli_epi16(_mm256_add_epi16(high, _mm256_srli_epi16(high, 8)), 8);
-            _mm256_storeu_si256(place, _mm256_blendv_epi8(old, _mm256_packus_epi16(low, high), between(x, end, at)));
-        }
-    }
-}
-
 // Returns the parts of eight pixels that solid shapes leave uncovered, from 0 to 1.
 OVAL4D_AVX2 inline __m256 uncoveredParts(__m256 depths) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
@@ -263,6 +234,51 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
     }
 }
 
+// Blends a face with the picture, without writing depths. All pixels of a face have the same color, so integers
+// suffice: the result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255. With
+// `tested`, most pixels are blended like this: where the face is nearer than all solid shapes, or where there is none.
+template <DepthUse depth>
+OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
+    static_assert(depth != DepthUse::written);
+    const float light = canvas.ambient + paint.diffuse.z, alpha = static_cast<float>(paint.alpha);
+    const auto term = [&](float channel) {
+        return static_cast<std::uint64_t>(std::lround(std::min(channel * light, 255.0F) * alpha));
+    };
+    const std::uint64_t terms = term(paint.color.r) | term(paint.color.g) << 16 | term(paint.color.b) << 32 |
+                                std::uint64_t{255} * paint.alpha << 48;
+    const __m256i added = _mm256_set1_epi64x(static_cast<std::int64_t>(terms));
+    const __m256i kept = _mm256_set1_epi16(static_cast<short>(255 - paint.alpha)), zero = _mm256_setzero_si256();
+    const __m256i rounder = _mm256_set1_epi16(128);
+    for (int y = rows.begin; y < rows.end; ++y) {
+        const int end = canvas.right[y];
+        for (int x = canvas.left[y]; x < end; x += kLanes) {
+            const int at = std::min(x, canvas.width - kLanes);
+            const PixelsOfOneRow pixels{static_cast<std::ptrdiff_t>(y) * canvas.width + at};
+            const __m256i inside = between(x, end, at);
+            if constexpr (depth == DepthUse::tested) {
+                const auto start = startValues<Form::face, depth>(paint, at, y, at, y);
+                const __m256 column = _mm256_cvtepi32_ps(lanes()), bulge = _mm256_set1_ps(paint.bulge);
+                const __m256 patch = _mm256_fmadd_ps(column, _mm256_set1_ps(paint.nearness.x), start.nearness);
+                const __m256 nearness = _mm256_fmadd_ps(patch, bulge, patch), solid = pixels.depths(canvas.nearness);
+                const __m256i coverage = _mm256_and_si256(_mm256_castps_si256(solid), _mm256_set1_epi32(kCoverageBits));
+                const __m256 isVisible = _mm256_or_ps(_mm256_cmp_ps(nearness, solid, _CMP_GT_OQ),
+                                                      _mm256_castsi256_ps(_mm256_cmpeq_epi32(coverage, zero)));
+                if (_mm256_testc_ps(isVisible, _mm256_castsi256_ps(inside)) == 0) {  // somewhere inside, it is not
+                    fillPixels<Form::face, depth>(canvas, paint, pixels, start, lanes(), _mm256_castsi256_ps(inside));
+                    continue;
+                }
+            }
+            const __m256i old = pixels.colors(canvas.pixels);
+            __m256i low = _mm256_unpacklo_epi8(old, zero), high = _mm256_unpackhi_epi8(old, zero);
+            low = _mm256_add_epi16(_mm256_add_epi16(_mm256_mullo_epi16(low, kept), added), rounder);
+            high = _mm256_add_epi16(_mm256_add_epi16(_mm256_mullo_epi16(high, kept), added), rounder);
+            low = _mm256_srli_epi16(_mm256_add_epi16(low, _mm256_srli_epi16(low, 8)), 8);
+            high = _mm256_srli_epi16(_mm256_add_epi16(high, _mm256_srli_epi16(high, 8)), 8);
+            pixels.setColors(canvas.pixels, _mm256_blendv_epi8(old, _mm256_packus_epi16(low, high), inside));
+        }
+    }
+}
+
 // Returns the first row of `rows` whose center is not below y, or rows.end if there is none.
 OVAL4D_AVX2 inline int firstRow(float y, const RowRange& rows) {
     const auto begin = static_cast<float>(rows.begin), end = static_cast<float>(rows.end);
@@ -353,10 +369,11 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     const RowRange rows = findRows(canvas, corners, area > 0);
     if (rows.begin >= rows.end) return;
     PatchShading paint = paintOf(look, pixelSize);
-    if (depth == DepthUse::unused) return fillFace(canvas, rows, paint);
+    if (depth == DepthUse::unused) return fillFace<DepthUse::unused>(canvas, rows, paint);
     paint.nearness = nearnessOf(corners, area);
-    if (depth == DepthUse::written) paint.bulge = 0;
-    fill<Form::face>(canvas, rows, paint, depth);
+    if (depth == DepthUse::tested) return fillFace<DepthUse::tested>(canvas, rows, paint);
+    paint.bulge = 0;
+    fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
 }
 
 // Draws a triangle, or a quad that is almost a parallelogram, of a shape other than a face.

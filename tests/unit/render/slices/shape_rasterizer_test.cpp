@@ -227,6 +227,22 @@ TEST_F(Depths, FacesAreHiddenWhereSolidShapesAreNearer) {
     EXPECT_GT(drawnAt(32 - 16, 32 + 16)[2], 60) << "the face beside the bar";
 }
 
+TEST_F(Depths, FacesInFrontOfAllSolidShapesLookAsWithoutDepths) {
+    const auto drawn = [&](ShapeRasterizer::DepthUse depth) {
+        std::vector<std::uint8_t> pixels(image::byteCount(kSize, kSize));
+        rasterizer.begin({kSize, kSize}, scene::style(), pixels);
+        rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
+        rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::written);
+        rasterizer.add(translucent, 0, translucent.patches().size(), depth);
+        rasterizer.finish(nullptr);
+        return pixels;
+    };
+    solid.addBall({0.3F, 0.2F, -12}, 0.4F, kRed);
+    translucent.addFace(std::vector<glm::vec3>{{-0.9F, -0.8F, -10.5F}, {0.7F, -0.3F, -10}, {0.6F, 0.9F, -9.5F}},
+                        {0, 0, 1}, kBlue, 0.4F, false);
+    EXPECT_EQ(drawn(ShapeRasterizer::DepthUse::tested), drawn(ShapeRasterizer::DepthUse::unused));
+}
+
 TEST_F(Depths, StrokesHaveTheirColorAndWidthAndLeaveTheRestOfThePicture) {
     constexpr int kGray = 100;
     image::Image image{kSize, kSize, std::vector<std::uint8_t>(image::byteCount(kSize, kSize), kGray)};
