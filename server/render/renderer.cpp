@@ -41,6 +41,10 @@ namespace {
 // last batch may be smaller. While the threads of the driver rasterize one batch, this thread prepares the next one.
 constexpr std::size_t kBatchPatches = 2'000;
 
+// A projection with fewer shapes than this is prepared by the thread that prepares the slices: waking another thread
+// would take about as long.
+constexpr std::size_t kFewShapes = 500;
+
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
 /// reads the llvmpipe scenes of the other contexts (llvmpipe_is_resource_referenced). In Mesa 22.3, another thread may
 /// free these scenes at the same time.
@@ -237,7 +241,9 @@ void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     const auto collectSlices = [&] { convexCollector.collect(scene, shapes, [] {}); };
     if (!scene.projectionPlacement.shown) return collectSlices();
     const auto collectProjection = [&] { prepareProjection(scene); };
-    parallel::invoke(forkJoin, std::ref(collectSlices), std::ref(collectProjection));
+    const slicing::SliceSet& elements = scene.projection.elements;
+    const std::size_t count = elements.vertices.size() + elements.edges.size() + elements.faceSource.size();
+    parallel::invoke(count < kFewShapes ? nullptr : forkJoin, std::ref(collectSlices), std::ref(collectProjection));
     shapeRasterizer.setDepthArea(depthAreaOfProjection(scene));
     addProjection();
 }
