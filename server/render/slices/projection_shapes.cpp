@@ -32,17 +32,10 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     solid_.clear();
     translucent_.clear();
     for (std::uint32_t part = 0; part < projection.parts.size(); ++part) collectPart(scene, part);
-    // Shapes at the same depth are sorted by part, kind and number, so that equal scenes give equal pictures.
-    // std::stable_sort would make this unnecessary, but allocates memory.
-    const auto farther = [](const SortedShape& a, const SortedShape& b) {
-        return a.depth != b.depth ? a.depth > b.depth
-                                  : std::tie(a.part, a.kind, a.number) < std::tie(b.part, b.kind, b.number);
-    };
     for (auto& [items, shapes] : {std::tie(solid_, out.solid), std::tie(translucent_, out.translucent)}) {
-        std::sort(items.begin(), items.end(), farther);
         shapes.begin(scene.style());
         shapes.setProjection(Projection::of(scene.camera, scene.viewport));
-        for (const SortedShape& item : items) addShape(scene, item, shapes);
+        for (const DepthOrder::Entry& entry : order_.farToNear(items)) addShape(scene, items[entry.index], shapes);
     }
 }
 
@@ -50,7 +43,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
     const scene::ObjectProjection& projection = scene.projection;
     const slicing::SliceSet& elements = projection.elements;
     const scene::ProjectionPartLook& look = projection.parts[part];
-    const auto add = [&](const SortedShape& item, Visibility visibility) {
+    const auto add = [&](const ProjectedShape& item, Visibility visibility) {
         if (visibility == Visibility::hidden) return;
         // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. Faces must be
         // visible behind these bars; the bars are therefore in the translucent layer.
@@ -94,7 +87,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
     }
 }
 
-void ProjectionShapeCollector::addShape(const scene::Scene& scene, const SortedShape& item, ShapeBatch& out) {
+void ProjectionShapeCollector::addShape(const scene::Scene& scene, const ProjectedShape& item, ShapeBatch& out) {
     const slicing::SliceSet& elements = scene.projection.elements;
     const scene::ProjectionPartLook& part = scene.projection.parts[item.part];
     const glm::vec3* points = points_.data() + elements.vertexBegin[item.part];

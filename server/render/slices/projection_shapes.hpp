@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "render/slices/depth_order.hpp"
 #include "render/slices/shape_batch.hpp"
 #include "scene/scene.hpp"
 
@@ -30,7 +31,7 @@ class ProjectionShapeCollector {
 
   private:
     enum class ShapeKind : std::uint8_t { ball, bar, face, piece };
-    struct SortedShape {
+    struct ProjectedShape {
         float depth;  // the distance from the eye along the view axis
         ShapeKind kind;
         // number: the index of a vertex, edge or face in ObjectProjection::elements, or of a piece in
@@ -39,12 +40,13 @@ class ProjectionShapeCollector {
     };
 
     void collectPart(const scene::Scene& scene, std::uint32_t part);
-    void addShape(const scene::Scene& scene, const SortedShape& item, ShapeBatch& out);
+    void addShape(const scene::Scene& scene, const ProjectedShape& item, ShapeBatch& out);
     void addPolygon(scene::Color color, float opacity, ShapeBatch& out) const;
 
     // In view coordinates: the vertices of the projection, the corners of its fill, and those of the current polygon.
     std::vector<glm::vec3> points_, fillPoints_, corners_;
-    std::vector<SortedShape> solid_, translucent_;
+    std::vector<ProjectedShape> solid_, translucent_;  // by part, kind and number
+    DepthOrder order_;
 };
 
 }  // namespace oval4d::render
