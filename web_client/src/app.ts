@@ -53,6 +53,7 @@ import { RotationControl } from "./rotation";
 import { Tilt } from "./tilt";
 import { Tools } from "./tools";
 import { Tour } from "./tour";
+import { TourObject } from "./tour_object";
 
 // Milliseconds without a change of the size, after which pictures of the new size are requested.
 const kResizeDelay = 120;
@@ -224,12 +225,20 @@ export class App {
         },
     });
     private readonly tools = new Tools({ press: (...binding) => this.keyboard.press(...binding) });
-    private readonly tour = new Tour(() => this.drawing.focus());
-    private readonly welcomeLine = new WelcomeLine(
-        this.drawing,
-        () => this.tour.start(),
+    private readonly tourObject = new TourObject(
+        this.client,
+        (command) => this.request(command),
+        (error) => this.notice.show(error.message),
+    );
+    private readonly tour = new Tour(
+        (name) => this.tourObject.show(name),
         () => this.drawing.focus(),
     );
+    private readonly welcomeLine = new WelcomeLine(this.drawing, {
+        startTour: () => this.tour.start(),
+        showObject: (name) => void this.send({ type: "set", polytope: name }),
+        closed: () => this.drawing.focus(),
+    });
     private readonly colorControls = new ColorControls((change) => void this.send({ type: "set", ...change }));
     private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
     private state: State | undefined;

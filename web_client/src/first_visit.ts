@@ -21,6 +21,17 @@ export function isFirstVisit(): boolean {
     }
 }
 
+/** The field that a button of the welcome shows. */
+const kFirstField = "tiger";
+
+export interface WelcomeLineEvents {
+    startTour(): void;
+    /** Shows the object of the catalogue with this name. */
+    showObject(name: string): void;
+    /** Called after the line has disappeared, if the focus was in it. */
+    closed(): void;
+}
+
 /**
  * The line of welcome. It disappears when the user has followed its advice, to turn the object and to move the focus.
  */
@@ -33,16 +44,16 @@ export class WelcomeLine {
 
     constructor(
         drawing: HTMLElement,
-        startTour: () => void,
-        private readonly closed: () => void,
+        private readonly events: WelcomeLineEvents,
     ) {
         // A user who drags, taps or zooms needs the line no longer, and the picture gets its room.
         for (const gesture of ["pointerup", "wheel"]) drawing.addEventListener(gesture, () => this.hide());
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the drawing keeps the focus
         byId("welcome-tour").addEventListener("click", () => {
             this.hide();
-            startTour();
+            events.startTour();
         });
+        byId("welcome-field").addEventListener("click", () => events.showObject(kFirstField));
         byId("welcome-close").addEventListener("click", () => this.hide());
     }
 
@@ -78,6 +89,6 @@ export class WelcomeLine {
     hide(): void {
         const hadFocus = this.root.contains(document.activeElement);
         this.root.hidden = true;
-        if (hadFocus) this.closed();
+        if (hadFocus) this.events.closed();
     }
 }

@@ -1,6 +1,6 @@
 // A tour of the page: a panel beside what it explains. The page stays usable during the tour. The steps are in
 // index.html. Each step lists selectors of elements, and points at the first visible one of them: at all of it, or at a
-// part of its height.
+// part of its height. A step may also name an object, which is shown during this step.
 
 import { byId } from "./element";
 
@@ -16,8 +16,14 @@ export class Tour {
     private readonly steps = [...this.root.querySelectorAll<HTMLElement>("[data-target]")];
     private at = 0;
 
-    /** `ended` is called after the tour, if the focus was in its panel. */
-    constructor(private readonly ended: () => void) {
+    /**
+     * `showObject` is called with the name of the object that a step shows, or without a name if a step shows none, and
+     * at the end. `ended` is called after the tour, if the focus was in its panel.
+     */
+    constructor(
+        private readonly showObject: (name: string | undefined) => void,
+        private readonly ended: () => void,
+    ) {
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the focus stays where it is
         this.back.addEventListener("click", () => this.show(this.at - 1));
         this.next.addEventListener("click", () => this.show(this.at + 1));
@@ -37,6 +43,7 @@ export class Tour {
         if (this.root.hidden) return;
         const hadFocus = this.root.contains(document.activeElement);
         this.root.hidden = this.ring.hidden = true;
+        this.showObject(undefined);
         if (hadFocus) this.ended();
     }
 
@@ -52,6 +59,7 @@ export class Tour {
         if (focused === this.back && this.back.disabled) this.next.focus();
         this.target?.scrollIntoView({ block: "nearest" });
         this.place();
+        this.showObject(this.steps[at]!.dataset["object"]);
     }
 
     /** What the current step points at, if it is visible. */
