@@ -88,7 +88,7 @@ Error unknownName(std::string_view name, std::span<const std::string_view> other
     };
     if (isIn(kPictureParameters)) return refused("pictures, which are measured in pixels, and not of files");
     if (isIn(kFileParameters)) return refused("files, and not of pictures");
-    std::vector<std::string_view> all{"rotate", "toward", "formula", "values", "box"};
+    std::vector<std::string_view> all{"rotate", "toward", kField, "formula", "values", "box"};
     all.insert(all.end(), others.begin(), others.end());
     return unknownSetting(name, all);
 }
@@ -148,7 +148,7 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
                 if (!index) return index.error();
                 toward->number = *index;
             }
-        } else if (auto done = parseSetting(name, value, set); !done) {
+        } else if (auto done = parseSetting(name == kField ? kPolytope : std::string_view(name), value, set); !done) {
             return done.error().code == ErrorCode::unknown_command ? unknownName(name, others) : done.error();
         }
     }

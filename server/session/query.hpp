@@ -21,6 +21,9 @@ inline constexpr auto kPictureParameters = std::to_array<std::string_view>({"wid
 inline constexpr auto kFileParameters =
     std::to_array<std::string_view>({"of", "body", "size", "label", "at", "fit", "exact"});
 
+/// The parameter that means the same as kPolytope, for those who look for a field.
+inline constexpr std::string_view kField = "field";
+
 /// Parses the ranges of x, y, z and w: eight numbers or expressions, separated by commas. `name` is what errors call
 /// the box. Errors: `bad_expression` and those of evaluate().
 Result<fields::Box> parseBox(std::string_view text, std::string_view name = "box");
@@ -29,13 +32,14 @@ Result<fields::Box> parseBox(std::string_view text, std::string_view name = "box
 /// commas. Errors: `bad_expression` and those of evaluate().
 Result<geometry::Centering> parseCenter(std::string_view written);
 
-/// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "formula",
-/// "box" and "values", which describe a field; "rotate", which may occur any number of times; and "toward", such as
-/// "cell" or "cell:3". Rotations are applied in the order given, and "toward" after everything else. Settings that the
-/// query does not contain are those of `state`. `loader` provides the polytopes. `others` are the names of further
-/// parameters, which the caller has read and removed. Errors: `unknown_command` for an unknown name, with a list of the
-/// allowed names and of `others`; `bad_expression`; those of parseSetting(), parseTurn(), checkTurn(), parseBox(),
-/// readFormula(), replaceObject(), parseElementKind(), parseElementIndex(), turnToward() and applySet().
+/// Returns the state that a query describes. The names in the query are those that parseSetting() accepts; "field",
+/// which is another name of "polytope"; "formula", "box" and "values", which describe a field; "rotate", which may
+/// occur any number of times; and "toward", such as "cell" or "cell:3". Rotations are applied in the order given, and
+/// "toward" after everything else. Settings that the query does not contain are those of `state`. `loader` provides the
+/// polytopes. `others` are the names of further parameters, which the caller has read and removed. Errors:
+/// `unknown_command` for an unknown name, with a list of the allowed names and of `others`; `bad_expression`; those of
+/// parseSetting(), parseTurn(), checkTurn(), parseBox(), readFormula(), replaceObject(), parseElementKind(),
+/// parseElementIndex(), turnToward() and applySet().
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader,
                              State state = initialState(), std::span<const std::string_view> others = {});
 

@@ -23,6 +23,7 @@
 #include "session/object_loader.hpp"
 #include "session/object_lookup.hpp"
 #include "session/query.hpp"
+#include "session/setting_text.hpp"
 #include "session/settings.hpp"
 #include "text/message_text.hpp"
 
@@ -169,7 +170,7 @@ class OutcomeOfCommand {
         };
         State start = session_.current;
         // The rotations of an address lead from the initial orientation to its view.
-        if (has("rotate") || has("polytope") || has(kFormula)) returnToInitialOrientation(start);
+        if (has("rotate") || has(kPolytope) || has(kField) || has(kFormula)) returnToInitialOrientation(start);
         auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
         if (!next) return next.error();
         Outcome outcome{std::move(*next)};

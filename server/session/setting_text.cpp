@@ -18,8 +18,6 @@ namespace oval4d::session {
 
 namespace {
 
-constexpr std::string_view kPolytope = "polytope";  // the name of the setting Set::object
-
 std::vector<std::string_view> names() {
     std::vector<std::string_view> all{kPolytope};
     forEachSetting([&](const auto& setting) { all.push_back(setting.name.text); });

@@ -11,6 +11,9 @@
 
 namespace oval4d::session {
 
+/// The name of the setting Set::object.
+inline constexpr std::string_view kPolytope = "polytope";
+
 /// Parses the value of one setting and writes it to `set`. Examples of a name and a value: "slices" and "31", "alpha"
 /// and "pi/12", "faces" and "off". Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range`
 /// for an invalid value.

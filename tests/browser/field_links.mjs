@@ -42,6 +42,19 @@ test("field panel: the mistakes of an address are reported", async () => {
     await close();
 });
 
+test("field panel: an address opens a field by its name", async () => {
+    const { url } = await common();
+    const { page, errors, close } = await openPage({ url: `${url}?field=two+warm+spots&slices=11` });
+    await named(page, "two warm spots");
+    const script = await scriptFor(page);
+    const { field } = await script.until(({ slices }) => slices.count === 11, "the rest of the address");
+    assert.match(field.formula, /exp/);
+    assert.equal(await page.locator("#notice").textContent(), "");
+    assert.deepEqual(errors, []);
+    script.leave();
+    await close();
+});
+
 test("field panel: an address with a box and a second function, but no formula, is reported", async () => {
     const { url } = await common();
     const { page, close } = await openPage({ url: `${url}?box=-1,1,-1,1,-1,1,0,2&values=x*y&slices=11` });

@@ -169,7 +169,10 @@ function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
     return { field: { formula, box: given ?? kUsualBox, ...(values && { values }) }, faults: given ? [] : [fault] };
 }
 
-/** Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to commands for the command line. */
+/**
+ * Converts a query such as "?polytope=24-cell&rotate=xw,yz:0.39,1.42&slices=31" to commands for the command line.
+ * "field=tiger" is the same as "polytope=tiger".
+ */
 export function commandLines(query: string): string[] {
     // "toward" comes last, as in the query of the API's frame.png, because it depends on the polytope and the
     // rotations.
@@ -178,7 +181,7 @@ export function commandLines(query: string): string[] {
         .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))
         .sort((a, b) => isLast(a) - isLast(b))
         .map(([name, value]) => {
-            if (name === "polytope") return `polytope ${value}`;
+            if (name === "polytope" || name === "field") return `polytope ${value}`;
             if (name === "toward") return `toward ${value.replace(":", " ")}`;
             const plain = value.replace(/\s*([,:])\s*/g, "$1").trim();
             if (name !== "rotate") return `set ${name}=${plain}`;

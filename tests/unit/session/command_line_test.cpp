@@ -211,6 +211,11 @@ TEST(Query, OpensInASessionAsOneStep) {
     line(session, "undo");
     line(session, "undo");
     EXPECT_EQ(infoOf(session.current).name, "5-cell");
+    must(session, ShowLinkedView{"rotate=xw:1"});
+    must(session, ShowLinkedView{"field=two+warm+spots"});
+    EXPECT_EQ(infoOf(session.current).name, "two warm spots");
+    EXPECT_EQ(session.current.orientation.matrix(), initialState().orientation.matrix())
+        << "an object of an address is not turned";
     expectRefused(session, ShowLinkedView{"slices=12"}, ErrorCode::out_of_range, "odd");
     expectRefused(session, ShowLinkedView{"slices=%1"}, ErrorCode::bad_expression, "hexadecimal");
     expectRefused(session, ShowLinkedView{"sices=11"}, ErrorCode::unknown_command, "did you mean 'slices'?");
@@ -414,6 +419,8 @@ TEST(Query, MistakesAreExplained) {
     refused({{"rotate", "xw"}}, ErrorCode::bad_expression, "write xw:pi/8");
     refused({{"rotate", "xw:1e9rad"}}, ErrorCode::out_of_range, "an angle must be from");
     refused({{"polytope", "6-cell"}}, ErrorCode::unknown_polytope, "did you mean");
+    refused({{"field", "tigr"}}, ErrorCode::unknown_polytope, "did you mean 'tiger'?");
+    refused({{"field", "tiger"}, {"formula", "x"}}, ErrorCode::bad_expression, "at the same time");
     refused({{"slices", "4"}}, ErrorCode::out_of_range, "odd");
 }
 
