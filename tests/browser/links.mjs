@@ -134,6 +134,26 @@ test("links: all errors in a query are reported, and the rest of the query appli
     await close();
 });
 
+test("links: errors in a query stay while keys are pressed, until the user closes them", async () => {
+    const { url } = await common();
+    const closings = [(page) => page.click("#notice button"), (page) => page.keyboard.press("Escape")];
+    for (const closeNotice of closings) {
+        const { page, errors, close } = await openPage({ url: `${url}?field=tigr` });
+        await page.waitForFunction(() => /did you mean 'tiger'/.test(document.getElementById("notice").textContent));
+        await ready(page);
+        const script = await scriptFor(page);
+        const { revision } = await script.state();
+        await page.keyboard.press("y");
+        await script.until((state) => state.revision > revision, "the rotation");
+        assert.match(await page.locator("#notice").textContent(), /did you mean 'tiger'/);
+        await closeNotice(page);
+        assert.equal(await page.locator("#notice").textContent(), "");
+        assert.deepEqual(errors, []);
+        script.leave();
+        await close();
+    }
+});
+
 test("links: a shared link joins the session, and both see every change", async () => {
     const { url } = await common();
     const first = await openWithScript({ permissions: ["clipboard-read", "clipboard-write"] });

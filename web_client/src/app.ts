@@ -111,6 +111,7 @@ export class App {
         reloadFile: (name) => this.fileLoading.reloadIntoNewSession(name),
         viewShown: (revision) => this.welcomeLine.firstVisitViewComplete(revision),
         tell: (messages) => this.notice.showAll(messages),
+        tellFaults: (messages) => this.notice.showLasting(messages),
     });
     private readonly frameHitTesterCache = new FrameHitTesterCache(this.client, this.stage, () =>
         this.orbit.onHitTesterAvailable(),
@@ -519,7 +520,7 @@ export class App {
     }
 
     private dismissMessages(): void {
-        this.notice.hide();
+        this.notice.close();
         this.fileLoading.hide();
         this.welcomeLine.hide();
         this.tour.stop();

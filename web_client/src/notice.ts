@@ -1,4 +1,5 @@
-// A short message over the picture, which disappears after a few seconds or at the next action.
+// A short message over the picture, which disappears after a few seconds or at the next action, or which stays until the
+// user closes it.
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";
@@ -8,6 +9,7 @@ const kDuration = 8000; // milliseconds per message
 export class Notice {
     private readonly root = byId("notice");
     private timer: ReturnType<typeof setTimeout> | undefined;
+    private isLasting = false; // whether the message stays until the user closes it, or another replaces it
 
     /**
      * Shows a message. If `text` is given, also shows this text in a field from which the user can copy it; both then
@@ -28,13 +30,37 @@ export class Notice {
         if (messages.length > 0) this.write(messages);
     }
 
-    hide(): void {
+    /** Shows several messages, each on a line of its own, with a button that closes them. */
+    showLasting(messages: string[]): void {
+        if (messages.length === 0) return;
+        this.write(messages);
         clearTimeout(this.timer);
+        this.isLasting = true;
+        const close = element("button", { type: "button", "aria-label": "Close the message", title: "Close" }, "×");
+        close.addEventListener("mousedown", (event) => event.preventDefault()); // the focus stays where it is
+        close.addEventListener("click", () => {
+            const hadFocus = document.activeElement === close;
+            this.close();
+            if (hadFocus) byId("drawing").focus();
+        });
+        this.root.append(close);
+    }
+
+    /** Hides the message, unless it is a lasting one. Must be called at each action. */
+    hide(): void {
+        if (!this.isLasting) this.close();
+    }
+
+    /** Hides any message. */
+    close(): void {
+        clearTimeout(this.timer);
+        this.isLasting = false;
         this.root.replaceChildren();
     }
 
     private write(messages: string[]): void {
         clearTimeout(this.timer);
+        this.isLasting = false;
         this.root.replaceChildren(messages.map(toSentence).join("\n"));
         this.timer = setTimeout(() => this.hide(), messages.length * kDuration);
     }

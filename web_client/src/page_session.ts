@@ -16,6 +16,8 @@ interface PageSessionActions {
     /** Called when a command of the initial view has produced this revision. */
     viewShown: (revision: number) => void;
     tell: (messages: string[]) => void;
+    /** Tells what is wrong with the address, such that the user can read it while using the page. */
+    tellFaults: (messages: string[]) => void;
 }
 
 export class PageSession {
@@ -45,7 +47,7 @@ export class PageSession {
     /** Joins the session of a link that was pasted into the address bar: browsers do not reload the page for it. */
     joinShared(): void {
         const { credentials, fault } = extractSharedSession();
-        if (fault) this.actions.tell([fault]);
+        if (fault) this.actions.tellFaults([fault]);
         if (credentials) this.join(credentials);
         else if (this.client.credentials) rememberSession(this.client.credentials); // for the new entry of the history
     }
@@ -102,7 +104,7 @@ export class PageSession {
         this.lostState = undefined;
         const faults = await this.applyInitialView();
         this.clearInitialView();
-        this.actions.tell(faults);
+        this.actions.tellFaults(faults);
     }
 
     /**
