@@ -154,6 +154,8 @@ class OutcomeOfCommand {
                 next.slices = before.slices;
                 next.playing = before.playing;
             }
+        } else {
+            keepSettingsOfPart(before, command, next);
         }
         outcome.loaded->insert_or_assign(command.name, reading->object);
         return outcome;

@@ -12,7 +12,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "fields/field.hpp"
 #include "session/cell_types.hpp"
 #include "session/object_lookup.hpp"
 #include "session/setting_table.hpp"
@@ -175,6 +174,13 @@ bool isTransferFunction(std::span<const slicing::FogControlPoint> points) {
            std::ranges::adjacent_find(points, std::greater_equal<>(), &slicing::FogControlPoint::value) == points.end();
 }
 
+slicing::FieldSettings initialFieldSettings(const fields::Field& field) {
+    // The initial level of an array is the middle between its least and its greatest sample, which may be a huge number
+    // that marks missing samples.
+    const double level = std::clamp(field.initialLevel, -slicing::kMaxLevel, slicing::kMaxLevel);
+    return {{level}, field.initialInside};
+}
+
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader) {
     if (source == state.source) return std::monostate{};
     auto image = loader.transformedTo(source, state.referenceFrame);
@@ -194,17 +200,28 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     if (hadSecond && !hasSecond && state.look.coloring == scene::Coloring::value)
         state.look.coloring = scene::Coloring::cell;
     State initial = initialState();
-    if (field != nullptr) {
-        // The initial level of an array is the middle between its least and its greatest sample, which may be a huge
-        // number that marks missing samples.
-        const double level = std::clamp(field->initialLevel, -slicing::kMaxLevel, slicing::kMaxLevel);
-        initial.look.field = {{level}, field->initialInside};
-    }
+    if (field != nullptr) initial.look.field = initialFieldSettings(*field);
     setBack(state, ResetOccasion::by_another_object, initial);
     state.look.focusPoint = initial.look.focusPoint;  // because setBack() has omitted the setting `point`
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
+}
+
+void keepSettingsOfPart(const State& before, const LoadObject& load, State& next) {
+    const fields::Field* const field = slicing::fieldIn(before.source);
+    if (field == nullptr || !field->source || field->name != load.name || slicing::fieldIn(next.source) == nullptr)
+        return;
+    const fields::FileSource& source = *field->source;
+    if (source.dataName != load.dataName || source.format != load.format || source.axes != load.axes ||
+        source.variable != load.variable || source.secondFormula != load.secondFormula ||
+        source.secondVariable != load.secondVariable)
+        return;
+    std::vector<double> initial = std::move(next.look.field.levels);
+    next.look.field = before.look.field;
+    if (before.look.field.levels == initialFieldSettings(*field).levels) next.look.field.levels = std::move(initial);
+    if (slicing::infoOf(before.object).cellTypes == slicing::infoOf(next.object).cellTypes)
+        next.look.cellTypes = before.look.cellTypes;
 }
 
 void returnToInitialOrientation(State& state) {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "fields/field.hpp"
 #include "session/object_loader.hpp"
 #include "session/session.hpp"
 
@@ -16,6 +17,9 @@ inline constexpr double kMaxAngle = 1e6;
 /// colors of 24 bits.
 bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
 
+/// Returns the levels of a field at first, which side of them is inside, and no fog.
+slicing::FieldSettings initialFieldSettings(const fields::Field& field);
+
 /// Replaces State::source by `source`, and State::object accordingly; does nothing if State::source is already this
 /// object. Keeps the frame of reference, the orientation, and the ratio of the spacing to
 /// slicing::initialSliceExtent(). Ends a turn toward an element, and playing. Sets back the settings that are
@@ -24,6 +28,12 @@ bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
 /// Coloring::value; if only the old object has one, replaces Coloring::value by Coloring::cell. Error: that of
 /// `loader`, if it defers transforming the object to the frame of reference; the state is then unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
+
+/// Keeps the settings of a field if `load` has replaced the part of an array in the data folder that `before` shows by
+/// another part of it, or by the whole array, under the same name: its values measure the same. `next` is the state
+/// after replaceObject(), which gets the field settings and the hidden and faded kinds of `before`, except levels that
+/// nobody has changed: each part has initial levels of its own. Does nothing after any other load.
+void keepSettingsOfPart(const State& before, const LoadObject& load, State& next);
 
 /// Sets the orientation back to the initial one, and ends all motion.
 void returnToInitialOrientation(State& state);

@@ -1,8 +1,5 @@
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <numeric>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <string>
@@ -11,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fields/array_field.hpp"
 #include "scene/look.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
@@ -64,51 +60,6 @@ TEST(CommandLine, DoesWhatTheMethodPageShows) {
     EXPECT_TRUE(session.current.turning);
     line(session, "set polytope=hyper cube");
     EXPECT_EQ(infoOf(session.current).name, "8-cell") << "blanks in names do not matter";
-}
-
-// A field that is a part of an array in the data folder.
-slicing::Object partOfArray() {
-    fields::FieldArray array;
-    array.shape = {2, 2, 2, 2};
-    array.box = {glm::dvec4(0), glm::dvec4(1)};
-    std::vector<float> values(16);
-    std::iota(values.begin(), values.end(), 0.F);
-    array.samples = fields::SampleStorage(std::move(values));
-    auto field = fields::fieldFromArray("run", array);
-    field->source = std::make_shared<const fields::FileSource>(
-        fields::FileSource{"large.zarr", "", "tzyx", "v", "x*y", "", array.box, {}});
-    return std::make_shared<const fields::Field>(std::move(*field));
-}
-
-TEST(CommandLine, LoadsARegionOfTheArrayOfTheField) {
-    Session session;
-    expectRefused(session, CommandLine{"region 0,1,0,1,0,1,0,1"}, ErrorCode::out_of_range,
-                  "not a part of a larger array");
-    session.current.source = session.current.object = partOfArray();
-    expectRefused(session, CommandLine{"region 0,1"}, ErrorCode::bad_expression, "region must be eight numbers");
-    const std::optional<fields::Box> region = fields::Box{{0, 0.25, 0, 3}, {1, 0.5, 1, 3}};
-    const std::vector<std::pair<std::string, std::optional<fields::Box>>> cases{{"region 0,1,1/4,1/2,0,1,3,3", region},
-                                                                                {":region all", std::nullopt}};
-    for (const auto& [text, expected] : cases) {
-        std::vector<LoadObject> loads;
-        const FileReader reader = [&](const LoadObject& load, const Limits&) -> Result<ObjectWithWarnings> {
-            loads.push_back(load);
-            return ObjectWithWarnings{partOfArray(), {}};
-        };
-        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
-        Result<std::monostate> done = std::monostate{};
-        EXPECT_EQ(ordersOf(session, CommandLine{text}, loader, done), 1);
-        ASSERT_TRUE(done) << done.error().message;
-        ASSERT_EQ(loads.size(), 1U);
-        EXPECT_EQ(loads[0].name, "run");
-        EXPECT_EQ(loads[0].dataName, "large.zarr");
-        EXPECT_EQ(loads[0].axes, "tzyx");
-        EXPECT_EQ(loads[0].variable, "v");
-        EXPECT_EQ(loads[0].secondFormula, "x*y");
-        EXPECT_EQ(loads[0].box, (fields::Box{glm::dvec4(0), glm::dvec4(1)}));
-        EXPECT_EQ(loads[0].region, expected);
-        EXPECT_TRUE(session.loaded.contains("run"));
-    }
 }
 
 TEST(CommandLine, EverySettingCanBeSet) {
