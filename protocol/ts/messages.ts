@@ -652,10 +652,28 @@ export interface FieldDefinition {
      * Present, and true, if the array is too large to read all of it.
      */
     estimated?: boolean;
+    /**
+     * The region of the array that was asked for. Present only for a part of an array in the data folder that was loaded with a region.
+     */
+    region?: Box;
+    resolution?: Resolution;
     units?: AxisUnits;
     quantity?: Quantity;
     values?: ColoringValues;
     box: Box;
+}
+/**
+ * Present only for a part of a multiscale image in the data folder: a coarser level, or a region.
+ */
+export interface Resolution {
+    /**
+     * The level that is shown; 0 is the finest.
+     */
+    level: number;
+    /**
+     * How many levels the image has.
+     */
+    levels: number;
 }
 /**
  * The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent. At most 64 bytes each.

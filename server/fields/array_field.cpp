@@ -39,6 +39,7 @@ Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
         std::ranges::transform(array.units, field.units.begin(), quantityText);
         field.quantity = {quantityText(array.quantity.name), quantityText(array.quantity.unit)};
         field.isPart = array.isPart;
+        field.imageLevel = array.imageLevel;
         field.initialLevel = 0.5 * (static_cast<double>(samples.min) + samples.max);
         field.initialInside = Inside::above;
         return field;

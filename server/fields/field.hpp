@@ -8,6 +8,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
 
+#include "fields/image_level.hpp"
 #include "fields/inside.hpp"
 #include "fields/quantity.hpp"
 #include "fields/scalar_function.hpp"
@@ -57,9 +58,10 @@ struct Field : geometry::ObjectInfo {
     Inside initialInside = Inside::below;        ///< which side of the levels is inside at first
     std::string formula;                         ///< the text of the formula; empty if there is none
     std::shared_ptr<const ArrayFunction> array;  ///< `function` if it is an array; else null
-    AxisUnits units;      ///< of `box` and `center`, if the function is an array (see quantityText())
-    Quantity quantity;    ///< what the values measure, if the function is an array (see quantityText())
-    bool isPart = false;  ///< whether the file of the array has further samples (see FieldArray)
+    AxisUnits units;        ///< of `box` and `center`, if the function is an array (see quantityText())
+    Quantity quantity;      ///< what the values measure, if the function is an array (see quantityText())
+    bool isPart = false;    ///< whether the file of the array has further samples (see FieldArray)
+    ImageLevel imageLevel;  ///< of the array (see FieldArray)
     std::shared_ptr<const SecondFunction> second;  ///< null if there is none
     /// The range, without outliers, of the values of coloringFunction() on the box.
     std::shared_ptr<const TypicalRangeOnBox> coloringRange;

@@ -95,6 +95,7 @@ void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& fi
         writer.write(field.array->storage());
         for (const std::string& unit : field.units) archive(unit);
         archive(field.quantity), archive(field.isPart);
+        archive(field.imageLevel.level), archive(field.imageLevel.levels);
     }
     const fields::SecondFunction* const second = field.second.get();
     archive(second == nullptr ? std::string() : second->formula);
@@ -155,6 +156,9 @@ fields::Field readField(const std::string& name, ByteReader& archive, const Mapp
         for (std::string& unit : array.units) readQuantityText(archive, unit);
         readQuantity(archive, array.quantity);
         archive(array.isPart);
+        auto& [level, levels] = array.imageLevel;
+        archive(level), archive(levels);
+        if (level >= std::max(levels, 1U)) throw std::runtime_error("a level that an image does not have");
     }
     archive(second), archive(variable), archive(hasArray);
     auto field = formula.empty() ? fields::fieldFromArray(name, array)

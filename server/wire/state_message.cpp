@@ -86,6 +86,31 @@ void writeUnits(JsonWriter& w, const fields::AxisUnits& units) {
     w.endObject();
 }
 
+void writeBox(JsonWriter& w, std::string_view name, const fields::Box& box) {
+    w.key(name);
+    w.beginArray();
+    for (int axis = 0; axis < 4; ++axis) {
+        w.beginArray();
+        w.value(box.min[axis]);
+        w.value(box.max[axis]);
+        w.endArray();
+    }
+    w.endArray();
+}
+
+// Writes the members `region` and `resolution` of a part of an array in the data folder. Omits what does not apply.
+void writePart(JsonWriter& w, const fields::Field& field) {
+    if (!field.source) return;
+    if (field.source->region) writeBox(w, "region", *field.source->region);
+    const auto [level, levels] = field.imageLevel;
+    if (levels == 0) return;
+    w.key("resolution");
+    w.beginObject();
+    w.member("level", std::uint64_t{level});
+    w.member("levels", std::uint64_t{levels});
+    w.endObject();
+}
+
 // Writes the member `values`: the second function, if there is one, and the color scale of values.
 void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
     constexpr int kColors = 9;
@@ -127,21 +152,14 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
         w.value(double{field.array->statistics().max});
         w.endArray();
         if (!field.array->rangeIsExact()) w.member("estimated", true);
+        writePart(w, field);
         writeUnits(w, field.units);
         writeQuantity(w, field.quantity);
     } else {
         w.member("formula", std::string_view(field.formula));
     }
     if (field.second || scene::colorsByValue(look)) writeValues(w, field, scheme);
-    w.key("box");
-    w.beginArray();
-    for (int axis = 0; axis < 4; ++axis) {
-        w.beginArray();
-        w.value(field.box.min[axis]);
-        w.value(field.box.max[axis]);
-        w.endArray();
-    }
-    w.endArray();
+    writeBox(w, "box", field.box);
     w.endObject();
 }
 

@@ -207,6 +207,7 @@ async def test_an_image_larger_than_memory_opens_by_a_coarser_level(folder, vers
             assert any("of 2 levels, '1' is shown, the finest one" in warning for warning in done["warnings"])
             field = await field_of(client)
             assert field["shape"] == [12, 12, 12, 4] and field["box"] == [[0.5, 22.5]] * 3 + [[0.5, 6.5]]
+            assert field["resolution"] == {"level": 1, "levels": 2} and "region" not in field
             assert field["range"] == [float(means.min()), float(means.max())]
             assert server.metric("oval4d_field_cache_bytes") == 0
             await client.request("load", name="fine", path="image", variable="0")
@@ -228,8 +229,10 @@ async def test_a_region_is_read_from_its_own_chunks(folder, tmp_path, version):
         async with Client(server) as client:
             credentials = {"session": client.welcome["session"], "token": client.welcome["token"]}
             await client.request("load", name="run", path="part.npy", box=[[2, 9], [0, 7], [8, 15], [3, 3]])
-            expected = await field_of(client), await slices_of(client)
-            await client.request("load", name="run", path="image", region=[[2.5, 9], [-5, 7], [8, 15], [3.1, 3.1]])
+            region = [[2.5, 9], [-5, 7], [8, 15], [3.1, 3.1]]
+            part = {"region": region, "resolution": {"level": 0, "levels": 2}}
+            expected = await field_of(client) | part, await slices_of(client)
+            await client.request("load", name="run", path="image", region=region)
             assert (await field_of(client), await slices_of(client)) == expected
             await client.request("load", name="run", path="image")
             overview = await field_of(client)

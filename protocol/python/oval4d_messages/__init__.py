@@ -392,6 +392,20 @@ class StateCamera(TypedDict):
     zoom: float
 
 
+Interval = list[float]
+
+# The domain. The object's origin is its center.
+Box = list[Interval]
+
+
+class Resolution(TypedDict):
+    """Present only for a part of a multiscale image in the data folder: a coarser level, or a region."""
+    # The level that is shown; 0 is the finest.
+    level: int
+    # How many levels the image has.
+    levels: int
+
+
 class AxisUnits(TypedDict, total=False):
     """The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent.
     At most 64 bytes each."""
@@ -427,12 +441,6 @@ class ColoringValues(_ColoringValues, total=False):
     quantity: Quantity
 
 
-Interval = list[float]
-
-# The domain. The object's origin is its center.
-Box = list[Interval]
-
-
 class _FieldDefinition(TypedDict):
     # The domain. The object's origin is its center.
     box: Box
@@ -449,6 +457,11 @@ class FieldDefinition(_FieldDefinition, total=False):
     range: list[float]
     # Present, and true, if the array is too large to read all of it.
     estimated: bool
+    # The region of the array that was asked for. Present only for a part of an array in the data folder that was loaded
+    # with a region.
+    region: Box
+    # Present only for a part of a multiscale image in the data folder: a coarser level, or a region.
+    resolution: Resolution
     # The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent.
     # At most 64 bytes each.
     units: AxisUnits

@@ -13,6 +13,7 @@
 #include "errors/error.hpp"
 #include "fields/array/array_function.hpp"
 #include "fields/array/shape.hpp"
+#include "fields/image_level.hpp"
 #include "fields/quantity.hpp"
 #include "fields/scalar_function.hpp"
 
@@ -53,6 +54,7 @@ struct FieldArray {
     AxisUnits units;                    ///< of `box`
     Quantity quantity;                  ///< what the samples measure
     bool isPart = false;                ///< whether the file has further samples: of a finer level, or beyond the box
+    ImageLevel imageLevel;              ///< the default unless the file is a folder with a multiscale image
     std::vector<std::string> warnings;  ///< sentences for the user
 
     /// Returns the interpolant of the samples. Error: `bad_field` if the box is not valid (see Lattice).

@@ -393,6 +393,15 @@ Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& z
     }
 }
 
+// Returns which level of a multiscale image the array is.
+ImageLevel levelOf(const ZarrFolder& zarr, const std::string& path) {
+    const auto chosen = zarr.chooseArray();
+    if (!chosen || !chosen->areLevels) return {};
+    const auto found = std::ranges::find(chosen->all, path);
+    if (found == chosen->all.end()) return {};
+    return {static_cast<std::uint32_t>(found - chosen->all.begin()), static_cast<std::uint32_t>(chosen->all.size())};
+}
+
 }  // namespace
 
 Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options) {
@@ -418,6 +427,7 @@ Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& o
     // The path of a level of a multiscale image is a number, which says nothing about the quantity.
     if (field.quantity.name.empty() && !zarr.coordinatesOf(array.path))
         field.quantity.name = quantityText(array.path.substr(array.path.rfind('/') + 1));
+    field.imageLevel = levelOf(zarr, array.path);
     return std::move(field);
 }
 

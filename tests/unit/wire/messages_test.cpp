@@ -224,6 +224,30 @@ TEST(StateMessage, HasTheUnitsOfFields) {
     EXPECT_FALSE(plain.contains("quantity"));
 }
 
+TEST(StateMessage, HasTheRegionAndTheLevelOfAPart) {
+    Session session;
+    session::ObjectLoader loader({}, support::cache());
+    fields::Field field = fieldWithUnits();
+    field.imageLevel = {1, 3};
+    const auto fieldIn = [&](const fields::Field& shown) {
+        EXPECT_TRUE(session::replaceObject(session.current, std::make_shared<const fields::Field>(shown), loader));
+        return fitting(wire::stateMessage(session.current, {}, 1)).at("field");
+    };
+    EXPECT_FALSE(fieldIn(field).contains("resolution")) << "no array in the data folder";
+    fields::FileSource source{"run.zarr", "", "", "", "", "", {}, {}};
+    field.source = std::make_shared<const fields::FileSource>(source);
+    const json overview = fieldIn(field);
+    EXPECT_EQ(overview.at("resolution"), json::parse(R"({"level":1,"levels":3})"));
+    EXPECT_FALSE(overview.contains("region"));
+    source.region = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
+    field.source = std::make_shared<const fields::FileSource>(source);
+    field.imageLevel = {};
+    const json part = fieldIn(field);
+    EXPECT_EQ(part.at("region"), json::parse("[[0,4],[1,5],[2,6],[3,7]]"));
+    EXPECT_FALSE(part.contains("resolution"));
+    EXPECT_TRUE(setCommandFromState(wire::stateMessage(session.current, {}, 1)));
+}
+
 TEST(StateMessage, IsFoundInFiles) {
     const std::string text = wire::stateMessage(randomSession(4).current, {}, 7);
     image::PngEncoder encoder;

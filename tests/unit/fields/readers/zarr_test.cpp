@@ -351,6 +351,12 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
     const FieldArray left = read(16, Box{{0, 0, 0, 0}, {3, 3, 0, 0}});
     EXPECT_EQ(left.box, (Box{{0, 0, 0, 0}, {3, 3, 0, 0}}));
     EXPECT_EQ(left.shape, (Shape{4, 4, 1, 1}));
+    EXPECT_EQ(whole.imageLevel, (ImageLevel{0, 2}));
+    EXPECT_EQ(overview.imageLevel, (ImageLevel{1, 2}));
+    EXPECT_EQ(left.imageLevel, (ImageLevel{0, 2}));
+    const auto named = readFiles(files, ReadOptions{.variable = "1"});
+    ASSERT_TRUE(named) << named.error().message;
+    EXPECT_EQ(named->imageLevel, (ImageLevel{1, 2}));
     EXPECT_TRUE(left.isPart);
     // A coarser level does not reach the ends of the finest one.
     const FieldArray end = read(2, Box{{7, 0, 0, 0}, {7, 3, 0, 0}});
