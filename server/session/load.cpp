@@ -346,13 +346,12 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
     if (before == nullptr || !before->array || appended == nullptr || !appended->array)
         return Error{ErrorCode::bad_field, "moments can be added only to an array, and must be an array"};
     const fields::Shape &old = before->array->shape(), &more = appended->array->shape();
-    if (!std::equal(old.begin(), old.begin() + 3, more.begin())) {
-        const auto text = [](const fields::Shape& shape) {
-            return std::to_string(shape[0]) + " × " + std::to_string(shape[1]) + " × " + std::to_string(shape[2]);
-        };
+    const auto sizes = [](const fields::Shape& shape) {
+        return std::to_string(shape[0]) + " × " + std::to_string(shape[1]) + " × " + std::to_string(shape[2]);
+    };
+    if (!std::equal(old.begin(), old.begin() + 3, more.begin()))
         return Error{ErrorCode::bad_field,
-                     "the moment has " + text(more) + " samples along x, y and z, but the field has " + text(old)};
-    }
+                     "the moment has " + sizes(more) + " samples along x, y and z, but the field has " + sizes(old)};
     fields::FieldArray grown;
     grown.shape = old;
     grown.shape[3] += more[3];
@@ -362,11 +361,12 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
         return Error{ErrorCode::bad_field, "the field is colored by a second array, " +
                                                text::inQuotes(second->variable) +
                                                ", so moments need one, too, as values_variable"};
-    const std::size_t arrays = hasArray ? 2 : 1;
-    const std::size_t most = limits.maxFieldBytes / sizeof(float) / arrays, count = fields::sampleCount(grown.shape);
-    if (count == 0 || count > most)
-        return Error{ErrorCode::too_large, "with this moment, the field has more than " + std::to_string(most) +
-                                               " samples, the most allowed"};
+    const std::size_t most = limits.maxFieldBytes / sizeof(float) / (hasArray ? 2U : 1U);
+    if (const std::size_t count = fields::sampleCount(grown.shape); count == 0 || count > most)
+        return Error{ErrorCode::too_large, "of " + sizes(old) + " samples, at most " +
+                                               std::to_string(most / (old[0] * old[1] * old[2])) +
+                                               " moments are allowed (--max-field-bytes), but the field would have " +
+                                               std::to_string(grown.shape[3]) + "; it stays as it was"};
     grown.box = boxWithTimeSteps(before->array->box(), old[3], grown.shape[3]);
     grown.samples = before->array->storage().followedBy(appended->array->samples());
     grown.units = before->units;

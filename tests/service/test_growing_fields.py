@@ -1,5 +1,8 @@
 """Growing fields: moments that are appended to an array, in messages and in uploads."""
 
+import json
+import re
+
 import pytest
 from array_clients import SIZE, load, put, state_of, unnumbered
 from array_files import npy, quadratic
@@ -72,9 +75,19 @@ async def test_a_growing_field_is_bounded():
             await load(client, "run", npy(values))
             for _ in range(3):
                 await load(client, "run", npy(values), append=True)
-            with pytest.raises(Refused, match="more than 8192 samples") as refused:
-                await load(client, "run", npy(values[0]), append=True)
-            assert refused.value.code == "too_large"
+            before = unnumbered(await state_of(client))
+            slices = (await client.request("get", what="slices", **SIZE))["slices"]
+            text = r"8 × 8 × 8 samples, at most 16 moments .*\(--max-field-bytes\).* would have 17; it stays as it was"
+            for by_http in (False, True):
+                if by_http:
+                    answer = await put(client, "run", npy(values[0]), method="POST", moments=True)
+                    assert answer.status == 413 and re.search(text, str(json.loads(answer.body))), answer.body
+                else:
+                    with pytest.raises(Refused, match=text) as refused:
+                        await load(client, "run", npy(values[0]), append=True)
+                    assert refused.value.code == "too_large"
+                assert unnumbered(await state_of(client)) == before
+                assert (await client.request("get", what="slices", **SIZE))["slices"] == slices
 
 
 @pytest.mark.release_only

@@ -53,6 +53,9 @@ TEST(Load, TimeStepsAreAddedAtTheEndOfW) {
     const auto large = appendTimeSteps(field, arrayOf({2, 2, 2, 1}), {.maxFieldBytes = 159});
     ASSERT_FALSE(large);
     EXPECT_EQ(large.error().code, ErrorCode::too_large);
+    EXPECT_EQ(large.error().message,
+              "of 2 × 2 × 2 samples, at most 4 moments are allowed (--max-field-bytes), but the field would have 5; it "
+              "stays as it was");
 }
 
 TEST(Load, UnitsStayWhenTheFieldGrows) {
