@@ -444,6 +444,7 @@ export interface SetRequest {
          * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
          */
         vertices?: string;
+        coordinate?: CommonCoordinate;
     };
     /**
      * The polytope. Another one sets focus and offset to 0, and the spacing keeps its ratio to the circumradius.
@@ -615,6 +616,23 @@ export interface SetRequest {
         number: number;
     } | null;
     last?: Turn;
+}
+/**
+ * Present for a field if all points of the focus slice have one coordinate in `box` in common, such as the time: unless a rotation or the frame of reference mixes the axes.
+ */
+export interface CommonCoordinate {
+    /**
+     * Its axis in `box`.
+     */
+    axis: "x" | "y" | "z" | "w";
+    /**
+     * Its value in the focus slice.
+     */
+    value: number;
+    /**
+     * Absent if it is not known.
+     */
+    unit?: string;
 }
 export interface CellKind {
     name: string;
@@ -1291,6 +1309,7 @@ export interface State {
          * The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has no name.
          */
         vertices: string;
+        coordinate?: CommonCoordinate;
     };
     /**
      * How much space a unit of w is worth, if w is time: the object's w is multiplied by it. See Frames of reference.

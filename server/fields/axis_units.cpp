@@ -10,15 +10,28 @@
 
 namespace oval4d::fields {
 
+namespace {
+
+constexpr double kTolerance = 1e-9;  // for the rounding errors of rotations
+
+// Returns the map from the coordinates in the box, relative to its center, to those in the picture.
+glm::dmat4 toPicture(const Field& field, const geometry::Rotation& orientation) {
+    return orientation.matrix() * glm::inverse(field.toFunction);
+}
+
+// Returns the factors whose scalar product with the coordinates in the box is the coordinate along the axis.
+glm::dvec4 factorsOf(const glm::dmat4& toPicture, int axis) {
+    return {toPicture[0][axis], toPicture[1][axis], toPicture[2][axis], toPicture[3][axis]};
+}
+
+}  // namespace
+
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation) {
-    constexpr double kTolerance = 1e-9;  // for the rounding errors of rotations
     PictureUnits units;
     if (std::ranges::all_of(field.units, &std::string::empty)) return units;
-    const glm::dmat4 fromFunction = orientation.matrix() * glm::inverse(field.toFunction);
+    const glm::dmat4 fromFunction = toPicture(field, orientation);
     for (int axis = 0; axis < 4; ++axis) {
-        // The coordinate along the axis is the scalar product of these factors and the coordinates in the box.
-        const glm::dvec4 factors(fromFunction[0][axis], fromFunction[1][axis], fromFunction[2][axis],
-                                 fromFunction[3][axis]);
+        const glm::dvec4 factors = factorsOf(fromFunction, axis);
         const double size = glm::length(factors);
         const std::string* unit = nullptr;
         bool differ = false;
@@ -32,6 +45,20 @@ PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientat
             units.at(static_cast<std::size_t>(axis)) = {*unit, std::abs(size - 1) <= kTolerance};
     }
     return units;
+}
+
+bool CommonCoordinate::isW() const { return axis == 3 && center == 0 && std::abs(scale - 1) <= kTolerance; }
+
+std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation) {
+    const glm::dvec4 factors = factorsOf(toPicture(field, orientation), 3);
+    const double size = glm::length(factors);
+    std::optional<CommonCoordinate> found;
+    for (int axis = 0; axis < 4; ++axis) {
+        if (std::abs(factors[axis]) <= kTolerance * size) continue;
+        if (found) return {};
+        found = {axis, field.center[axis], 1 / factors[axis]};
+    }
+    return found;
 }
 
 std::string lengthUnit(const PictureUnits& units) {

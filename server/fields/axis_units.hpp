@@ -2,6 +2,7 @@
 // The units of the axes of a picture, which shows a field in a frame of reference and after a rotation.
 
 #include <array>
+#include <optional>
 #include <string>
 
 #include "fields/field.hpp"
@@ -23,6 +24,21 @@ using PictureUnits = std::array<PictureAxisUnit, 4>;
 /// the length 1. For example, the axis w of an array is not to scale if fieldFromArray() or ReferenceFrame::pace has
 /// scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
+
+/// The coordinate in the box of a field that all points of a slice w = const of a picture have in common.
+struct CommonCoordinate {
+    int axis = 3;       ///< 0 … 3 for x … w
+    double center = 0;  ///< the coordinate in the slice w = 0
+    double scale = 1;   ///< by how much the coordinate grows if w grows by 1
+
+    double at(double w) const { return center + scale * w; }
+    /// Returns whether the coordinate is w itself, which is then not scaled, moved or rotated.
+    bool isW() const;
+};
+/// Returns the coordinate that all points of a slice have in common after the field has been rotated by `orientation`;
+/// an empty optional if the slices are perpendicular to no axis of the box. For example, each slice of an array is a
+/// moment without a rotation, and perpendicular to the axis x of the box after a quarter turn in xw.
+std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation);
 
 /// Returns the unit of lengths in a hyperplane w = const of the picture: the unit of the axes x, y and z if all three
 /// have the same unit and are to scale, else an empty string.

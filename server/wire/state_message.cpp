@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "fields/array/array_function.hpp"
+#include "fields/axis_units.hpp"
 #include "fields/field.hpp"
 #include "scene/color.hpp"
 #include "scene/surface_look.hpp"
@@ -163,6 +165,20 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
     w.endObject();
 }
 
+// Writes the coordinate in the box of a field that all points of the focus slice have in common, if there is one.
+void writeCommonCoordinate(JsonWriter& w, const session::State& state) {
+    const fields::Field* const field = slicing::fieldIn(state.object);
+    const auto common = field == nullptr ? std::nullopt : fields::commonCoordinate(*field, state.orientation);
+    if (!common) return;
+    const auto axis = static_cast<std::size_t>(common->axis);
+    w.key("coordinate");
+    w.beginObject();
+    w.member("axis", std::string_view("xyzw").substr(axis, 1));
+    w.member("value", common->at(state.focusW()));
+    if (!field->units.at(axis).empty()) w.member("unit", std::string_view(field->units.at(axis)));
+    w.endObject();
+}
+
 void writeSettings(JsonWriter& w, const session::State& state) {
     std::string_view object;  // the name of the JSON object that has been begun; empty for none
     const auto continueIn = [&](std::string_view next) {
@@ -202,6 +218,7 @@ void writeState(std::string& out, const session::State& state, const slicing::Se
     w.member("w", state.focusPointInFile().w);
     w.member("name", section.slice);
     w.member("vertices", section.vertices);
+    writeCommonCoordinate(w, state);
     w.endObject();
     w.member("turning", state.turning);
     w.member("playing", state.playing);

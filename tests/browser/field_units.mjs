@@ -31,6 +31,25 @@ test("field units: the panel and the color scale name the quantity", async () =>
     await close();
 });
 
+test("field units: beside w, the header has the moment of the focus slice", async () => {
+    const { page, script, errors, close } = await openWithScript();
+    await load(script);
+    await script.request({ type: "set", slices: { focus: 2 } });
+    const { coordinate } = (await script.state()).section;
+    assert.equal(coordinate.unit, "s");
+    const rounded = String(Math.round(coordinate.value * 1000) / 1000);
+    const isShown = (text) =>
+        page.waitForFunction(
+            (pattern) => new RegExp(pattern).test(document.querySelector("[data-state-field=w]").textContent),
+            text,
+        );
+    await isShown(`^0\\.\\d+ \\(${rounded.replace(".", "\\.")} s\\)$`);
+    await script.request({ type: "rotate", planes: ["xw"], angles: [0.3] });
+    await isShown("^0\\.\\d+$");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 for (const view of ["oval", "matrix"]) {
     test(`field units: geometry and frame agree: ${view}`, async () => {
         const { page, script, errors, close } = await openWithScript();

@@ -3,7 +3,7 @@
 import type { Box, Quantity, Settings, State } from "@oval4d/protocol";
 
 import { textOfFog } from "./fog";
-import { formatFieldValue } from "./format";
+import { focusW, formatCoordinate, formatFieldValue } from "./format";
 import { referenceFrameQuery } from "./reference_frame";
 
 /** What the server makes a field of: a formula, its domain, and the formula whose values color the surfaces. */
@@ -29,6 +29,8 @@ export const kUsualBox: Box = [
 ];
 
 export const kMaxLevels = 4;
+
+const kSamePlace = 1e-9; // a difference of coordinates that is due to rounding, as a part of the extent of a box
 
 /** Whether the object of this state is a field. */
 export function isField({ levels }: State): boolean {
@@ -58,6 +60,21 @@ export function quantityOfColors({ field }: State): Quantity {
     const { values, quantity } = field ?? {};
     const isOfSecond = values?.formula !== undefined || values?.variable !== undefined;
     return (isOfSecond ? values?.quantity : quantity) ?? {};
+}
+
+/**
+ * The w of the focus slice and, in parentheses, where it is in the box of a field: "0.25 (130 s)", or "0.25 (x 0.5 m)"
+ * if it is perpendicular to the axis x of the box. Without parentheses if that is w itself, without a unit, or if the
+ * slice is perpendicular to no axis of the box.
+ */
+export function focusWithPlace(state: State): string {
+    const { section, field } = state;
+    const { axis = "w", value = section.w, unit = "" } = section.coordinate ?? {};
+    const [least, most] = field?.box[["x", "y", "z", "w"].indexOf(axis)] ?? [0, 1];
+    const isW = axis === "w" && unit === "" && Math.abs(value - section.w) <= kSamePlace * (most - least);
+    if (isW) return focusW(state);
+    const place = [axis === "w" ? "" : axis, formatCoordinate(value, (most - least) / 100), unit];
+    return `${focusW(state)} (${place.filter(Boolean).join(" ")})`;
 }
 
 /** The field that a line such as "formula x^2 < 1 colored by y" shows; undefined for other commands. */

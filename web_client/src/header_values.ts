@@ -5,7 +5,7 @@ import type { State } from "@oval4d/protocol";
 import { angleExpression, editableAngle, withoutBlanksAroundOperators, withoutBlanksBeforeUnits } from "./angles";
 import { spokenColoring, spokenKinds } from "./color_controls";
 import { byId } from "./element";
-import { spokenLevels } from "./fields";
+import { focusWithPlace, spokenLevels } from "./fields";
 import { formatCoordinate, formatDegrees, focusW, formatLength, formatRotation } from "./format";
 import { HeaderValue } from "./header_value";
 import { spokenReferenceFrame } from "./reference_frame";
@@ -44,8 +44,9 @@ const kHeaderValues: HeaderValueDescription[] = [
         command: (text) => `set beta=${angleExpression(text)}`,
     },
     {
-        ...description("w", "w", "Position of the focus slice", focusW),
+        ...description("w", "w", "Position of the focus slice; in parentheses, in the box of a field", focusWithPlace),
         hint: "Any w: all hyperplanes move with the focus slice",
+        editable: focusW,
         command: (text) => `set w=${withoutBlanksAroundOperators(text)}`,
     },
     {

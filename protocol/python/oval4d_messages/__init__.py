@@ -471,9 +471,21 @@ class FieldDefinition(_FieldDefinition, total=False):
     values: ColoringValues
 
 
-class StateSection(TypedDict):
-    """The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the
-    rhombic dodecahedron."""
+class _CommonCoordinate(TypedDict):
+    # Its axis in `box`.
+    axis: Literal["x", "y", "z", "w"]
+    # Its value in the focus slice.
+    value: float
+
+
+class CommonCoordinate(_CommonCoordinate, total=False):
+    """Present for a field if all points of the focus slice have one coordinate in `box` in common, such as the time:
+    unless a rotation or the frame of reference mixes the axes."""
+    # Absent if it is not known.
+    unit: str
+
+
+class _StateSection(TypedDict):
     # w of the focus slice.
     w: float
     # What the focus slice is, such as "icosahedron"; empty if it has no name.
@@ -481,6 +493,14 @@ class StateSection(TypedDict):
     # The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has
     # no name.
     vertices: str
+
+
+class StateSection(_StateSection, total=False):
+    """The section of the focus hyperplane. Names are those of regular and uniform polyhedra, regular polygons, and the
+    rhombic dodecahedron."""
+    # Present for a field if all points of the focus slice have one coordinate in `box` in common, such as the time:
+    # unless a rotation or the frame of reference mixes the axes.
+    coordinate: CommonCoordinate
 
 
 # What is shown: all slices in the oval; only the focus slice (single); the focus slice beside the matrix of planar
@@ -1108,6 +1128,9 @@ class SetRequestSection(TypedDict, total=False):
     # The convex hull of the polytope's vertices in the hyperplane, as in Coxeter's tables of sections; empty if it has
     # no name.
     vertices: str
+    # Present for a field if all points of the focus slice have one coordinate in `box` in common, such as the time:
+    # unless a rotation or the frame of reference mixes the axes.
+    coordinate: CommonCoordinate
 
 
 class _SetRequest(TypedDict):

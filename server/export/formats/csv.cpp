@@ -1,12 +1,15 @@
 #include "export/formats/writers.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "export/formats/text.hpp"
 #include "export/mesh/exact_slicer.hpp"
 #include "export/mesh/measure.hpp"
+#include "fields/axis_units.hpp"
 #include "fields/field.hpp"
 #include "slicing/closed_surfaces/closed_surface.hpp"
 #include "slicing/critical/critical_sections.hpp"
@@ -75,6 +78,31 @@ std::string unitOfW(const scene::Scene& scene) {
     return unit.isToScale ? unit.text : std::string();
 }
 
+/// The column with the coordinate in the box that all points of a slice have in common, "box_w" for the axis w. Tables
+/// have it only if there is such a coordinate, and if it is not w itself.
+class CommonCoordinateColumn {
+  public:
+    CommonCoordinateColumn(const fields::Field& field, const SceneToWrite& source)
+        : common_(fields::commonCoordinate(field, source.orientation)) {
+        if (common_ && common_->isW()) common_.reset();
+        if (!common_) return;
+        name_ = std::string("box_") + "xyzw"[common_->axis];
+        unit_ = field.units.at(static_cast<std::size_t>(common_->axis));
+    }
+    void addNameAndUnit(std::string& header, UnitColumns& units) const {
+        if (!common_) return;
+        header += ',' + name_;
+        units.add(name_ + "_unit", unit_);
+    }
+    void addCell(std::string& row, double w) const {
+        if (common_) appendDecimal(row += ',', common_->at(w));
+    }
+
+  private:
+    std::optional<fields::CommonCoordinate> common_;
+    std::string name_, unit_;
+};
+
 std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     const geometry::Hyperplanes& planes = source.scene.slices->planes;
     const slicing::FieldSettings& settings = source.scene.look.field;
@@ -84,6 +112,8 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     if (field.second) out += ",mean_second_value";
     UnitColumns units;
     units.add("w_unit", unitOfW(source.scene));
+    const CommonCoordinateColumn common(field, source);
+    common.addNameAndUnit(out, units);
     units.add("length_unit", fields::lengthUnit(source.scene.axisUnits));
     units.add("level_unit", field.quantity.unit);
     if (field.second) units.add("mean_second_value_unit", field.second->quantity.unit);
@@ -107,6 +137,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
                 out += ',';
                 if (const auto mean = slicing::meanOnSurface(surface, values)) appendDecimal(out, *mean);
             }
+            common.addCell(out, planes.w(i));
             out += units.cells + '\n';
         }
     }
@@ -138,9 +169,12 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
     std::string out =
         "w,change,level,components_before,components_after,cavities_before,cavities_after,euler_before,euler_after,"
         "tolerance";
+    const fields::Field& field = *slicing::fieldIn(source.object);
     UnitColumns units;
     units.add("w_unit", unitOfW(source.scene));
-    units.add("level_unit", slicing::fieldIn(source.object)->quantity.unit);
+    const CommonCoordinateColumn common(field, source);
+    common.addNameAndUnit(out, units);
+    units.add("level_unit", field.quantity.unit);
     out += units.names + '\n';
     for (const slicing::CriticalSection& section : found->all) {
         appendDecimal(out, slicing::infoOf(source.object).originInFile.w + section.w);
@@ -152,6 +186,7 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
             out += ',' + std::to_string(count);
         for (const long euler : {before.euler, after.euler}) out += ',' + std::to_string(euler);
         appendDecimal(out += ',', found->tolerance);
+        common.addCell(out, section.w);
         out += units.cells + '\n';
     }
     return out;

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
 
 namespace oval4d::fields::test {
 namespace {
@@ -50,6 +52,34 @@ TEST(AxisUnits, FollowTheFrameOfReference) {
     EXPECT_EQ(fast, (PictureUnits{kMeters, kMeters, kMeters, kSeconds}));
     EXPECT_EQ(seen({.pace = 5})[3], (PictureAxisUnit{"s", true})) << "the time takes 5 s, and the object is 1 long";
     EXPECT_EQ(seen({.boost = {0.5, 0, 0}}), (PictureUnits{kUnknown, kMeters, kMeters, kUnknown}));
+}
+
+TEST(CommonCoordinate, IsTheMomentUntilTimeIsMixedWithSpace) {
+    const Field field = fieldWith({});
+    for (const Rotation& turned : {Rotation(), Rotation(Turn{Plane::xy, 0.3})}) {
+        const auto moment = commonCoordinate(field, turned);
+        ASSERT_TRUE(moment);
+        EXPECT_EQ(moment->axis, 3);
+        EXPECT_NEAR(moment->at(-0.5), 0, 1e-12);
+        EXPECT_NEAR(moment->at(0.5), 5, 1e-12) << "as an object, the field is 1 long along w";
+        EXPECT_FALSE(moment->isW());
+    }
+    EXPECT_FALSE(commonCoordinate(field, Rotation(Turn{Plane::xw, 0.3})));
+    const auto place = commonCoordinate(field, Rotation(Turn{Plane::xw, std::numbers::pi / 2}));
+    ASSERT_TRUE(place);
+    EXPECT_EQ(place->axis, 0);
+    EXPECT_NEAR(place->center, 0.5, 1e-12);
+    EXPECT_NEAR(std::abs(place->scale), 1, 1e-12);
+    const auto seen = [&](const geometry::ReferenceFrame& frame) {
+        return commonCoordinate(transformedTo(field, frame, geometry::nextSerial()), {});
+    };
+    ASSERT_TRUE(seen({.pace = 2}));
+    EXPECT_NEAR(seen({.pace = 2})->at(1), 5, 1e-12);
+    ASSERT_TRUE(seen({.follow = {0.5, 0, 0}}));
+    EXPECT_NEAR(seen({.follow = {0.5, 0, 0}})->at(0.5), 5, 1e-12);
+    EXPECT_FALSE(seen({.boost = {0.5, 0, 0}}));
+    const Field formula = *fieldFromFormula("f", "x", {glm::dvec4(-1), glm::dvec4(1)});
+    EXPECT_TRUE(commonCoordinate(formula, {})->isW());
 }
 
 TEST(AxisUnits, FollowTheNames) {

@@ -224,6 +224,29 @@ TEST(StateMessage, HasTheUnitsOfFields) {
     EXPECT_FALSE(plain.contains("quantity"));
 }
 
+TEST(StateMessage, HasTheMomentOfTheFocusSlice) {
+    Session session;
+    session::ObjectLoader loader({}, support::cache());
+    fields::FieldArray array;
+    array.shape = {2, 2, 2, 2};
+    array.box = {glm::dvec4(0), glm::dvec4(1, 1, 1, 200)};
+    array.samples = fields::SampleStorage(std::vector<float>(16, 1));
+    array.units = {"m", "", "", "s"};
+    const auto field = std::make_shared<const fields::Field>(*fields::fieldFromArray("run", array));
+    ASSERT_TRUE(session::replaceObject(session.current, field, loader));
+    const auto section = [&] { return fitting(wire::stateMessage(session.current, {}, 1)).at("section"); };
+    session.current.slices.offset = 0.25;
+    const json coordinate = section().at("coordinate");
+    EXPECT_EQ(coordinate.at("axis"), "w");
+    EXPECT_NEAR(coordinate.at("value").get<double>(), 150, 1e-9);
+    EXPECT_EQ(coordinate.at("unit"), "s");
+    EXPECT_TRUE(setCommandFromState(wire::stateMessage(session.current, {}, 1)));
+    session.current.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.3});
+    EXPECT_FALSE(section().contains("coordinate")) << "the slice is not a moment";
+    const Session ofPolytope;
+    EXPECT_FALSE(fitting(wire::stateMessage(ofPolytope.current, {}, 1)).at("section").contains("coordinate"));
+}
+
 TEST(StateMessage, HasTheRegionAndTheLevelOfAPart) {
     Session session;
     session::ObjectLoader loader({}, support::cache());

@@ -71,14 +71,14 @@ const fields::Quantity kTemperature{"temperature", "K"};
 
 TEST(Csv, endsWithTheKnownUnits) {
     const std::string own = "n,w,volume,area,centroid_x,centroid_y,centroid_z,components,euler";
-    EXPECT_EQ(linesOf(fileOf(fieldWithUnits(9, {}, {}), "csv")).at(0), own);
+    EXPECT_EQ(linesOf(fileOf(fieldWithUnits(9, {}, {}), "csv")).at(0), own + ",box_w");
     const auto lines = linesOf(fileOf(fieldWithUnits(9, {"m", "m", "m", "s"}, kTemperature), "csv"));
     ASSERT_EQ(lines.size(), 2U);
-    EXPECT_EQ(lines[0], own + ",length_unit,level_unit") << "w is scaled, and not in seconds";
-    EXPECT_TRUE(lines[1].ends_with(R"(,"m","K")")) << lines[1];
+    EXPECT_EQ(lines[0], own + ",box_w,box_w_unit,length_unit,level_unit") << "w is scaled, and not in seconds";
+    EXPECT_TRUE(lines[1].ends_with(R"(,4.5,"s","m","K")")) << lines[1];
     const auto scaled = linesOf(fileOf(fieldWithUnits(2, {"m", "km", "m", "s"}, kTemperature, true), "csv"));
-    EXPECT_EQ(scaled.at(0), own + ",mean_second_value,w_unit,level_unit,mean_second_value_unit");
-    EXPECT_TRUE(scaled.at(1).ends_with(R"(,"s","K","Pa")")) << scaled.at(1);
+    EXPECT_EQ(scaled.at(0), own + ",mean_second_value,box_w,w_unit,box_w_unit,level_unit,mean_second_value_unit");
+    EXPECT_TRUE(scaled.at(1).ends_with(R"(,1,"s","s","K","Pa")")) << scaled.at(1);
 }
 
 TEST(Csv, quotesHostileUnits) {
