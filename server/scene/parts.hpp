@@ -1,8 +1,12 @@
 #pragma once
 // The parts of a picture that can be shown or hidden.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
+
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::scene {
 
@@ -16,22 +20,32 @@ struct Parts {
     bool operator==(const Parts&) const = default;
 };
 
-/// A part of the picture and its name, which is used in messages, queries, stored sessions and on the page's command
-/// line. The action of the key that shows or hides the part (protocol/keymap.json) has the same name.
+/// A part of the picture and its name, which is used in messages, queries and on the page's command line. The action of
+/// the key that shows or hides the part (protocol/keymap.json) has the same name.
 struct NamedPart {
     std::string_view name;
     bool Parts::* flag;
+    std::size_t number;  ///< of the flag in stored sessions; it must not change: see serialization/stored_members.hpp
 };
 
-/// All parts. Stored sessions contain the flags in this order; therefore a new row must be the last one.
-inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &Parts::faces},
-                                                         {"bars", &Parts::bars},
-                                                         {"balls", &Parts::balls},
-                                                         {"coordinates", &Parts::coordinates},
-                                                         {"labels", &Parts::labels},
-                                                         {"cells", &Parts::projectionFaces},
-                                                         {"back", &Parts::back},
-                                                         {"sections", &Parts::allSections}});
+/// All parts.
+inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &Parts::faces, 0},
+                                                         {"bars", &Parts::bars, 1},
+                                                         {"balls", &Parts::balls, 2},
+                                                         {"coordinates", &Parts::coordinates, 3},
+                                                         {"labels", &Parts::labels, 4},
+                                                         {"cells", &Parts::projectionFaces, 5},
+                                                         {"back", &Parts::back, 6},
+                                                         {"sections", &Parts::allSections, 7}});
 static_assert(sizeof(Parts) == kParts.size(), "every part has a row");
+static_assert(std::ranges::all_of(kParts,
+                                  [](const NamedPart& part) {
+                                      return std::ranges::count(kParts, part.number, &NamedPart::number) == 1;
+                                  }),
+              "no two parts have the same number");
+
+void visitStoredMembers(serialization::ReadOrWritten<Parts> auto& parts, auto& visit) {
+    for (const NamedPart& part : kParts) visit.addedMember(part.number, parts.*part.flag);
+}
 
 }  // namespace oval4d::scene

@@ -90,11 +90,6 @@ class MemberWriter {
     }
     static json encoded(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
     static json encoded(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
-    static json encoded(const scene::Parts& parts) {
-        json flags = json::array();
-        for (const scene::NamedPart& part : scene::kParts) flags.push_back(parts.*part.flag);
-        return flags;
-    }
     // A turn in one plane, or in two perpendicular planes, is encoded as [plane, angle, angle in the perpendicular
     // plane or null], which earlier versions can read, too. Any other turn is a list of pairs [[plane, angle], …].
     // Angles are in radians.
@@ -206,12 +201,6 @@ class MemberReader {
     }
     static void read(const json& value, glm::dvec3& into, Range range) {
         for (int i = 0; i < 3; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
-    }
-    // An array of an earlier version may lack some parts; these keep their defaults.
-    static void read(const json& value, scene::Parts& into) {
-        refuseUnknownMembers(value, scene::kParts.size());
-        for (std::size_t i = 0; i < std::min(value.size(), scene::kParts.size()); ++i)
-            read(value.at(i), into.*scene::kParts[i].flag);
     }
     static void read(const json& value, geometry::Turn& into) {
         const auto angle = [&](const json& plane, const json& radians) {

@@ -116,6 +116,22 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     EXPECT_EQ(back.current.object, back.current.source);
 }
 
+TEST(Codec, StoresEachPartUnderItsNumber) {
+    for (const scene::NamedPart& part : scene::kParts) {
+        Session session;
+        for (const scene::NamedPart& each : scene::kParts) session.current.look.parts.*each.flag = false;
+        session.current.look.parts.*part.flag = true;
+        ObjectTable table;
+        const std::string bytes = encodeWhole(session, 10, table.keyOf);
+        const nlohmann::json flags = nlohmann::json::from_cbor(bytes).at(3).at(5).at(1);
+        ASSERT_EQ(flags.size(), scene::kParts.size());
+        for (std::size_t number = 0; number < flags.size(); ++number)
+            EXPECT_EQ(flags.at(number).get<bool>(), number == part.number) << part.name;
+        const Session back = decodeSession(bytes, "", table.objectOf, support::cache());
+        EXPECT_EQ(back.current.look.parts, session.current.look.parts) << part.name;
+    }
+}
+
 // If a record with an unknown member were read, the member would be lost when the session is stored again.
 TEST(Codec, RefusesMembersOfLaterVersions) {
     using nlohmann::json;
