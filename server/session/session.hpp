@@ -157,6 +157,17 @@ struct Session {
     std::uint64_t revision = 0;
     bool operator==(const Session&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<Session> auto& session, auto& visit) {
+    // The numbers 0 and 2 are those of the version and of the list of objects, which a record has besides: see
+    // store/session_codec.cpp. There, the list of objects has the order in which the states are visited.
+    auto& [current, undoSteps, redoSteps, loaded, pendingKey, revision] = session;
+    visit.member(1, revision);
+    visit.member(3, current);
+    visit.member(4, undoSteps);
+    visit.member(5, redoSteps);
+    visit.member(6, loaded);
+    visit.member(7, pendingKey);
+}
 
 /// Returns the memory of an object in bytes; 0 if all sessions share it: a polytope of the catalogue, an example field,
 /// or a field of the data folder.

@@ -1,88 +1,181 @@
 #include "store/session_codec.hpp"
 
 #include <algorithm>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "store/cbor.hpp"
+#include "store/member_codec.hpp"
 #include "store/object_list.hpp"
 #include "store/state_codec.hpp"
 
-// A session is encoded as two CBOR arrays: the head [version, revision, objects, current state], and the whole, which
-// has four more members: [version, revision, objects, current state, undo steps, redo steps, loaded objects, pending
-// key]. New versions may add members only at the end of an array. A version refuses arrays with members that it
-// does not know.
+// A session is encoded as two CBOR arrays, the whole and the head. The whole contains the members of the session with
+// their numbers as indices (see visitStoredMembers() in session/session.hpp); at the indices 0 and 2, the version and
+// the list of objects. The head consists of the first four elements of such an array: version, revision, objects,
+// current state. A version refuses arrays with members that it does not know.
 
 namespace oval4d::store {
 
 using nlohmann::json;
 using session::Session;
+using session::State;
 
 namespace {
 
-constexpr std::size_t kHeadMembers = 4, kWholeMembers = 8;
+constexpr std::size_t kVersion = 0, kObjects = 2;  // the indices of what is not a member of the session
+constexpr std::size_t kHeadMembers = 4;
 
 constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53: JSON readers represent integers exactly up to this one
 
-std::uint64_t revisionIn(const json& value) {
-    const auto revision = readInteger<std::uint64_t>(value);
-    if (revision > kMaxRevision) throwUnreadable("the revision is out of range");
-    return revision;
+/// A list of states: the undo steps or the redo steps.
+template <typename T>
+concept StateList = std::same_as<typename T::value_type, State>;
+
+/// Finds out how many elements the record of a whole session has.
+class SessionMemberCounter {
+  public:
+    template <typename T>
+    void member(std::size_t number, const T& /*value*/) {
+        count_ = std::max(count_, number + 1);
+    }
+    template <typename T>
+    void addedMember(std::size_t number, const T& value) {
+        member(number, value);
+    }
+    std::size_t count() const { return count_; }
+
+  private:
+    std::size_t count_ = 0;
+};
+
+std::size_t memberCountOf(const Session& session) {
+    SessionMemberCounter counter;
+    visitStoredMembers(session, counter);
+    return counter.count();
 }
 
-/// Returns the encoding of the last `maxCount` states, or of all states if there are fewer.
-template <typename States>
-json history(const States& states, std::size_t maxCount, ObjectListEncoder& objects) {
-    json list = json::array();
-    for (std::size_t i = states.size() - std::min(states.size(), maxCount); i < states.size(); ++i) {
-        list.push_back(encodeState(states[i], objects));
+/// Writes the first `size` elements of the record of a session, with at most `maxHistory` states of each list of
+/// states: the last ones.
+class SessionWriter : public MemberWriter {
+  public:
+    SessionWriter(std::size_t size, std::size_t maxHistory, const ObjectKeyLookup& keyOf)
+        : size_(size), maxHistory_(maxHistory), objects_(keyOf) {}
+
+    template <typename T>
+    void member(std::size_t number, const T& value) {
+        if (number < size_) put(number, encoded(value));
     }
-    return list;
+    template <typename T>
+    void addedMember(std::size_t number, const T& value) {
+        member(number, value);
+    }
+
+    /// Returns the record, after the members have been written.
+    json takeRecord() {
+        put(kVersion, kRecordVersion);
+        put(kObjects, objects_.list());
+        return takeArray();
+    }
+
+  private:
+    static json encoded(const std::string& text) { return text; }
+    static json encoded(const std::uint64_t& number) { return number; }
+    json encoded(const State& state) { return encodeState(state, objects_); }
+    json encoded(const StateList auto& states) {
+        json list = json::array();
+        for (std::size_t i = states.size() - std::min(states.size(), maxHistory_); i < states.size(); ++i)
+            list.push_back(encodeState(states[i], objects_));
+        return list;
+    }
+    json encoded(const session::LoadedObjects& loaded) {
+        json list = json::array();
+        for (const auto& [name, object] : loaded) list.push_back({name, objects_.findOrAddObject(object)});
+        return list;
+    }
+
+    const std::size_t size_, maxHistory_;
+    ObjectListEncoder objects_;
+};
+
+/// Reads those members of a session that are among the first `size` elements of its record. States and loaded objects
+/// can be read only if there is a decoder of the list of objects.
+class SessionReader : public MemberReader {
+  public:
+    SessionReader(const json& record, std::size_t size, ObjectListDecoder* objects)
+        : MemberReader(record), size_(size), objects_(objects) {}
+
+    template <typename T>
+    void member(std::size_t number, T& value) {
+        if (number < size_) decode(at(number), value);
+    }
+    template <typename T>
+    void addedMember(std::size_t number, T& value) {
+        if (has(number)) member(number, value);
+    }
+
+  private:
+    static void decode(const json& value, std::string& into) { into = readShortText(value); }
+    static void decode(const json& value, std::uint64_t& into) {
+        into = readInteger<std::uint64_t>(value);
+        if (into > kMaxRevision) throwUnreadable("the revision is out of range");
+    }
+    void decode(const json& value, State& into) const { into = decodeState(value, *objects_); }
+    void decode(const json& value, StateList auto& into) const {
+        for (const json& state : value) into.push_back(decodeState(state, *objects_));
+    }
+    void decode(const json& value, session::LoadedObjects& into) const {
+        for (const json& own : value) into[readShortText(own.at(0))] = objects_->at(own.at(1));
+    }
+
+    const std::size_t size_;
+    ObjectListDecoder* const objects_;
+};
+
+std::string encoded(const Session& session, std::size_t size, std::size_t maxHistory, const ObjectKeyLookup& keyOf) {
+    SessionWriter writer(size, maxHistory, keyOf);
+    visitStoredMembers(session, writer);
+    return encodeCbor(writer.takeRecord());
+}
+
+void decodeInto(Session& session, const json& record, std::size_t size, ObjectListDecoder* objects) {
+    SessionReader reader(record, size, objects);
+    visitStoredMembers(session, reader);
 }
 
 }  // namespace
 
 std::string encodeHead(const Session& session, const ObjectKeyLookup& keyOf) {
-    ObjectListEncoder objects(keyOf);
-    json current = encodeState(session.current, objects);
-    return encodeCbor({kRecordVersion, session.revision, objects.list(), std::move(current)});
+    return encoded(session, kHeadMembers, 0, keyOf);
 }
 
 std::string encodeWhole(const Session& session, std::size_t maxUndo, const ObjectKeyLookup& keyOf) {
-    const auto& [current, undoSteps, redoSteps, loaded, pendingKey, revision] = session;
-    ObjectListEncoder objects(keyOf);
-    json state = encodeState(current, objects);
-    json before = history(undoSteps, maxUndo, objects);
-    json after = history(redoSteps, maxUndo, objects);
-    json own = json::array();
-    for (const auto& [name, object] : loaded) own.push_back({name, objects.findOrAddObject(object)});
-    return encodeCbor({kRecordVersion, revision, objects.list(), std::move(state), std::move(before), std::move(after),
-                       std::move(own), pendingKey});
+    return encoded(session, memberCountOf(session), maxUndo, keyOf);
 }
 
 Session decodeSession(std::string_view whole, std::string_view head, const ObjectLookup& objectOf,
                       polytopes::PolytopeCache& cache) {
     return callTranslatingErrors([&] {
         const json value = parseRecord(whole);
-        refuseUnknownMembers(value, kWholeMembers);
-        ObjectListDecoder objects(value.at(2), objectOf, cache);
         Session session;
-        session.revision = revisionIn(value.at(1));
-        session.current = decodeState(value.at(3), objects);
-        for (const json& state : value.at(4)) session.undoSteps.push_back(decodeState(state, objects));
-        for (const json& state : value.at(5)) session.redoSteps.push_back(decodeState(state, objects));
-        for (const json& own : value.at(6)) session.loaded[readShortText(own.at(0))] = objects.at(own.at(1));
-        session.pendingKey = readShortText(value.at(7));
+        const std::size_t size = memberCountOf(session);
+        refuseUnknownMembers(value, size);
+        ObjectListDecoder objects(value.at(kObjects), objectOf, cache);
+        decodeInto(session, value, size, &objects);
         if (head.empty()) return session;
-        const json newer = parseRecord(head);
-        refuseUnknownMembers(newer, kHeadMembers);
-        const auto revision = revisionIn(newer.at(1));
-        if (revision <= session.revision) return session;
+        const json newerValue = parseRecord(head);
+        refuseUnknownMembers(newerValue, kHeadMembers);
+        Session newer;
+        decodeInto(newer, newerValue, kObjects, nullptr);  // only the revision
+        if (newer.revision <= session.revision) return session;
+        ObjectListDecoder newerObjects(newerValue.at(kObjects), objectOf, cache);
+        decodeInto(newer, newerValue, kHeadMembers, &newerObjects);
         session.undoSteps.push_back(std::move(session.current));
         session.redoSteps.clear();
-        ObjectListDecoder newerObjects(newer.at(2), objectOf, cache);
-        session.current = decodeState(newer.at(3), newerObjects);
-        session.revision = revision;
+        session.current = std::move(newer.current);
+        session.revision = newer.revision;
         session.pendingKey.clear();
         return session;
     });

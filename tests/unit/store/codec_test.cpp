@@ -35,6 +35,26 @@ TEST(Codec, DecodesWhatItEncodes) {
     EXPECT_GT(own, 10U) << "the sessions have loaded objects";
 }
 
+// A new member of Session is a new element of the record, which differs from that of a new session only if this test
+// gives the member another value.
+TEST(Codec, LosesNoMemberOfASession) {
+    Session session;
+    session::line(session, "polytope 24-cell");
+    session::line(session, "polytope tesseract");
+    ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
+    ASSERT_TRUE(session::apply(session, session::Undo{}));
+    session.pendingKey = "g";
+    ObjectTable table;
+    const std::string bytes = encodeWhole(session, 10, table.keyOf);
+    const auto record = nlohmann::json::from_cbor(bytes);
+    const auto recordOfNew = nlohmann::json::from_cbor(encodeWhole(Session{}, 10, table.keyOf));
+    ASSERT_EQ(record.size(), recordOfNew.size());
+    for (std::size_t number = 1; number < record.size(); ++number)
+        EXPECT_NE(record.at(number).dump(), recordOfNew.at(number).dump()) << number;
+    const Session back = decodeSession(bytes, "", table.objectOf, support::cache());
+    EXPECT_TRUE(same(session, back));
+}
+
 TEST(Codec, LosesNoSetting) {
     for (const session::SettingValue& setting : session::settingValues()) {
         const Session session = sessionWith(setting);

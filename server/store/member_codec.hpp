@@ -1,0 +1,200 @@
+#pragma once
+// Writes and reads the stored members of structs: the visitors of serialization/stored_members.hpp.
+
+#include <algorithm>
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+#include "geometry/range.hpp"
+#include "geometry/rotation.hpp"
+#include "session/settings.hpp"
+#include "store/cbor.hpp"
+#include "text/choice.hpp"
+
+namespace oval4d::store {
+
+/// Writes the members of a struct into an array (see serialization/stored_members.hpp).
+class MemberWriter {
+  public:
+    template <typename T, typename... Ranges>
+    void member(std::size_t number, const T& value, Ranges... /*range*/) {
+        put(number, encoded(value));
+    }
+    template <typename T, typename... Ranges>
+    void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
+        put(number, encoded(value));
+    }
+    void array(std::size_t number, const auto& visitThem) {
+        MemberWriter writer;
+        visitThem(writer);
+        put(number, std::move(writer.array_));
+    }
+    void rotation(std::size_t number, const geometry::Rotation& rotation) {
+        put(number, encoded(rotation.left()));
+        put(number + 1, encoded(rotation.right()));
+    }
+
+    /// Moves the array out of the writer.
+    nlohmann::json takeArray() { return std::move(array_); }
+
+  protected:
+    void put(std::size_t number, nlohmann::json value) {
+        while (array_.size() <= number) array_.push_back(nullptr);
+        array_[number] = std::move(value);
+    }
+
+  private:
+    template <typename Struct>
+    static nlohmann::json encoded(const Struct& value) {
+        MemberWriter writer;
+        visitStoredMembers(value, writer);
+        return std::move(writer.array_);
+    }
+    template <typename Number>
+        requires std::is_arithmetic_v<Number>
+    static nlohmann::json encoded(const Number& value) {
+        return value;
+    }
+    template <text::HasChoices Enum>
+    static nlohmann::json encoded(const Enum& value) {
+        return static_cast<unsigned>(value);
+    }
+    template <typename T>
+    static nlohmann::json encoded(const std::vector<T>& values) {
+        nlohmann::json list = nlohmann::json::array();
+        for (const T& value : values) list.push_back(encoded(value));
+        return list;
+    }
+    template <typename T>
+    static nlohmann::json encoded(const std::optional<T>& value) {
+        return value ? encoded(*value) : nlohmann::json();
+    }
+    static nlohmann::json encoded(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
+    static nlohmann::json encoded(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
+    // A turn in one plane, or in two perpendicular planes, is encoded as [plane, angle, angle in the perpendicular
+    // plane or null], which earlier versions can read, too. Any other turn is a list of pairs [[plane, angle], …].
+    // Angles are in radians.
+    static nlohmann::json encoded(const geometry::Turn& turn) {
+        const std::vector<geometry::Plane> planes = turn.planes();
+        const geometry::Plane first = planes.at(0);
+        if (planes.size() == 1 || (planes.size() == 2 && planes[1] == geometry::perpendicular(first)))
+            return {static_cast<unsigned>(first), *turn[first], encoded(turn[geometry::perpendicular(first)])};
+        nlohmann::json pairs = nlohmann::json::array();
+        for (const geometry::Plane plane : planes)
+            pairs.push_back(nlohmann::json::array({static_cast<unsigned>(plane), *turn[plane]}));
+        return pairs;
+    }
+
+    nlohmann::json array_ = nlohmann::json::array();
+};
+
+inline geometry::Plane planeIn(const nlohmann::json& value) {
+    const auto number = readInteger<unsigned>(value);
+    if (number >= geometry::kPlanes.size()) throwLater("there is no plane " + std::to_string(number));
+    return geometry::kPlanes[number];
+}
+
+inline glm::dquat quaternionIn(const nlohmann::json& value) {
+    return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>(), value.at(3).get<double>()};
+}
+
+/// Reads the members of a struct from an array.
+class MemberReader {
+  public:
+    explicit MemberReader(const nlohmann::json& array) : array_(array) {}
+
+    template <typename T, typename... Ranges>
+    void member(std::size_t number, T& value, Ranges... range) {
+        read(at(number), value, range...);
+    }
+    template <typename T, typename... Ranges>
+    void addedMember(std::size_t number, T& value, Ranges... range) {
+        if (has(number)) member(number, value, range...);
+    }
+    void array(std::size_t number, const auto& visitThem) {
+        MemberReader reader(at(number));
+        visitThem(reader);
+        reader.refuseUnreadMembers();
+    }
+    void rotation(std::size_t number, geometry::Rotation& rotation) {
+        const auto decoded =
+            geometry::Rotation::fromQuaternions(quaternionIn(at(number)), quaternionIn(at(number + 1)));
+        if (!decoded) throwUnreadable("an orientation is not a rotation");
+        rotation = *decoded;
+    }
+
+    /// Throws LaterRecord if the array has more members than those that have been read.
+    void refuseUnreadMembers() const { refuseUnknownMembers(array_, readCount_); }
+
+  protected:
+    bool has(std::size_t number) const { return number < array_.size(); }
+    const nlohmann::json& at(std::size_t number) {
+        readCount_ = std::max(readCount_, number + 1);
+        return array_.at(number);
+    }
+
+  private:
+    template <typename Struct>
+    static void read(const nlohmann::json& value, Struct& into) {
+        MemberReader reader(value);
+        visitStoredMembers(into, reader);
+        reader.refuseUnreadMembers();
+    }
+    static void read(const nlohmann::json& value, bool& into) { into = value.get<bool>(); }
+    template <std::integral Integer>
+    static void read(const nlohmann::json& value, Integer& into) {
+        into = readInteger<Integer>(value);
+    }
+    static void read(const nlohmann::json& value, double& into, geometry::Range range) {
+        into = readNumber(value, range.least, range.most);
+    }
+    template <text::HasChoices Enum>
+    static void read(const nlohmann::json& value, Enum& into) {
+        const auto number = readInteger<unsigned>(value);
+        const auto& choices = choicesOf(Enum{});
+        const auto found = std::ranges::find_if(
+            choices, [&](const auto& choice) { return static_cast<unsigned>(choice.value) == number; });
+        if (found == choices.end()) throwLater("an enumerator is out of range: " + std::to_string(number));
+        into = found->value;
+    }
+    template <typename T, typename... Ranges>
+    static void read(const nlohmann::json& value, std::vector<T>& into, Ranges... range) {
+        if (!value.is_array()) throwUnreadable("a list is missing");
+        into.clear();
+        for (const nlohmann::json& element : value) read(element, into.emplace_back(), range...);
+    }
+    template <typename T>
+    static void read(const nlohmann::json& value, std::optional<T>& into) {
+        into.reset();
+        if (!value.is_null()) read(value, into.emplace());
+    }
+    static void read(const nlohmann::json& value, glm::dvec3& into, geometry::Range range) {
+        for (int i = 0; i < 3; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
+    }
+    static void read(const nlohmann::json& value, geometry::Turn& into) {
+        const auto angle = [&](const nlohmann::json& plane, const nlohmann::json& radians) {
+            into[planeIn(plane)] = readNumber(radians, session::kMaxAngle);
+        };
+        if (value.at(0).is_array()) {
+            for (const nlohmann::json& pair : value) angle(pair.at(0), pair.at(1));
+            return;
+        }
+        angle(value.at(0), value.at(1));
+        if (!value.at(2).is_null())
+            into[geometry::perpendicular(planeIn(value.at(0)))] = readNumber(value.at(2), session::kMaxAngle);
+    }
+
+    const nlohmann::json& array_;
+    std::size_t readCount_ = 0;  // all members that have been read have smaller numbers
+};
+
+}  // namespace oval4d::store
