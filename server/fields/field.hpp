@@ -15,6 +15,7 @@
 #include "fields/value_range.hpp"
 #include "geometry/object_info.hpp"
 #include "geometry/reference_frame.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::polytopes {
 struct Polytope;
@@ -41,10 +42,21 @@ struct FileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box, region;
 };
+void visitStoredMembers(serialization::ReadOrWritten<FileSource> auto& source, auto& visit) {
+    auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
+    visit.member(0, dataName);
+    visit.member(1, format);
+    visit.member(2, axes);
+    visit.member(3, variable);
+    visit.member(4, secondFormula);
+    visit.member(5, secondVariable);
+    visit.member(6, box);
+    visit.addedMember(7, region);
+}
 
 /// A 4-D scalar field: a function on a box. It is shown as a 4-D object that is centered at the origin: the point p of
 /// the object has the function's coordinates center + toFunction · p. Made by makeField() or transformedTo();
-/// setSecondFunction() can add a second function.
+/// setSecondFunction() can add a second function. What is stored of a field: see FieldDefinition.
 struct Field : geometry::ObjectInfo {
     std::shared_ptr<const ScalarFunction> function;
     Box box;               ///< the domain, in the function's coordinates

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "serialization/stored_members.hpp"
+
 namespace oval4d::fields {
 
 /// Which level of a multiscale image an array is.
@@ -10,5 +12,10 @@ struct ImageLevel {
     std::uint32_t levels = 0;  ///< how many levels the image has; 0 if the array is no level of an image
     bool operator==(const ImageLevel&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<ImageLevel> auto& image, auto& visit) {
+    auto& [level, levels] = image;
+    visit.member(0, level);
+    visit.member(1, levels);
+}
 
 }  // namespace oval4d::fields

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "serialization/stored_members.hpp"
+
 namespace oval4d::fields {
 
 /// What the values of a function measure, such as {"temperature", "K"}. A text is empty if it is unknown.
@@ -15,6 +17,11 @@ struct Quantity {
     bool operator==(const Quantity&) const = default;
     bool isKnown() const { return !name.empty() || !unit.empty(); }
 };
+void visitStoredMembers(serialization::ReadOrWritten<Quantity> auto& quantity, auto& visit) {
+    auto& [name, unit] = quantity;
+    visit.member(0, name);
+    visit.member(1, unit);
+}
 
 /// The units of x, y, z and w; a text is empty if it is unknown.
 using AxisUnits = std::array<std::string, 4>;

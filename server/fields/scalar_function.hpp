@@ -8,6 +8,9 @@
 
 #include <glm/vec4.hpp>
 
+#include "geometry/range.hpp"
+#include "serialization/stored_members.hpp"
+
 namespace oval4d::fields {
 
 /// An axis-parallel box in R⁴; every coordinate of `min` is at most that of `max`.
@@ -17,6 +20,11 @@ struct Box {
     glm::dvec4 center() const { return 0.5 * (min + max); }
     bool operator==(const Box&) const = default;
 };
+void visitStoredMembers(serialization::ReadOrWritten<Box> auto& box, auto& visit) {
+    auto& [min, max] = box;
+    visit.member(0, min, geometry::Range::finite());
+    visit.member(1, max, geometry::Range::finite());
+}
 
 /// Bounds of the values of a function in a region. If the function has no value at any point of the region, min > max.
 struct ValueBounds {

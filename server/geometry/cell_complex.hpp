@@ -10,6 +10,7 @@
 
 #include "geometry/jagged_array.hpp"
 #include "geometry/object_info.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::geometry {
 
@@ -31,6 +32,15 @@ struct CellComplex : ObjectInfo {
     std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
     bool convexFaces = true;                              ///< whether every 2-face is a convex polygon
 };
+static_assert(serialization::HasOwnMembers<CellComplex, ObjectInfo, 9>, "visitStoredMembers() considers each member");
+void visitStoredMembers(serialization::ReadOrWritten<CellComplex> auto& complex, auto& visit) {
+    // Not stored, but computed from the others: edges, faceEdges, cellSigns, faceCells, convexFaces.
+    visit.member(0, serialization::asBase<ObjectInfo>(complex));
+    visit.member(1, complex.vertices, ObjectInfo::kStoredCoordinates);
+    visit.member(2, complex.faces);
+    visit.member(3, complex.cells);
+    visit.member(4, complex.typeOfCell);
+}
 
 /// Sets `edges` and `faceEdges`, which must be empty, from the vertex loops of the 2-faces. In each loop, successive
 /// vertices must be different, and so must the last and the first one.

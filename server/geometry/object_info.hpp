@@ -6,6 +6,9 @@
 
 #include <glm/vec4.hpp>
 
+#include "geometry/range.hpp"
+#include "serialization/stored_members.hpp"
+
 namespace oval4d::geometry {
 
 /// A type of cells of a polytope, for example its truncated tetrahedra. The user shows, fades or hides all cells of a
@@ -18,6 +21,9 @@ struct CellType {
 
 /// The properties that 4-D objects of all kinds (see slicing::Object) have.
 struct ObjectInfo {
+    /// Of the coordinates of vertices, points and origins in stored objects.
+    static constexpr Range kStoredCoordinates = Range::absoluteUpTo(1e15);
+
     std::string name;
     std::uint64_t serial = 0;    ///< unique among the objects of all processes; the key of an object in caches
     double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin; for a point cloud
@@ -30,6 +36,13 @@ struct ObjectInfo {
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };
+void visitStoredMembers(serialization::ReadOrWritten<ObjectInfo> auto& info, auto& visit) {
+    // The functions that make objects compute the other members, except `rebuildableFromName`: objects that can be
+    // built again are stored as names only.
+    auto& [name, serial, circumradius, originInFile, convex, rebuildableFromName, cellTypes] = info;
+    visit.member(0, name);
+    visit.member(1, originInFile, ObjectInfo::kStoredCoordinates);
+}
 
 /// Returns a new value for ObjectInfo::serial, from 1 to 2^53 − 1. The values in a process are successive integers from
 /// a random start, so that two processes have, almost certainly, no value in common. Thread-safe.

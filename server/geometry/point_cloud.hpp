@@ -7,7 +7,9 @@
 #include <glm/vec4.hpp>
 
 #include "geometry/object_info.hpp"
+#include "geometry/range.hpp"
 #include "geometry/reference_frame.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::geometry {
 
@@ -19,6 +21,12 @@ struct PointCloud : ObjectInfo {
     /// slicing::relativeBallRadius().
     std::vector<double> radii;
 };
+static_assert(serialization::HasOwnMembers<PointCloud, ObjectInfo, 2>, "visitStoredMembers() considers each member");
+void visitStoredMembers(serialization::ReadOrWritten<PointCloud> auto& cloud, auto& visit) {
+    visit.member(0, serialization::asBase<ObjectInfo>(cloud));
+    visit.member(1, cloud.points, ObjectInfo::kStoredCoordinates);
+    visit.member(2, cloud.radii, Range{0, ObjectInfo::kStoredCoordinates.most});
+}
 
 /// Makes a cloud from points and the radius of each point's ball (see PointCloud::radii). Throws std::invalid_argument
 /// with the reason if `radii` and `points` differ in size, if a point's distance from the origin or a radius is not

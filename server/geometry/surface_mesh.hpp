@@ -12,6 +12,7 @@
 #include "geometry/cell_complex.hpp"
 #include "geometry/jagged_array.hpp"
 #include "geometry/reference_frame.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::geometry {
 
@@ -21,6 +22,10 @@ namespace oval4d::geometry {
 /// number of 2-faces, so the surface may have a boundary and need be neither connected nor orientable nor a manifold.
 /// It may intersect itself.
 struct SurfaceMesh : CellComplex {};
+static_assert(serialization::HasOwnMembers<SurfaceMesh, CellComplex, 0>, "visitStoredMembers() considers each member");
+void visitStoredMembers(serialization::ReadOrWritten<SurfaceMesh> auto& surface, auto& visit) {
+    visit.member(0, serialization::asBase<CellComplex>(surface));
+}
 
 /// Thrown by makeSurfaceMesh() for vertices and 2-faces that do not form a valid surface.
 class InvalidSurface : public std::invalid_argument {

@@ -13,6 +13,7 @@
 #include "geometry/cell_complex.hpp"
 #include "geometry/jagged_array.hpp"
 #include "geometry/reference_frame.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::polytopes {
 
@@ -29,6 +30,12 @@ struct Polytope : geometry::CellComplex {
 
     std::size_t cellCount() const { return cells.size(); }
 };
+static_assert(serialization::HasOwnMembers<Polytope, geometry::CellComplex, 1>,
+              "visitStoredMembers() considers each member");
+void visitStoredMembers(serialization::ReadOrWritten<Polytope> auto& polytope, auto& visit) {
+    // Not stored, but computed from the others: edgeFaces.
+    visit.member(0, serialization::asBase<geometry::CellComplex>(polytope));
+}
 
 /// Returns the largest distance of a vertex from the mean of the vertices. Unlike the circumradius, it is independent
 /// of the position of the polytope.

@@ -1,8 +1,8 @@
 #pragma once
 // Which members of a struct are stored, and under which numbers.
 //
-// Beside each struct of a stored session is a function that visits the stored members. It names all members in a
-// structured binding, so it no longer compiles when the struct gets another member:
+// Beside each struct of a stored session or object is a function that visits the stored members. It names all members
+// in a structured binding, so it no longer compiles when the struct gets another member:
 //
 //     void visitStoredMembers(serialization::ReadOrWritten<CameraOrbit> auto& orbit, auto& visit) {
 //         auto& [azimuth, elevation, zoom] = orbit;
@@ -10,7 +10,11 @@
 //         …
 //     }
 //
-// `visit` reads or writes one record (see store/state_codec.cpp). A struct is stored as an array, and the number of a
+// A struct with a base class cannot be bound. Instead, a static_assert beside the function says how many members the
+// struct has besides those of its base (see HasOwnMembers), and the function visits the base as a member (see
+// asBase()).
+//
+// `visit` reads or writes one record (see store/member_codec.hpp). A struct is stored as an array, and the number of a
 // member is its index in this array. Servers of other versions read and write the same records, hence these rules: a
 // member keeps its number forever; the number of a removed member is not used again; a new member gets the next number
 // and is visited with addedMember(), because records of earlier versions lack it. The same rules hold for the numbers
@@ -26,12 +30,40 @@
 //   visitThem(visit) visits them
 // - object(number, value): a 4-D object; only State has one
 
+#include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace oval4d::serialization {
 
 /// Satisfied by `Struct`, for reading its members, and by `const Struct`, for writing them.
 template <typename T, typename Struct>
 concept ReadOrWritten = std::is_same_v<std::remove_const_t<T>, Struct>;
+
+/// Returns a struct as its base class, which is const if the struct is.
+template <typename Base, typename Struct>
+auto& asBase(Struct& value) {
+    using Result = std::conditional_t<std::is_const_v<Struct>, const Base, Base>;
+    return static_cast<Result&>(value);
+}
+
+/// Stands for a value of any type in expressions that are not evaluated.
+template <std::size_t kNumber>
+struct AnyValue {
+    template <typename T>
+    operator T() const;  // NOLINT(google-explicit-constructor)
+};
+
+/// Returns whether the aggregate `Struct` can be initialized with its base class and as many further values as there
+/// are numbers.
+template <typename Struct, typename Base, std::size_t... kNumbers>
+constexpr bool takesInitializers(std::index_sequence<kNumbers...> /*numbers*/) {
+    return requires { Struct{std::declval<Base>(), AnyValue<kNumbers>()...}; };
+}
+
+/// Satisfied if the aggregate `Struct` has exactly `kCount` members besides those of `Base`, its only base class.
+template <typename Struct, typename Base, std::size_t kCount>
+concept HasOwnMembers = takesInitializers<Struct, Base>(std::make_index_sequence<kCount>()) &&
+                        !takesInitializers<Struct, Base>(std::make_index_sequence<kCount + 1>());
 
 }  // namespace oval4d::serialization

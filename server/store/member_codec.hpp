@@ -2,8 +2,11 @@
 // Writes and reads the stored members of structs: the visitors of serialization/stored_members.hpp.
 
 #include <algorithm>
+#include <array>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -12,13 +15,17 @@
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <nlohmann/json.hpp>
 
+#include "fields/array/sample_storage.hpp"
+#include "geometry/jagged_array.hpp"
 #include "geometry/range.hpp"
 #include "geometry/rotation.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
 #include "text/choice.hpp"
+#include "text/message_text.hpp"
 
 namespace oval4d::store {
 
@@ -78,6 +85,25 @@ class MemberWriter {
     static nlohmann::json encoded(const std::optional<T>& value) {
         return value ? encoded(*value) : nlohmann::json();
     }
+    template <typename T, std::size_t kSize>
+    static nlohmann::json encoded(const std::array<T, kSize>& values) {
+        nlohmann::json list = nlohmann::json::array();
+        for (const T& value : values) list.push_back(encoded(value));
+        return list;
+    }
+    static nlohmann::json encoded(const std::string& text) { return text; }
+    static nlohmann::json encoded(const geometry::JaggedArray& rows) {
+        nlohmann::json list = nlohmann::json::array();
+        for (std::size_t i = 0; i < rows.size(); ++i) list.emplace_back(rows[i]);
+        return list;
+    }
+    // Samples are 32-bit floats in the byte order of x86-64 (little-endian).
+    static nlohmann::json encoded(const fields::SampleStorage& samples) {
+        const auto* bytes = reinterpret_cast<const std::uint8_t*>(samples.values().data());
+        return nlohmann::json::binary(
+            nlohmann::json::binary_t::container_type(bytes, bytes + samples.values().size_bytes()));
+    }
+    static nlohmann::json encoded(const glm::dvec4& v) { return {v.x, v.y, v.z, v.w}; }
     static nlohmann::json encoded(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
     static nlohmann::json encoded(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
     // A turn in one plane, or in two perpendicular planes, is encoded as [plane, angle, angle in the perpendicular
@@ -177,8 +203,32 @@ class MemberReader {
         into.reset();
         if (!value.is_null()) read(value, into.emplace());
     }
+    template <typename T, std::size_t kSize>
+    static void read(const nlohmann::json& value, std::array<T, kSize>& into) {
+        refuseUnknownMembers(value, kSize);
+        for (std::size_t i = 0; i < kSize; ++i) read(value.at(i), into[i]);
+    }
+    static void read(const nlohmann::json& value, std::string& into) {
+        into = value.get<std::string>();
+        if (!text::isUtf8(into)) throwUnreadable("a text is not UTF-8");
+    }
+    static void read(const nlohmann::json& value, geometry::JaggedArray& into) {
+        if (!value.is_array()) throwUnreadable("a list is missing");
+        into = {};
+        for (const nlohmann::json& row : value) into.add(readIntegers(row));
+    }
+    static void read(const nlohmann::json& value, fields::SampleStorage& into) {
+        const auto& bytes = value.get_binary();
+        if (bytes.empty() || bytes.size() % sizeof(float) != 0) throwUnreadable("samples of an array are missing");
+        std::vector<float> samples(bytes.size() / sizeof(float));
+        std::memcpy(samples.data(), bytes.data(), bytes.size());
+        into = fields::SampleStorage(std::move(samples));
+    }
     static void read(const nlohmann::json& value, glm::dvec3& into, geometry::Range range) {
         for (int i = 0; i < 3; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
+    }
+    static void read(const nlohmann::json& value, glm::dvec4& into, geometry::Range range) {
+        for (int i = 0; i < 4; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
     }
     static void read(const nlohmann::json& value, geometry::Turn& into) {
         const auto angle = [&](const nlohmann::json& plane, const nlohmann::json& radians) {

@@ -16,6 +16,7 @@
 #include "fields/image_level.hpp"
 #include "fields/quantity.hpp"
 #include "fields/scalar_function.hpp"
+#include "serialization/stored_members.hpp"
 
 namespace oval4d::fields {
 
@@ -60,6 +61,17 @@ struct FieldArray {
     /// Returns the interpolant of the samples. Error: `bad_field` if the box is not valid (see Lattice).
     Result<std::shared_ptr<const ArrayFunction>> function() const;
 };
+void visitStoredMembers(serialization::ReadOrWritten<FieldArray> auto& array, auto& visit) {
+    // `boxIsKnown` and `warnings` matter only while a file is loaded.
+    auto& [shape, box, boxIsKnown, samples, units, quantity, isPart, imageLevel, warnings] = array;
+    visit.member(0, shape);
+    visit.member(1, box);
+    visit.member(2, samples);
+    visit.member(3, units);
+    visit.member(4, quantity);
+    visit.member(5, isPart);
+    visit.addedMember(6, imageLevel);
+}
 
 /// Returns the error of a file that does not follow its format, or whose values cannot become a field.
 inline Error badField(std::string reason) { return {ErrorCode::bad_field, std::move(reason)}; }

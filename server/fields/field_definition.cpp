@@ -1,0 +1,78 @@
+#include "fields/field_definition.hpp"
+
+#include <memory>
+#include <string_view>
+#include <utility>
+
+#include "fields/array/array_function.hpp"
+#include "fields/array_field.hpp"
+#include "fields/formula_field.hpp"
+
+namespace oval4d::fields {
+
+namespace {
+
+/// Returns the array of a function, without its quantity and units.
+FieldArray arrayOf(const ArrayFunction& function) {
+    FieldArray array;
+    array.shape = function.shape();
+    array.box = function.box();
+    array.samples = function.storage();
+    return array;
+}
+
+SecondDefinition definitionOf(const SecondFunction& second) {
+    const auto& [function, formula, array, variable, quantity] = second;  // `function` is computed from the others
+    SecondDefinition definition{formula, variable, {}};
+    if (array) {
+        definition.array = arrayOf(*array);
+        definition.array->quantity = quantity;
+    }
+    return definition;
+}
+
+}  // namespace
+
+// Not part of the definition are `shared`, which says where the field is kept, and what is computed: function, center,
+// toFunction, domain, isTransformed, initialLevel, initialInside, coloringRange.
+static_assert(serialization::HasOwnMembers<Field, geometry::ObjectInfo, 18>, "definitionOf() considers each member");
+FieldDefinition definitionOf(const Field& field) {
+    FieldDefinition definition;
+    definition.info = static_cast<const geometry::ObjectInfo&>(field);
+    if (field.source) {
+        definition.source = *field.source;
+        return definition;
+    }
+    definition.formula = field.formula;
+    if (field.array) {
+        FieldArray& array = definition.array.emplace(arrayOf(*field.array));
+        array.units = field.units;
+        array.quantity = field.quantity;
+        array.isPart = field.isPart;
+        array.imageLevel = field.imageLevel;
+    } else {
+        definition.box = field.box;
+    }
+    if (field.second) definition.second = definitionOf(*field.second);
+    return definition;
+}
+
+Result<Field> fieldFrom(const FieldDefinition& definition) {
+    const auto& [info, source, formula, box, array, second] = definition;
+    if (source) return badField("the samples are in a file");
+    if (second && second->array.has_value() != second->formula.empty())
+        return badField("the second function is neither a formula nor an array, or both");
+    if (!array) {
+        if (second && second->array) return badField("a formula has an array");
+        return fieldFromFormula(info.name, formula, box, second ? second->formula : std::string());
+    }
+    if (!formula.empty()) return badField("it is both a formula and an array");
+    Result<Field> field = fieldFromArray(info.name, *array);
+    if (!field || !second) return field;
+    auto error = second->array ? setSecondArray(*field, *second->array, second->variable)
+                               : setSecondFormula(*field, second->formula);
+    if (error) return std::move(*error);
+    return field;
+}
+
+}  // namespace oval4d::fields
