@@ -48,15 +48,17 @@ std::string encodeCbor(const json& value) {
     return bytes;
 }
 
-json parseRecord(std::string_view bytes) {
+json parseRecord(std::string_view bytes, int latestVersion) {
     DepthLimiter limiter;
     if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) throwUnreadable("it is nested too deeply");
     json value = json::from_cbor(bytes);
     if (!value.is_array() || value.empty()) throwUnreadable("it is not a session record");
-    if (const json& version = value.at(0); version != kRecordVersion) {
-        const std::string what =
-            "it has version " + version.dump() + ", and this program reads version " + std::to_string(kRecordVersion);
-        if (version.is_number_integer() && version.get<std::int64_t>() > kRecordVersion) throwLater(what);
+    const json& version = value.at(0);
+    const auto number = version.is_number_integer() ? version.get<std::int64_t>() : 0;
+    if (number < 1 || number > latestVersion) {
+        const std::string what = "it has version " + version.dump() + ", and this program reads version " +
+                                 (latestVersion == 1 ? "1" : "1 to " + std::to_string(latestVersion));
+        if (number > latestVersion) throwLater(what);
         throwUnreadable(what);
     }
     return value;
@@ -80,9 +82,13 @@ std::vector<std::uint32_t> readIntegers(const json& value) {
     return list;
 }
 
+void checkShortText(std::string_view text) {
+    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) throwUnreadable("a name is too long or is not UTF-8");
+}
+
 std::string readShortText(const json& value) {
     auto text = value.get<std::string>();
-    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) throwUnreadable("a name is too long or is not UTF-8");
+    checkShortText(text);
     return text;
 }
 

@@ -15,7 +15,8 @@
 
 namespace oval4d::store {
 
-/// The version of the records that this program writes and reads. It is the first element of each record.
+/// The version of the records of sessions that this program writes and reads. The version is the first element of each
+/// record; those of objects have their own (see object_codec.cpp).
 inline constexpr int kRecordVersion = 1;
 
 /// Throws UnreadableRecord with this message.
@@ -28,9 +29,9 @@ inline constexpr int kRecordVersion = 1;
 /// Returns the CBOR encoding of a value.
 std::string encodeCbor(const nlohmann::json& value);
 
-/// Parses a record: an array that begins with kRecordVersion. Throws LaterRecord if the array begins with a greater
-/// number, and UnreadableRecord if `bytes` is anything else or is nested too deeply.
-nlohmann::json parseRecord(std::string_view bytes);
+/// Parses a record: an array that begins with a version from 1 to `latestVersion`. Throws LaterRecord if the array
+/// begins with a greater number, and UnreadableRecord if `bytes` is anything else or is nested too deeply.
+nlohmann::json parseRecord(std::string_view bytes, int latestVersion = kRecordVersion);
 
 /// Throws LaterRecord if the array has more than `known` members. Only a later version of this program stores such
 /// an array. If this version read it, the unknown members would be lost when it stores the session again.
@@ -66,6 +67,9 @@ T readInteger(const nlohmann::json& value) {
 
 /// Returns the elements of an array. Throws UnreadableRecord if an element is not an integer from 0 to 2^32 − 1.
 std::vector<std::uint32_t> readIntegers(const nlohmann::json& value);
+
+/// Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8.
+void checkShortText(std::string_view text);
 
 /// Returns `value` as a name. Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8. If
 /// `value` is not a string, throws an exception of the JSON library, as readNumber() does.

@@ -1,0 +1,111 @@
+#include "store/object_record_v1.hpp"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "store/cbor.hpp"
+
+// The record of an object with the version 1 is an array. Its length tells the kind:
+// - 2: [version, [[origin in the file], record of the object]], if the object was moved when it was loaded
+// - 3: [version, name, source]; a field in a file of the data folder. The source is as now, but may lack the region
+// - 4: [version, name, points, radii]; a point cloud
+// - 5: [version, name, formula or samples, box, shape]; a field. The shape of a formula is an empty array
+// - 6: [version, name, vertices, 2-faces, cells, the type of each cell]; a polytope
+// - 7: the five members of a field, the second function, and a text. The second function is a formula or [variable,
+//   samples]
+// - 8: [version, name, vertices, 2-faces, null, null, null, null]; a surface
+// - 9: these seven members (null if there is no second function), [units of x, y, z and w, [name, unit] of the values],
+//   and [name, unit] of the values of the second function; a field of an array
+// This format is final. The members of the version 2 and their numbers: see visitStoredMembers() beside each struct.
+
+namespace oval4d::store {
+
+using nlohmann::json;
+
+namespace {
+
+// The numbers of the kinds in the version 2.
+constexpr unsigned kPolytope = 0, kCloud = 1, kField = 2, kSurface = 3;
+
+json recordOf(unsigned kind, bool isFile, json members) { return json::array({2, kind, isFile, std::move(members)}); }
+
+json noQuantity() { return json::array({"", ""}); }
+
+// The members of fields::FieldArray.
+json arrayOf(json shape, json box, json samples, json units, json quantity) {
+    return json::array(
+        {std::move(shape), std::move(box), std::move(samples), std::move(units), std::move(quantity), false});
+}
+
+json fieldFromVersion1(json info, json record) {
+    constexpr std::size_t kWithSecond = 7, kWithQuantities = 9;
+    const bool isFormula = record.at(2).is_string(), measures = record.size() == kWithQuantities;
+    if (isFormula && measures) throwUnreadable("a formula has units");
+    const json box = record.at(3), shape = record.at(4), noUnits = json::array({"", "", "", ""});
+    json units = noUnits, quantity = noQuantity(), ofSecond = noQuantity();
+    if (measures) {
+        units = record.at(7);
+        refuseUnknownMembers(units, noUnits.size() + 1);
+        quantity = units.at(noUnits.size());
+        units.erase(noUnits.size());
+        ofSecond = record.at(8);
+    }
+    json second;
+    if (record.size() >= kWithSecond && !record.at(5).is_null()) {
+        json& function = record.at(5);
+        if (function.is_string()) {
+            second = json::array({std::move(function), "", nullptr});
+        } else {
+            json array = arrayOf(shape, box, std::move(function.at(1)), noUnits, std::move(ofSecond));
+            second = json::array({"", std::move(function.at(0)), std::move(array)});
+        }
+    }
+    json formula = "", array;
+    if (isFormula) {
+        formula = std::move(record.at(2));
+    } else {
+        array = arrayOf(shape, box, std::move(record.at(2)), std::move(units), std::move(quantity));
+    }
+    return json::array({std::move(info), nullptr, std::move(formula), box, std::move(array), std::move(second)});
+}
+
+}  // namespace
+
+json convertedFromVersion1(json record) {
+    json origin = json::array({0.0, 0.0, 0.0, 0.0});
+    if (record.size() == 2) {
+        json& moved = record.at(1);
+        if (moved.at(0).size() != 1) throwUnreadable("an object does not have one origin");
+        origin = std::move(moved.at(0).at(0));
+        json inner = std::move(moved.at(1));
+        record = std::move(inner);
+    }
+    const std::size_t size = record.size();
+    const auto take = [&record](std::size_t index) { return std::move(record.at(index)); };
+    if (size < 3 || size > 9)
+        throwLater("there is no kind of object with a record of " + std::to_string(size) + " members");
+    json info = json::array({take(1), std::move(origin)});
+    switch (size) {
+        case 3: {
+            const json box = json::array({{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}});  // as there is no formula
+            return recordOf(kField, true, json::array({std::move(info), take(2), "", box, nullptr, nullptr}));
+        }
+        case 4:
+            return recordOf(kCloud, false, json::array({std::move(info), take(2), take(3)}));
+        case 6: {
+            json complex = json::array({std::move(info), take(2), take(3), take(4), take(5)});
+            return recordOf(kPolytope, false, json::array({std::move(complex)}));
+        }
+        case 8: {
+            for (std::size_t i = 4; i < size; ++i)
+                if (!record.at(i).is_null()) throwLater("a surface has members that this version does not know");
+            json complex = json::array({std::move(info), take(2), take(3), json::array(), json::array()});
+            return recordOf(kSurface, false, json::array({std::move(complex)}));
+        }
+        default:
+            return recordOf(kField, false, fieldFromVersion1(std::move(info), std::move(record)));
+    }
+}
+
+}  // namespace oval4d::store
