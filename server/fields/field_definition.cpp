@@ -1,7 +1,9 @@
 #include "fields/field_definition.hpp"
 
-#include <memory>
-#include <string_view>
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "fields/array/array_function.hpp"
@@ -31,18 +33,33 @@ SecondDefinition definitionOf(const SecondFunction& second) {
     return definition;
 }
 
+std::optional<Error> faultOf(const FieldArray& array) {
+    const std::size_t count = sampleCount(array.shape);
+    if (count == 0 || array.samples.values().size() != count) return badField("samples of an array are missing");
+    if (!std::ranges::all_of(array.units, isQuantityText) || !isQuantityText(array.quantity.name) ||
+        !isQuantityText(array.quantity.unit))
+        return badField("a unit or the name of a quantity is too long or is not printable UTF-8");
+    if (array.imageLevel.level >= std::max(array.imageLevel.levels, 1U))
+        return badField("an image does not have the level of the array");
+    return {};
+}
+
 }  // namespace
 
 // Not part of the definition are `shared`, which says where the field is kept, and what is computed: function, center,
 // toFunction, domain, isTransformed, initialLevel, initialInside, coloringRange.
-static_assert(serialization::HasOwnMembers<Field, geometry::ObjectInfo, 18>, "definitionOf() considers each member");
+static_assert(serialization::HasOwnMembers<Field, geometry::ObjectInfo, 18>, "the definition considers each member");
 FieldDefinition definitionOf(const Field& field) {
+    if (!field.source) return definitionByFunctions(field);
     FieldDefinition definition;
     definition.info = static_cast<const geometry::ObjectInfo&>(field);
-    if (field.source) {
-        definition.source = *field.source;
-        return definition;
-    }
+    definition.source = *field.source;
+    return definition;
+}
+
+FieldDefinition definitionByFunctions(const Field& field) {
+    FieldDefinition definition;
+    definition.info = static_cast<const geometry::ObjectInfo&>(field);
     definition.formula = field.formula;
     if (field.array) {
         FieldArray& array = definition.array.emplace(arrayOf(*field.array));
@@ -67,6 +84,10 @@ Result<Field> fieldFrom(const FieldDefinition& definition) {
         return fieldFromFormula(info.name, formula, box, second ? second->formula : std::string());
     }
     if (!formula.empty()) return badField("it is both a formula and an array");
+    if (auto fault = faultOf(*array)) return std::move(*fault);
+    if (second && second->array) {
+        if (auto fault = faultOf(*second->array)) return std::move(*fault);
+    }
     Result<Field> field = fieldFromArray(info.name, *array);
     if (!field || !second) return field;
     auto error = second->array ? setSecondArray(*field, *second->array, second->variable)

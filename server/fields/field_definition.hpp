@@ -45,13 +45,17 @@ void visitStoredMembers(serialization::ReadOrWritten<FieldDefinition> auto& defi
     visit.member(5, second);
 }
 
-/// Returns from what a field is made. `field` must not have been made by transformedTo(). The samples of arrays are
-/// shared with the field, not copied.
+/// Returns from what a field is made: its file if Field::source is not null; else its functions. `field` must not have
+/// been made by transformedTo(). The samples of arrays are shared with the field, not copied.
 FieldDefinition definitionOf(const Field& field);
 
+/// Returns the same as definitionOf(), but the functions even if they are in a file.
+FieldDefinition definitionByFunctions(const Field& field);
+
 /// Makes a field of a formula or of an array. Errors: those of fieldFromFormula(), fieldFromArray(), setSecondFormula()
-/// and setSecondArray(); `bad_field` if members contradict each other, such as a formula and an array, or if the
-/// definition refers to a file.
+/// and setSecondArray(); `bad_field` if members contradict each other, such as a formula and an array, if the samples
+/// of an array do not match its shape, if quantityText() would change a unit or a quantity, or if the definition refers
+/// to a file.
 Result<Field> fieldFrom(const FieldDefinition& definition);
 
 }  // namespace oval4d::fields

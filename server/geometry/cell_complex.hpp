@@ -34,12 +34,16 @@ struct CellComplex : ObjectInfo {
 };
 static_assert(serialization::HasOwnMembers<CellComplex, ObjectInfo, 9>, "visitStoredMembers() considers each member");
 void visitStoredMembers(serialization::ReadOrWritten<CellComplex> auto& complex, auto& visit) {
-    // Not stored, but computed from the others: edges, faceEdges, cellSigns, faceCells, convexFaces.
     visit.member(0, serialization::asBase<ObjectInfo>(complex));
     visit.member(1, complex.vertices, ObjectInfo::kStoredCoordinates);
     visit.member(2, complex.faces);
     visit.member(3, complex.cells);
     visit.member(4, complex.typeOfCell);
+    visit.computedMember(complex.edges);
+    visit.computedMember(complex.faceEdges);
+    visit.computedMember(complex.cellSigns);
+    visit.computedMember(complex.faceCells);
+    visit.computedMember(complex.convexFaces);
 }
 
 /// Sets `edges` and `faceEdges`, which must be empty, from the vertex loops of the 2-faces. In each loop, successive

@@ -37,11 +37,14 @@ struct ObjectInfo {
     std::vector<CellType> cellTypes;   ///< empty for an object without cells
 };
 void visitStoredMembers(serialization::ReadOrWritten<ObjectInfo> auto& info, auto& visit) {
-    // The functions that make objects compute the other members, except `rebuildableFromName`: objects that can be
-    // built again are stored as names only.
     auto& [name, serial, circumradius, originInFile, convex, rebuildableFromName, cellTypes] = info;
     visit.member(0, name);
     visit.member(1, originInFile, ObjectInfo::kStoredCoordinates);
+    visit.computedMember(serial);
+    visit.computedMember(circumradius);
+    visit.computedMember(convex);
+    visit.computedMember(rebuildableFromName);  // false if members are stored: else, only the name is stored
+    visit.computedMember(cellTypes);
 }
 
 /// Returns a new value for ObjectInfo::serial, from 1 to 2^53 − 1. The values in a process are successive integers from

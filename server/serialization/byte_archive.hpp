@@ -53,6 +53,11 @@ class ByteWriter {
     void operator()(const T& value) {
         boost::pfr::for_each_field(value, [this](const auto& member) { (*this)(member); });
     }
+    template <Memberwise T>
+    void operator()(const std::vector<T>& list) {
+        (*this)(list.size());
+        for (const T& element : list) (*this)(element);
+    }
 
   private:
     std::string& out_;
@@ -87,6 +92,11 @@ class ByteReader {
     void operator()(T& value) {
         // A lambda, because for_each_field() would copy *this and advance only the copy.
         boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });
+    }
+    template <Memberwise T>
+    void operator()(std::vector<T>& list) {
+        list.clear();
+        for (std::size_t rest = count(1); rest > 0; --rest) (*this)(list.emplace_back());
     }
 
   private:

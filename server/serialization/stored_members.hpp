@@ -29,6 +29,8 @@
 // - array(number, visitThem): members that are stored together, as an array of their own with the index `number`;
 //   visitThem(visit) visits them
 // - object(number, value): a 4-D object; only State has one
+// - computedMember(value): a member of a 4-D object that is not stored, because the function that makes the object
+//   computes it; messages between processes can contain it (see slicing/object_bytes.cpp)
 
 #include <cstddef>
 #include <type_traits>

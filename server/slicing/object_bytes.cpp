@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -13,8 +15,11 @@
 
 #include <glm/geometric.hpp>
 
-#include "fields/array_field.hpp"
-#include "fields/formula_field.hpp"
+#include "fields/array/sample_storage.hpp"
+#include "fields/field.hpp"
+#include "fields/field_definition.hpp"
+#include "geometry/jagged_array.hpp"
+#include "geometry/object_info.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/surface_mesh.hpp"
 #include "polytopes/polytope.hpp"
@@ -29,43 +34,48 @@ using polytopes::Polytope;
 using serialization::ByteReader;
 using serialization::ByteWriter;
 
-// Reading and writing share this code, so that both use the same format. The structured binding does not compile if a
-// member is added to JaggedArray but not here.
-template <typename Archive, typename Array>
-void visitArray(Archive& archive, Array& array) {
-    auto& [begin, items] = array;
-    archive(begin), archive(items);
-}
+// The members of an object that a message contains: those that are stored, from which the object can be made again, or
+// all (see serialization/stored_members.hpp).
+enum class Members : std::uint8_t { stored, all };
 
-template <typename Archive, typename P>
-void visitPolytope(Archive& archive, P& p) {
-    archive(p.name), archive(p.serial), archive(p.circumradius), archive(p.convex), archive(p.convexFaces);
-    archive(p.rebuildableFromName);
-    archive(p.vertices), archive(p.edges);
-    for (auto* array : {&p.faces, &p.faceEdges, &p.edgeFaces, &p.cells}) visitArray(archive, *array);
-    archive(p.cellSigns), archive(p.faceCells), archive(p.typeOfCell);
-}
-
-template <typename Archive, typename Cloud>
-void visitCloud(Archive& archive, Cloud& cloud) {
-    archive(cloud.name), archive(cloud.serial), archive(cloud.circumradius);
-    archive(cloud.points), archive(cloud.radii), archive(cloud.originInFile);
-}
-
-template <typename Archive, typename Surface>
-void visitSurface(Archive& archive, Surface& surface) {
-    archive(surface.name), archive(surface.serial), archive(surface.circumradius), archive(surface.convexFaces);
-    archive(surface.originInFile), archive(surface.vertices), archive(surface.edges);
-    for (auto* array : {&surface.faces, &surface.faceEdges}) visitArray(archive, *array);
-}
-
-// Writes samples inline or, if they are in a file and exceed the limit for inline samples (see writeObjectContent()),
-// the index of their file and their place in this file.
-class SampleWriter {
+// Writes members. Samples are written inline or, if they are in a file and exceed the limit for inline samples (see
+// writeObjectContent()), as the index of their file and their place in this file.
+class ObjectWriter {
   public:
-    SampleWriter(ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory)
-        : archive_(archive), files_(files), maxInMemory_(maxInMemory) {}
+    ObjectWriter(ByteWriter& archive, Members members, MappedFiles& files, std::size_t maxInMemory)
+        : archive_(archive), members_(members), files_(files), maxInMemory_(maxInMemory) {}
 
+    template <typename T, typename... Ranges>
+    void member(std::size_t /*number*/, const T& value, Ranges... /*range*/) {
+        write(value);
+    }
+    template <typename T, typename... Ranges>
+    void addedMember(std::size_t /*number*/, const T& value, Ranges... /*range*/) {
+        write(value);
+    }
+    template <typename T>
+    void computedMember(const T& value) {
+        if (members_ == Members::all) write(value);
+    }
+
+  private:
+    template <typename T>
+    void write(const T& value) {
+        if constexpr (requires { visitStoredMembers(value, *this); }) {
+            visitStoredMembers(value, *this);
+        } else {
+            archive_(value);
+        }
+    }
+    template <typename T>
+    void write(const std::optional<T>& value) {
+        archive_(value.has_value());
+        if (value) write(*value);
+    }
+    template <typename T, std::size_t kSize>
+    void write(const std::array<T, kSize>& values) {
+        for (const T& value : values) write(value);
+    }
     void write(const fields::SampleStorage& samples) {
         const std::size_t count = samples.values().size();
         const bool inFile = samples.file() && count > maxInMemory_;
@@ -81,96 +91,96 @@ class SampleWriter {
             archive_(count);
     }
 
-  private:
     ByteWriter& archive_;
+    const Members members_;
     MappedFiles& files_;
     std::size_t maxInMemory_;  // how many more samples may be written inline although they are in a file
 };
 
-void writeField(const fields::Field& field, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
-    SampleWriter writer(archive, files, maxInMemory);
-    archive(field.formula), archive(field.array ? field.array->box() : field.box);
-    if (field.array) {
-        archive(field.array->shape());
-        writer.write(field.array->storage());
-        for (const std::string& unit : field.units) archive(unit);
-        archive(field.quantity), archive(field.isPart);
-        archive(field.imageLevel.level), archive(field.imageLevel.levels);
-    }
-    const fields::SecondFunction* const second = field.second.get();
-    archive(second == nullptr ? std::string() : second->formula);
-    archive(second == nullptr ? std::string() : second->variable);
-    const bool hasArray = second != nullptr && second->array != nullptr;
-    archive(hasArray);
-    if (hasArray) {
-        writer.write(second->array->storage());
-        archive(second->quantity);
-    }
-}
+// Reads the members that an ObjectWriter has written. Throws std::runtime_error if bytes or files are missing, or if a
+// row of a jagged array does not lie within its items.
+class ObjectReader {
+  public:
+    ObjectReader(ByteReader& archive, Members members, const MappedFiles& files)
+        : archive_(archive), members_(members), files_(files) {}
 
-// Reads the samples of an array whose shape is already set. Throws std::runtime_error if samples are missing.
-void readSamples(ByteReader& archive, const MappedFiles& files, fields::FieldArray& array) {
-    bool inFile = false;
-    archive(inFile);
-    if (inFile) {
+    template <typename T, typename... Ranges>
+    void member(std::size_t /*number*/, T& value, Ranges... /*range*/) {
+        read(value);
+    }
+    template <typename T, typename... Ranges>
+    void addedMember(std::size_t /*number*/, T& value, Ranges... /*range*/) {
+        read(value);
+    }
+    template <typename T>
+    void computedMember(T& value) {
+        if (members_ == Members::all) read(value);
+    }
+
+  private:
+    template <typename T>
+    void read(T& value) {
+        if constexpr (requires { visitStoredMembers(value, *this); }) {
+            visitStoredMembers(value, *this);
+        } else {
+            archive_(value);
+        }
+    }
+    template <typename T>
+    void read(std::optional<T>& value) {
+        bool isThere = false;
+        archive_(isThere);
+        value.reset();
+        if (isThere) read(value.emplace());
+    }
+    template <typename T, std::size_t kSize>
+    void read(std::array<T, kSize>& values) {
+        for (T& value : values) read(value);
+    }
+    void read(JaggedArray& array) {
+        archive_(array);
+        if (array.begin.empty() || array.begin.front() != 0 || array.begin.back() != array.items.size() ||
+            !std::ranges::is_sorted(array.begin))
+            throw std::runtime_error("an inconsistent jagged array");
+    }
+    void read(fields::SampleStorage& samples) {
+        bool inFile = false;
+        archive_(inFile);
+        if (!inFile) {
+            std::vector<float> values;
+            archive_(values);
+            samples = fields::SampleStorage(std::move(values));
+            return;
+        }
         std::size_t number = 0, offset = 0, count = 0;
-        archive(number), archive(offset), archive(count);
-        if (number >= files.size() || !files[number] || count != fields::sampleCount(array.shape))
-            throw std::runtime_error("samples are missing");
+        archive_(number), archive_(offset), archive_(count);
+        if (number >= files_.size() || !files_[number]) throw std::runtime_error("samples are missing");
         try {
-            array.samples = fields::SampleStorage(files[number], offset, count);
+            samples = fields::SampleStorage(files_[number], offset, count);
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error(invalid.what());
         }
-        return;
     }
-    std::vector<float> samples;
-    archive(samples);
-    if (samples.size() != fields::sampleCount(array.shape)) throw std::runtime_error("samples are missing");
-    array.samples = fields::SampleStorage(std::move(samples));
-}
 
-// Reads the name of a quantity or a unit. Throws std::runtime_error if fields::quantityText() would change it.
-void readQuantityText(ByteReader& archive, std::string& text) {
-    archive(text);
-    if (!fields::isQuantityText(text))
-        throw std::runtime_error("a unit or the name of a quantity is too long or not printable");
-}
+    ByteReader& archive_;
+    const Members members_;
+    const MappedFiles& files_;
+};
 
-void readQuantity(ByteReader& archive, fields::Quantity& quantity) {
-    readQuantityText(archive, quantity.name);
-    readQuantityText(archive, quantity.unit);
+// Writes an object. A field is written as its definition, from which it is made again.
+void writeObject(const Object& object, ObjectWriter& writer) {
+    std::visit(Overloaded{[&](const FieldPtr& field) {
+                              const fields::FieldDefinition definition = fields::definitionByFunctions(*field);
+                              visitStoredMembers(definition, writer);
+                          },
+                          [&](const auto& data) { visitStoredMembers(*data, writer); }},
+               object);
 }
 
 // Throws std::runtime_error if the field is invalid.
-fields::Field readField(const std::string& name, ByteReader& archive, const MappedFiles& files) {
-    const auto require = [](const std::optional<Error>& error) {
-        if (error) throw std::runtime_error("an invalid field: " + error->message);
-    };
-    std::string formula, second, variable;
-    fields::FieldArray array;
-    bool hasArray = false;
-    archive(formula), archive(array.box);
-    if (formula.empty()) {
-        archive(array.shape), readSamples(archive, files, array);
-        for (std::string& unit : array.units) readQuantityText(archive, unit);
-        readQuantity(archive, array.quantity);
-        archive(array.isPart);
-        auto& [level, levels] = array.imageLevel;
-        archive(level), archive(levels);
-        if (level >= std::max(levels, 1U)) throw std::runtime_error("a level that an image does not have");
-    }
-    archive(second), archive(variable), archive(hasArray);
-    auto field = formula.empty() ? fields::fieldFromArray(name, array)
-                                 : fields::fieldFromFormula(name, formula, array.box, second);
-    if (!field) require(field.error());
-    if (formula.empty() && !second.empty()) require(fields::setSecondFormula(*field, second));
-    if (hasArray) {
-        if (!formula.empty()) throw std::runtime_error("a formula with an array");
-        readSamples(archive, files, array);
-        readQuantity(archive, array.quantity);
-        require(fields::setSecondArray(*field, array, variable));
-    }
+fields::Field madeFrom(const fields::FieldDefinition& definition) {
+    auto field = fields::fieldFrom(definition);
+    if (!field) throw std::runtime_error("an invalid field: " + field.error().message);
     return std::move(*field);
 }
 
@@ -189,16 +199,6 @@ Object readKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> 
     return ofEachKind.at(kind);
 }
 
-/// Reads a jagged array. Throws std::runtime_error unless each of its rows lies within `items`.
-JaggedArray arrayFrom(ByteReader& archive) {
-    JaggedArray array;
-    visitArray(archive, array);
-    if (array.begin.empty() || array.begin.front() != 0 || array.begin.back() != array.items.size() ||
-        !std::ranges::is_sorted(array.begin))
-        throw std::runtime_error("an inconsistent jagged array");
-    return array;
-}
-
 }  // namespace
 
 void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
@@ -206,122 +206,93 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
     files.clear();
     ByteWriter archive(out);
     writeKind(object, archive);
-    std::visit(Overloaded{[&](const PolytopePtr& p) {
-                              visitPolytope(archive, *p);
-                              archive(p->cellTypes.size());
-                              for (const auto& [name, cells] : p->cellTypes) archive(name), archive(cells);
-                              archive(p->originInFile);
-                          },
-                          [&](const CloudPtr& cloud) { visitCloud(archive, *cloud); },
-                          [&](const FieldPtr& field) {
-                              writeField(*field, archive, files, 0);
-                              archive(field->name), archive(field->serial);
-                          },
-                          [&](const SurfacePtr& surface) { visitSurface(archive, *surface); }},
-               object);
+    ObjectWriter writer(archive, Members::all, files, 0);
+    writeObject(object, writer);
 }
 
 Object decodeObject(std::string_view bytes, const MappedFiles& files) {
     ByteReader archive(bytes);
-    return std::visit(Overloaded{[&](const PolytopePtr& /*null*/) -> Object {
-                                     auto p = std::make_shared<Polytope>();
-                                     visitPolytope(archive, *p);
-                                     std::size_t types = 0;
-                                     for (archive(types); p->cellTypes.size() < types;) {
-                                         auto& [name, cells] = p->cellTypes.emplace_back();
-                                         archive(name), archive(cells);
-                                     }
-                                     archive(p->originInFile);
-                                     return PolytopePtr(std::move(p));
-                                 },
-                                 [&](const CloudPtr& /*null*/) -> Object {
-                                     auto cloud = std::make_shared<geometry::PointCloud>();
-                                     visitCloud(archive, *cloud);
-                                     return CloudPtr(std::move(cloud));
-                                 },
-                                 [&](const FieldPtr& /*null*/) -> Object {
-                                     auto field = std::make_shared<fields::Field>(readField("", archive, files));
-                                     archive(field->name), archive(field->serial);
+    const Object kind = readKind(archive, std::type_identity<Object>());
+    ObjectReader reader(archive, Members::all, files);
+    return std::visit(Overloaded{[&](const FieldPtr& /*null*/) -> Object {
+                                     fields::FieldDefinition definition;
+                                     visitStoredMembers(definition, reader);
+                                     auto field = std::make_shared<fields::Field>(madeFrom(definition));
+                                     static_cast<geometry::ObjectInfo&>(*field) = std::move(definition.info);
                                      return FieldPtr(std::move(field));
                                  },
-                                 [&](const SurfacePtr& /*null*/) -> Object {
-                                     auto surface = std::make_shared<geometry::SurfaceMesh>();
-                                     visitSurface(archive, *surface);
-                                     return SurfacePtr(std::move(surface));
+                                 [&]<typename T>(const std::shared_ptr<const T>& /*null*/) -> Object {
+                                     auto data = std::make_shared<T>();
+                                     visitStoredMembers(*data, reader);
+                                     return std::shared_ptr<const T>(std::move(data));
                                  }},
-                      readKind(archive, std::type_identity<Object>()));
+                      kind);
 }
 
 void writeObjectContent(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
     writeKind(object, archive);
-    std::visit(Overloaded{[&](const PolytopePtr& p) {
-                              archive(p->vertices), archive(p->originInFile);
-                              visitArray(archive, p->faces), visitArray(archive, p->cells), archive(p->typeOfCell);
-                          },
-                          [&](const CloudPtr& cloud) {
-                              archive(cloud->points), archive(cloud->originInFile), archive(cloud->radii);
-                          },
-                          [&](const FieldPtr& field) { writeField(*field, archive, files, maxInMemory); },
-                          [&](const SurfacePtr& surface) {
-                              archive(surface->vertices), archive(surface->originInFile);
-                              visitArray(archive, surface->faces);
-                          }},
-               object);
+    ObjectWriter writer(archive, Members::stored, files, maxInMemory);
+    writeObject(object, writer);
 }
 
 Object readObjectContent(ByteReader& archive, const std::string& name, std::size_t maxVertices,
                          const MappedFiles& files) {
-    std::vector<glm::dvec4> vertices;
-    glm::dvec4 originInFile(0);
-    const auto readVerticesAndOrigin = [&] {
-        archive(vertices);
+    const Object kind = readKind(archive, std::type_identity<Object>());
+    ObjectReader reader(archive, Members::stored, files);
+    const auto readMembers = [&](auto& stored) {
+        visitStoredMembers(stored, reader);
+        if (!std::isfinite(glm::length(stored.originInFile))) throw std::runtime_error("an origin that is not finite");
+    };
+    const auto checkCount = [&](const std::vector<glm::dvec4>& vertices) {
         if (vertices.size() > maxVertices) throw std::runtime_error("too many vertices");
-        archive(originInFile);
-        if (!std::isfinite(glm::length(originInFile))) throw std::runtime_error("an origin that is not finite");
     };
     const auto readPolytope = [&](const PolytopePtr& /*null*/) -> Object {
-        readVerticesAndOrigin();
-        JaggedArray faces = arrayFrom(archive), cells = arrayFrom(archive);
-        std::vector<std::uint32_t> typeOfCell;
-        archive(typeOfCell);
-        if (typeOfCell.size() != cells.size()) throw std::runtime_error("cell types that do not match the cells");
+        Polytope stored;
+        readMembers(stored), checkCount(stored.vertices);
+        if (stored.typeOfCell.size() != stored.cells.size())
+            throw std::runtime_error("cell types that do not match the cells");
         try {
             // makePolytope() rejects indices that are out of range, and cells that are not closed surfaces.
-            Polytope polytope = polytopes::makePolytope(name, std::move(vertices), std::move(faces), std::move(cells),
-                                                        std::move(typeOfCell));
-            polytope.originInFile = originInFile;
+            Polytope polytope = polytopes::makePolytope(name, std::move(stored.vertices), std::move(stored.faces),
+                                                        std::move(stored.cells), std::move(stored.typeOfCell));
+            polytope.originInFile = stored.originInFile;
             return std::make_shared<const Polytope>(std::move(polytope));
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error("an invalid polytope: " + std::string(invalid.what()));
         }
     };
     const auto readCloud = [&](const CloudPtr& /*null*/) -> Object {
-        readVerticesAndOrigin();
-        std::vector<double> radii;
-        archive(radii);
+        geometry::PointCloud stored;
+        readMembers(stored), checkCount(stored.points);
         try {
-            geometry::PointCloud cloud = geometry::makePointCloud(name, std::move(vertices), std::move(radii));
-            cloud.originInFile = originInFile;
+            geometry::PointCloud cloud =
+                geometry::makePointCloud(name, std::move(stored.points), std::move(stored.radii));
+            cloud.originInFile = stored.originInFile;
             return std::make_shared<const geometry::PointCloud>(std::move(cloud));
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error("an invalid point cloud: " + std::string(invalid.what()));
         }
     };
     const auto readSurface = [&](const SurfacePtr& /*null*/) -> Object {
-        readVerticesAndOrigin();
+        geometry::SurfaceMesh stored;
+        readMembers(stored), checkCount(stored.vertices);
+        if (stored.cells.size() != 0 || !stored.typeOfCell.empty()) throw std::runtime_error("a surface with cells");
         try {
-            geometry::SurfaceMesh surface = geometry::makeSurfaceMesh(name, std::move(vertices), arrayFrom(archive));
-            surface.originInFile = originInFile;
+            geometry::SurfaceMesh surface =
+                geometry::makeSurfaceMesh(name, std::move(stored.vertices), std::move(stored.faces));
+            surface.originInFile = stored.originInFile;
             return std::make_shared<const geometry::SurfaceMesh>(std::move(surface));
         } catch (const std::invalid_argument& invalid) {
             throw std::runtime_error("an invalid surface: " + std::string(invalid.what()));
         }
     };
-    return std::visit(Overloaded{readPolytope, readCloud, readSurface,
-                                 [&](const FieldPtr& /*null*/) -> Object {
-                                     return std::make_shared<const fields::Field>(readField(name, archive, files));
-                                 }},
-                      readKind(archive, std::type_identity<Object>()));
+    const auto readField = [&](const FieldPtr& /*null*/) -> Object {
+        fields::FieldDefinition definition;
+        visitStoredMembers(definition, reader);
+        definition.info.name = name;
+        return std::make_shared<const fields::Field>(madeFrom(definition));
+    };
+    return std::visit(Overloaded{readPolytope, readCloud, readSurface, readField}, kind);
 }
 
 }  // namespace oval4d::slicing

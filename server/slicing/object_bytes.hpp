@@ -26,10 +26,8 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files);
 /// std::runtime_error if bytes or files are missing.
 Object decodeObject(std::string_view bytes, const MappedFiles& files = {});
 
-/// Writes the data from which readObjectContent() rebuilds the object, without its name: for a polytope, its vertices,
-/// 2-faces, cells and cell types; for a field, its functions (formulas or samples) and domain; for any other object,
-/// what its file lists, such as the points and radii of a cloud. For all but fields, also writes
-/// ObjectInfo::originInFile.
+/// Writes the data from which readObjectContent() rebuilds the object: the members that are stored (see
+/// serialization/stored_members.hpp), but for a field, always its functions (formulas or samples) and its domain.
 ///
 /// The samples of an array are written inline if they are not in a file, or if the total number of inline samples of
 /// the object stays at most `maxInMemory`. Otherwise a reference to their file is written, and the file is added to

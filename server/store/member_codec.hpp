@@ -40,6 +40,8 @@ class MemberWriter {
     void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
         put(number, encoded(value));
     }
+    template <typename T>
+    void computedMember(const T& /*value*/) {}
     void array(std::size_t number, const auto& visitThem) {
         MemberWriter writer;
         visitThem(writer);
@@ -146,6 +148,8 @@ class MemberReader {
     void addedMember(std::size_t number, T& value, Ranges... range) {
         if (has(number)) member(number, value, range...);
     }
+    template <typename T>
+    void computedMember(T& /*value*/) {}
     void array(std::size_t number, const auto& visitThem) {
         MemberReader reader(at(number));
         visitThem(reader);

@@ -13,7 +13,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "fields/array/shape.hpp"
 #include "fields/field_definition.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/surface_mesh.hpp"
@@ -40,19 +39,6 @@ constexpr std::size_t kObjectRecordMembers = 4;
 /// Returns whether an object refers to a file instead of containing samples.
 bool namesFile(const fields::FieldDefinition& field) { return field.source.has_value(); }
 bool namesFile(const geometry::ObjectInfo& /*object*/) { return false; }
-
-void checkQuantityText(const std::string& text) {
-    if (!fields::isQuantityText(text))
-        throwUnreadable("a unit or the name of a quantity is too long or is not printable UTF-8");
-}
-
-void checkArray(const fields::FieldArray& array) {
-    const std::size_t count = fields::sampleCount(array.shape);
-    if (count == 0 || array.samples.values().size() != count) throwUnreadable("samples of an array are missing");
-    for (const std::string& unit : array.units) checkQuantityText(unit);
-    checkQuantityText(array.quantity.name);
-    checkQuantityText(array.quantity.unit);
-}
 
 slicing::Object openFile(const std::string& name, const fields::FileSource& source, const DataFolderReader& open) {
     session::LoadObject load;
@@ -139,8 +125,6 @@ struct KindCodec<slicing::FieldPtr> {
             if (!formula.empty() || array || second) throwUnreadable("a field in a file has other functions");
             return openFile(info.name, *source, open);
         }
-        if (array) checkArray(*array);
-        if (second && second->array) checkArray(*second->array);
         auto field = fields::fieldFrom(stored);
         // Any other error is one of a formula or its box.
         if (!field && field.error().code != ErrorCode::bad_field)

@@ -167,6 +167,34 @@ TEST(ObjectBytes, ObjectsComeAsTheyWere) {
     }
 }
 
+TEST(ObjectBytes, NoPropertyOfAnObjectIsLost) {
+    const std::vector<glm::dvec4> points{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+    geometry::JaggedArray faces;
+    faces.add(std::vector<std::uint32_t>{0, 1, 2});
+    const auto other = [](auto object) -> Object {
+        geometry::ObjectInfo& info = object;
+        info = {"other", 7, 3.5, glm::dvec4(1, 2, 3, 4), false, true, {{"cube", 3}, {"prism", 5}}};
+        return std::make_shared<const decltype(object)>(std::move(object));
+    };
+    for (const Object& sent :
+         {other(Polytope(*shared("5-cell"))), other(geometry::makePointCloud("cloud", points, {0, 0, 0})),
+          other(geometry::makeSurfaceMesh("surface", points, faces)),
+          other(*fields::fieldFromFormula("formula", "x"))}) {
+        std::string bytes, again;
+        MappedFiles files;
+        encodeObject(sent, bytes, files);
+        const Object copy = decodeObject(bytes);
+        const auto& [name, serial, circumradius, originInFile, convex, rebuildable, cellTypes] = infoOf(sent);
+        const geometry::ObjectInfo& got = infoOf(copy);
+        EXPECT_EQ(std::tie(got.name, got.serial, got.circumradius, got.originInFile),
+                  std::tie(name, serial, circumradius, originInFile));
+        EXPECT_EQ(std::tie(got.convex, got.rebuildableFromName, got.cellTypes),
+                  std::tie(convex, rebuildable, cellTypes));
+        encodeObject(copy, again, files);
+        EXPECT_EQ(again, bytes);
+    }
+}
+
 TEST(ObjectBytes, ObjectsKeepTheirPlaceInTheFile) {
     const glm::dvec4 origin(5e6, -1, 0.25, 7);
     Polytope moved = *shared("5-cell");

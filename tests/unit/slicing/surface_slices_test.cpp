@@ -346,7 +346,9 @@ TEST(Surface, BytesBringItBack) {
     EXPECT_THROW(read(parts, 47), std::runtime_error);
     for (std::size_t size = 0; size < parts.size(); size += 37)
         EXPECT_THROW(read(std::string_view(parts).substr(0, size)), std::runtime_error);
-    parts.back() = '\x7f';  // the index of a vertex
+    bottle.faces.items.back() = 48;  // the index of a vertex
+    parts.clear();
+    writeObjectContent(std::make_shared<const SurfaceMesh>(bottle), writer, files);
     EXPECT_THROW(read(parts), std::runtime_error);
 }
 

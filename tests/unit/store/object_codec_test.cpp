@@ -286,6 +286,8 @@ class MemberValues {
     void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
         add(place_ + '/' + std::to_string(number), value);
     }
+    template <typename T>
+    void computedMember(const T& /*value*/) {}
 
   private:
     template <typename T>
