@@ -110,16 +110,19 @@ void SqliteStore::open() {
 }
 
 /// Throws CorruptDatabase if the file is damaged, and StoreError if it belongs to another program or was written by a
-/// later version. Changes nothing.
+/// later version. Changes nothing; after a StoreError, closing the database changes nothing, either.
 void SqliteStore::check() {
     const auto tables = database_->queryNumber("SELECT count(*) FROM sqlite_schema");
     const auto version = database_->queryNumber("PRAGMA user_version");
-    if (version > kSchemaVersion) throw StoreError(path_ + " was written by a later version of oval4d");
+    const auto refuse = [&](const char* why) {
+        // Otherwise, closing the file would write the log that a killed server has left into it.
+        database_->keepWriteAheadLog();
+        throw StoreError(path_ + why);
+    };
+    if (version > kSchemaVersion) refuse(" was written by a later version of oval4d");
     const auto ours =
         database_->queryNumber("SELECT count(*) FROM sqlite_schema WHERE name IN ('session', 'polytope')");
-    if (tables > 0 && ours == 0) {
-        throw StoreError(path_ + " is the database of another program; it was not changed: give another path");
-    }
+    if (tables > 0 && ours == 0) refuse(" is the database of another program; it was not changed: give another path");
     // Unlike quick_check, this also compares the indices with the tables.
     Statement check(*database_, "PRAGMA integrity_check(1)");
     const std::string result = check.step() ? check.bytesAt(0) : "the integrity check returned nothing";

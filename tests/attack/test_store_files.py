@@ -4,6 +4,7 @@ import asyncio
 import contextlib
 import os
 import random
+import shutil
 import signal
 import sqlite3
 import stat
@@ -73,7 +74,9 @@ def test_files_of_other_programs_are_refused_and_unchanged(tmp_path):
     assert (tmp_path / "other.db").read_bytes() == before
     with contextlib.closing(sqlite3.connect(tmp_path / "later.db")) as later:
         later.executescript("CREATE TABLE session (id); CREATE TABLE polytope (id); PRAGMA user_version = 3")
+    before = (tmp_path / "later.db").read_bytes()
     assert "later version" in start_error(tmp_path / "later.db")
+    assert (tmp_path / "later.db").read_bytes() == before
     (tmp_path / "folder").mkdir()
     assert "is a folder" in start_error(tmp_path / "folder")
     os.mkfifo(tmp_path / "pipe")
@@ -87,6 +90,19 @@ def test_files_of_other_programs_are_refused_and_unchanged(tmp_path):
     if os.geteuid() == 0:
         os.chown(file("strangers", b""), 12345, 12345)
         assert "belongs to user 12345" in start_error(tmp_path / "strangers")
+
+
+def test_files_of_a_killed_server_of_a_later_version_are_unchanged(tmp_path):
+    """The server that is killed leaves a log, which SQLite would write into the file."""
+    with contextlib.closing(sqlite3.connect(tmp_path / "open.db")) as later:
+        later.executescript("PRAGMA journal_mode = WAL; CREATE TABLE session (id); CREATE TABLE polytope (id);"
+                            "PRAGMA user_version = 3; PRAGMA wal_checkpoint(TRUNCATE); INSERT INTO session VALUES (1)")
+        for suffix in ("", "-wal"):
+            shutil.copy(tmp_path / f"open.db{suffix}", tmp_path / f"later.db{suffix}")
+    before = {file: file.read_bytes() for file in store_files(tmp_path / "later.db")}
+    assert len(before) == 2 and all(before.values())
+    assert "later version" in start_error(tmp_path / "later.db")
+    assert {file: file.read_bytes() for file in store_files(tmp_path / "later.db")} == before
 
 
 # --- Damaged files
