@@ -1,19 +1,24 @@
 """Sessions in Redis, including a Redis that is unavailable, full, or does not answer."""
 
 import asyncio
+import contextlib
 import signal
+import sqlite3
 
 import cluster
 import pytest
 import all_settings
+from test_stored_sessions import VERSIONS, data_options, expect_sessions
 from wire import Client, hello_refusal, with_another_member
 
 
-# Scripts that read a member of a hash, replace it, and read all members, as hexadecimal digits.
+# Scripts that read a member of a hash, replace members, and read all members, as hexadecimal digits.
 READ_HEX = """local text = redis.call('HGET', KEYS[1], ARGV[1])
 return (text:gsub('.', function(c) return string.format('%02x', c:byte()) end))"""
-WRITE_HEX = """local bytes = ARGV[2]:gsub('..', function(digits) return string.char(tonumber(digits, 16)) end)
-return redis.call('HSET', KEYS[1], ARGV[1], bytes)"""
+WRITE_HEX = """for i = 1, #ARGV, 2 do
+  local bytes = ARGV[i + 1]:gsub('..', function(digits) return string.char(tonumber(digits, 16)) end)
+  redis.call('HSET', KEYS[1], ARGV[i], bytes)
+end"""
 READ_ALL_HEX = """local all = redis.call('HGETALL', KEYS[1])
 for i, text in ipairs(all) do all[i] = text:gsub('.', function(c) return string.format('%02x', c:byte()) end) end
 return table.concat(all, ' ')"""
@@ -67,6 +72,34 @@ def test_redis_loses_no_setting_and_no_motion(redis):
             assert {**after, "id": 0, "object_serial": 0} == {**before, "id": 0, "object_serial": 0}
         before, after = asyncio.run(before_and_after(all_settings.polytope_in_motion, all_settings.motion))
         assert after == before == all_settings.MOTION
+
+
+def stored_hashes(folder):
+    """Yields the keys and the fields of the hashes in Redis that the version of a folder has for its stored sessions.
+
+    A version stores the same records in Redis as in an SQLite file. The keys and the fields have been the same since
+    0.1.0, except that 0.1.0 stored tokens as plain text.
+    """
+    uri = (folder / "sessions.sqlite").resolve().as_uri() + "?immutable=1"
+    with contextlib.closing(sqlite3.connect(uri, uri=True)) as file:
+        file.row_factory = sqlite3.Row
+        for row in file.execute("SELECT * FROM session"):
+            key = "oval4d:{" + row["id"] + "}"
+            token = {"hash": row["token_hash"]} if "token_hash" in row.keys() else {"token": row["token"]}
+            yield key, {"fence": str(row["fence"]), "owner": "", "whole": row["whole"], "head": row["head"], **token}
+            objects = file.execute("SELECT key, bytes FROM polytope WHERE session = ?", (row["id"],))
+            yield key + ":polytopes", dict(tuple(each) for each in objects)
+
+
+@pytest.mark.parametrize("folder", VERSIONS, ids=lambda folder: folder.name)
+def test_sessions_of_every_version_are_opened(redis, folder):
+    redis.start()
+    for key, fields in stored_hashes(folder):
+        digits = {name: (value.encode() if isinstance(value, str) else value).hex() for name, value in fields.items()}
+        redis.command("EVAL", WRITE_HEX, "1", key, *(word for field in digits.items() for word in field))
+        assert redis.command("HLEN", key) == str(len(fields))
+    with cluster.start_server(redis, 0, *data_options(folder)) as server:
+        asyncio.run(expect_sessions(server, folder))
 
 
 def test_another_server_takes_over_an_open_session(redis):

@@ -46,22 +46,32 @@ def expect_contains(value, stored, where):
         assert value == stored, where
 
 
+def data_options(folder):
+    """Returns the options of a server that opens the sessions of a folder."""
+    return ("--data", folder / "data") if (folder / "data").exists() else ()
+
+
+async def expect_sessions(server, folder):
+    """Asserts that a server opens the sessions of a folder as they were stored."""
+    sessions = json.loads((folder / "sessions.json").read_text(encoding="utf-8"))
+    assert sessions
+    for stored in sessions:
+        async with Client(server, stored["session"], token=stored["token"]) as client:
+            for state in stored["states"]:  # the newest first
+                expect_contains(await client.request("get", what="state"), state, stored["name"])
+                if state is not stored["states"][-1]:
+                    await client.request("undo")
+            if "next" in stored:
+                await client.request(stored["next"]["type"], **stored["next"]["members"])
+                expect_contains(await state_at_rest(client), stored["next"]["state"], stored["name"])
+
+
 @pytest.mark.parametrize("folder", VERSIONS, ids=lambda folder: folder.name)
 async def test_sessions_of_every_version_are_opened(tmp_path, folder):
     shutil.copy(folder / "sessions.sqlite", tmp_path)
-    sessions = json.loads((folder / "sessions.json").read_text(encoding="utf-8"))
-    assert sessions
-    data = ("--data", folder / "data") if (folder / "data").exists() else ()
-    with Server("--store", f"sqlite:{tmp_path}/sessions.sqlite", "--session-expiry", "1e9", *data) as server:
-        for stored in sessions:
-            async with Client(server, stored["session"], token=stored["token"]) as client:
-                for state in stored["states"]:  # the newest first
-                    expect_contains(await client.request("get", what="state"), state, stored["name"])
-                    if state is not stored["states"][-1]:
-                        await client.request("undo")
-                if "next" in stored:
-                    await client.request(stored["next"]["type"], **stored["next"]["members"])
-                    expect_contains(await state_at_rest(client), stored["next"]["state"], stored["name"])
+    store = f"sqlite:{tmp_path}/sessions.sqlite"
+    with Server("--store", store, "--session-expiry", "1e9", *data_options(folder)) as server:
+        await expect_sessions(server, folder)
 
 
 def test_the_sessions_of_this_version_have_all_that_it_stores():
