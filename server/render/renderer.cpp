@@ -63,26 +63,6 @@ bool mayUseThreads() {
 /// Returns whether the slices can be drawn only with OpenGL, because they have fog.
 bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
-/// Returns a rectangle of the picture that contains all pixels of these shapes. The caller clears only this part of the
-/// depth buffer; elsewhere, depths of earlier pictures remain. The rectangle is computed from the vertices of the
-/// shapes, not from ProjectionPlacement::radius: far from the view axis, the image of a sphere is an ellipse, and balls
-/// of a cloud may extend beyond the sphere.
-PixelArea areaOf(const ProjectionShapeCollector::Layers& layers, scene::Viewport viewport) {
-    const glm::vec2 most(viewport.width, viewport.height);
-    glm::vec2 least(1), greatest(-1);
-    for (const ShapeBatch* shapes : {&layers.solid, &layers.translucent}) {
-        for (const Patch& patch : shapes->patches()) {
-            least = glm::min(least, patch.least);
-            greatest = glm::max(greatest, patch.greatest);
-        }
-    }
-    const glm::vec2 from = (least * 0.5F + 0.5F) * most, to = (greatest * 0.5F + 0.5F) * most;
-    // One pixel more on each side, because of rounding errors.
-    const glm::vec2 first = glm::clamp(glm::floor(from) - 1.0F, glm::vec2(0), most);
-    const glm::vec2 end = glm::clamp(glm::ceil(to) + 1.0F, first, most);
-    return {glm::ivec2(first), glm::ivec2(end)};
-}
-
 /// Sets the color to which OpenGL clears pictures: the background, multiplied by its opacity.
 void setClearColor(const scene::Style& style) {
     const auto alpha = static_cast<float>(style.backgroundOpacity);
@@ -185,7 +165,7 @@ void Renderer::Impl::flushShapes() {
 // it is small, clearing the whole depth buffer would take longer than drawing the projection.
 PixelArea Renderer::Impl::depthAreaOfProjection(const scene::Scene& scene) const {
     if (scene.projection.focusSurface) return {{0, 0}, {scene.viewport.width, scene.viewport.height}};
-    return areaOf(projectionLayers, scene.viewport);
+    return projectionLayers.pixelArea(scene.viewport);
 }
 
 // Prepares the projection of the whole object for drawing without OpenGL.

@@ -245,9 +245,9 @@ void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTar
     const auto zeroOf = [&](int row) { return std::round((layout.zero - row * layout.rowStep) * height); };
 
     // The lines of zero are behind the bands of highlighted vertices, so both are drawn in the same way.
-    ShapeBatch* const below = scene.highlight.empty() ? nullptr : strokes.below;
+    ShapeBatch* const bands = scene.highlight.empty() ? nullptr : strokes.below;
     const auto addBand = [&](float left, float right, float middle, float width, scene::Color color, float opacity) {
-        if (below != nullptr) return below->addStroke({left, middle}, {right, middle}, width, color, opacity);
+        if (bands != nullptr) return bands->addStroke({left, middle}, {right, middle}, width, color, opacity);
         overlay.box({left, middle - width / 2, right, middle + width / 2}, color, opacity);
     };
     for (int row = 0; row * layout.perRow < count; ++row) {

@@ -5,8 +5,10 @@
 #include <limits>
 #include <tuple>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
 
 namespace oval4d::render {
 
@@ -134,6 +136,24 @@ void ProjectionShapeCollector::addPolygon(scene::Color color, float opacity, Sha
         area += glm::cross(corners_[i - 1] - corners_[0], corners_[i] - corners_[0]);
     const float length = glm::length(area);
     out.addFace(corners_, length > 0 ? area / length : glm::vec3(0, 0, 1), color, opacity, false);
+}
+
+// The rectangle is computed from the vertices of the shapes, not from ProjectionPlacement::radius: far from the view
+// axis, the image of a sphere is an ellipse, and balls of a cloud may extend beyond the sphere.
+PixelArea ProjectionShapeCollector::Layers::pixelArea(scene::Viewport viewport) const {
+    const glm::vec2 most(viewport.width, viewport.height);
+    glm::vec2 least(1), greatest(-1);
+    for (const ShapeBatch* shapes : {&solid, &translucent}) {
+        for (const Patch& patch : shapes->patches()) {
+            least = glm::min(least, patch.least);
+            greatest = glm::max(greatest, patch.greatest);
+        }
+    }
+    const glm::vec2 from = (least * 0.5F + 0.5F) * most, to = (greatest * 0.5F + 0.5F) * most;
+    // One pixel more on each side, because of rounding errors.
+    const glm::vec2 first = glm::clamp(glm::floor(from) - 1.0F, glm::vec2(0), most);
+    const glm::vec2 end = glm::clamp(glm::ceil(to) + 1.0F, first, most);
+    return {glm::ivec2(first), glm::ivec2(end)};
 }
 
 }  // namespace oval4d::render

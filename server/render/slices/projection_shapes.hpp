@@ -8,6 +8,7 @@
 
 #include "render/slices/depth_order.hpp"
 #include "render/slices/shape_batch.hpp"
+#include "render/slices/shape_rasterizer.hpp"
 #include "scene/scene.hpp"
 
 namespace oval4d::render {
@@ -24,6 +25,10 @@ class ProjectionShapeCollector {
     struct Layers {
         ShapeBatch solid, translucent;
         DepthRange depths;  ///< contains the depths of all shapes
+
+        /// Returns a rectangle of a picture of this size that contains all pixels of the shapes. Only this part of the
+        /// depth buffer must be cleared for them.
+        PixelArea pixelArea(scene::Viewport viewport) const;
     };
 
     /// Overwrites `out` with the projection, as the camera of the scene sees it. The scene must show the projection.
