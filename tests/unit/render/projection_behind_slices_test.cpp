@@ -104,12 +104,12 @@ TEST(ProjectionBehindSlicesOfFields, CoversNoSurfaces) {
     ASSERT_TRUE(field);
     const slicing::Object object = std::make_shared<const fields::Field>(std::move(*field));
     const geometry::Hyperplanes planes{-3, 7, 0.4};
-    constexpr int kCameras = 6;
+    constexpr int kCameras = 24;
     for (int camera = 0; camera < kCameras; ++camera) {
         for (const scene::Viewport viewport : kShapes) {
             const bool fog = camera % 2 == 1;
             scene::Look look = randomLook(random);
-            look.view = fog ? scene::View::strip : scene::View::oval;
+            look.view = camera % 4 < 2 ? scene::View::strip : scene::View::oval;
             look.field.levels = {6};
             if (fog) look.field.fog = {{.value = 0, .opacity = 0.3}, {.value = 6, .opacity = 0}};
             scene::Scene scene;
