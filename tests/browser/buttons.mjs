@@ -10,7 +10,7 @@ import { test } from "./support/suite.mjs";
 
 import { named, openPage, openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { bytesOf } from "./support/downloads.mjs";
-import { table } from "./support/keys.mjs";
+import { hasTool, table } from "./support/keys.mjs";
 import { decode } from "./support/pixels.mjs";
 import { pngText } from "./node_modules/.oval4d/client.mjs";
 
@@ -37,9 +37,7 @@ async function outcome(script, initial, { action, needs }, act) {
 test("buttons: each button does what its key does", async () => {
     const { page, script, errors, close } = await openWithScript();
     const initial = await script.state();
-    // Playing has its controls beside the slider of w.
-    const isTested = ({ client, action, group }) => !client && action !== "turn" && group !== "play";
-    for (const binding of table.filter(isTested)) {
+    for (const binding of table.filter((one) => !one.client && one.action !== "turn" && hasTool(one))) {
         const { key, ctrl = false, action, name, shift } = binding;
         for (const inverse of shift === "inverse" ? [false, true] : [false]) {
             const byKey = await outcome(script, initial, binding, async () => {
@@ -98,7 +96,7 @@ test("buttons: Project names the projection, and what changes it is disabled whi
 
 test("buttons: two keys that decrease and increase a quantity are one control with its name", async () => {
     const { page, errors, close } = await openWithScript();
-    const increasing = table.filter(({ increases }) => increases !== undefined);
+    const increasing = table.filter((one) => one.increases !== undefined && hasTool(one));
     assert.ok(increasing.length > 0);
     for (const { action, increases } of increasing) {
         const less = table.find(({ decreases }) => decreases === increases);

@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
 import { openWithScript, presented } from "./support/browser.mjs";
+import { hasTool } from "./support/keys.mjs";
 import { covered, decode } from "./support/pixels.mjs";
 
 const phone = { viewport: { width: 375, height: 667 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
@@ -41,7 +42,7 @@ test("phone: the picture has room, nothing overflows, every button is large enou
             found.add(await button.getAttribute("data-action"));
         }
     }
-    for (const { action } of keys) assert.ok(found.has(action), action);
+    for (const { action } of keys.filter(hasTool)) assert.ok(found.has(action), action);
     assert.deepEqual(errors, []);
     await close();
 });

@@ -9,12 +9,17 @@ const read = (file) => JSON.parse(readFileSync(new URL(`../../../protocol/${file
 /** The key table, which the server has, too. */
 export const { keys: table } = read("keymap.json");
 
+/** Whether a key has a button among the tools; playing has its controls beside the slider of w. */
+export const hasTool = ({ group }) => group !== "play";
+
 const parts = Object.keys(read("schema/parts.schema.json").properties);
 const settings = read("schema/settings.schema.json").properties;
 const views = settings.view.enum;
 const elements = settings.highlight.properties.element.enum;
 /** The views that have an action of their name: all but the oval and the single view, whose action is "view". */
 export const toggledViews = views.filter((view) => view !== "oval" && view !== "single");
+
+const backgrounds = settings.background.enum;
 
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 
@@ -48,6 +53,10 @@ const effects = {
     focus_zero: (_, after) => assert.equal(after.slices.focus, 0),
     focus_first: (before, after) => assert.ok(after.slices.focus < 0 && after.slices.focus < before.slices.focus),
     focus_last: (before, after) => assert.ok(after.slices.focus > 0 && after.slices.focus > before.slices.focus),
+    background: (before, after) => {
+        const next = (backgrounds.indexOf(before.background) + 1) % backgrounds.length;
+        assert.equal(after.background, backgrounds[next]);
+    },
     undo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
     redo: (before, after) => assert.notDeepEqual(after.orientation, before.orientation),
     repeat: (before, after) => {
