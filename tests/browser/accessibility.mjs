@@ -7,13 +7,13 @@ import { openPage, openWithScript, ready, spoken } from "./support/browser.mjs";
 import { eventually } from "./support/hang_limit.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
 
-/** The dialogs, with the key that opens each. */
-const dialogs = { picker: "s", export: "x", help: "?" };
+/** The dialogs, with what is typed to open each. */
+const dialogs = { picker: "s", export: "x", help: "?", phone: ":share\n" };
 
 /** Calls `look` with each dialog open. */
 async function withDialogs(page, look) {
-    for (const [id, key] of Object.entries(dialogs)) {
-        await page.keyboard.press(key);
+    for (const [id, keys] of Object.entries(dialogs)) {
+        await page.keyboard.type(keys);
         await page.waitForSelector(`#${id}[open]`);
         if (id === "picker") await page.waitForSelector("#picker-list [role=option]");
         await look(id);

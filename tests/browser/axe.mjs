@@ -46,8 +46,8 @@ for (const [setting, options] of Object.entries(settings)) {
         await examine("the projection");
         await press("m");
         await examine("the matrix");
-        for (const [key, id] of Object.entries({ s: "picker", x: "export", "?": "help" })) {
-            await page.keyboard.press(key);
+        for (const [keys, id] of Object.entries({ s: "picker", x: "export", "?": "help", ":share\n": "phone" })) {
+            await page.keyboard.type(keys);
             await page.waitForSelector(`#${id}[open]`);
             if (id === "picker") await page.waitForSelector("#picker-list [role=option]");
             await examine(id);

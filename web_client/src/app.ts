@@ -41,6 +41,7 @@ import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
 import { markFullScreen, markMode, markScheme, markTilt, pageSections } from "./page_tools";
 import { executePageCommand } from "./page_commands";
+import { PhoneDialog } from "./phone_dialog";
 import { PolytopePicker } from "./picker";
 import type { HitTester } from "./picture/hit_tester";
 import { type Mode, Stage } from "./picture/stage";
@@ -88,6 +89,7 @@ export class App {
         },
         onWelcome: (welcome) => {
             rememberSession(welcome);
+            this.phoneDialog.update(welcome);
             this.stage.setSizeLimits(welcome.limits);
         },
         onRequest: (answer) => this.connection.trackRequest(answer),
@@ -202,6 +204,7 @@ export class App {
         this.request({ ...state, type: "set", turning: false, playing: false }),
     );
     private readonly sharing = new Sharing(this.client, this.notice);
+    private readonly phoneDialog = new PhoneDialog(this.client);
     private readonly fieldPanel = new FieldPanel({
         load: (...change) => this.loadField(...change),
         set: (settings) => this.request({ type: "set", ...settings }),
@@ -324,6 +327,7 @@ export class App {
             setMode: (mode) => this.renderingModeSwitch.choose(mode),
             reset: () => void this.send({ type: "reset" }),
             share: () => void this.sharing.copySessionLink(),
+            shareWithPhone: () => this.openPhoneDialog(),
             copyViewLink: () => void this.sharing.copyViewLink(),
             copyPython: () => {
                 void this.sharing.copyPython(this.state?.polytope.name ?? "", this.stage.size, this.colorScheme.current);
@@ -467,6 +471,10 @@ export class App {
                 this.commandLine.close();
                 return this.openExport();
             },
+            share: () => {
+                this.commandLine.close();
+                this.openPhoneDialog();
+            },
         });
         if (isOfPage) return undefined;
         const { revision } = await this.request({ type: "command", line });
@@ -533,6 +541,11 @@ export class App {
         if (!this.state) return;
         if (highlight) this.exportDialog.open({ ...this.state, highlight }, "highlight");
         else this.exportDialog.open(this.state);
+    }
+
+    private openPhoneDialog(): void {
+        this.notice.hide();
+        this.phoneDialog.open();
     }
 
     /** Saves the file that a text such as "stl fit=5" describes: a format and options. */

@@ -97,6 +97,11 @@ export function shareLink({ session, token }: Credentials): string {
     return link.href;
 }
 
+/** Whether this host of an address is the computer on which the page is: other devices cannot reach it by this name. */
+export function isOwnComputer(host: string): boolean {
+    return /^(.+\.)?localhost\.?$|^127(\.\d+){3}$|^0\.0\.0\.0$|^\[::1?\]$/.test(host);
+}
+
 /** A link that opens the view of a query in a new session. */
 export function viewLink(query: string): string {
     const link = new URL(location.href);

@@ -5,6 +5,8 @@ export interface PageCommands {
     help(topic: string): void;
     /** Saves the file that a format and options describe, such as "stl fit=5". For "", opens the export dialog. */
     exportFile(description: string): Promise<void>;
+    /** Shows the link to the session as a QR code. */
+    share(): void;
 }
 
 /** Executes a line; returns false if it is not a command of the page. */
@@ -12,6 +14,9 @@ export async function executePageCommand(line: string, commands: PageCommands): 
     const [, name = "", argument = ""] = /^(\S+)\s*(.*)$/s.exec(line.trim()) ?? [];
     if (name === "help") commands.help(argument);
     else if (name === "export") await commands.exportFile(argument);
-    else return false;
+    else if (name === "share") {
+        if (argument !== "") throw new Error(`this command takes no arguments; remove “${argument}”`);
+        commands.share();
+    } else return false;
     return true;
 }

@@ -15,6 +15,7 @@ export interface PageActions {
     setMode(mode: Mode): void;
     reset(): void;
     share(): void;
+    shareWithPhone(): void;
     copyViewLink(): void;
     copyPython(): void;
     save(): void;
@@ -82,6 +83,12 @@ export function pageSections(actions: PageActions): ToolSection[] {
             content: [
                 button("save", "Save picture", "Save the picture as a PNG file", actions.save),
                 button("share", "Share", "Copy a link with which others can join this session", actions.share),
+                button(
+                    "phone",
+                    "Share with a phone",
+                    "Show the link with which others can join this session as a QR code",
+                    actions.shareWithPhone,
+                ),
                 button(
                     "view_link",
                     "Copy link to this view",
