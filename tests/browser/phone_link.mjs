@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 
 import jsQR from "jsqr";
 
-import { openPage, openWithScript, presented, ready, startBrowser } from "./support/browser.mjs";
+import { named, openPage, openWithScript, presented, ready, startBrowser } from "./support/browser.mjs";
 import { type } from "./support/command_line.mjs";
 import { decode, pixelAt } from "./support/pixels.mjs";
 import { startServer } from "./support/server.mjs";
@@ -78,7 +78,7 @@ test("phone link: the QR code fits on small screens", async () => {
     }
 });
 
-test("phone link: the dialog has a button, copies the link, and says that phones cannot reach this computer", async () => {
+test("phone link: a button opens the dialog, which copies the link and says if phones cannot reach it", async () => {
     const permissions = ["clipboard-read", "clipboard-write"];
     const { page, errors, close } = await openWithScript({ permissions });
     const button = page.locator("[data-page-tool=phone]");
@@ -86,7 +86,8 @@ test("phone link: the dialog has a button, copies the link, and says that phones
     await page.keyboard.press("Enter");
     await page.waitForSelector("#phone-copy:focus");
     const host = new URL(page.url()).hostname;
-    assert.match(await page.locator("#phone-loopback").textContent(), new RegExp(`cannot reach ${host},.* --host`, "s"));
+    const warning = await page.locator("#phone-loopback").textContent();
+    assert.match(warning, new RegExp(`cannot reach ${host},.* --host`, "s"));
     assert.equal(await page.locator("#phone-loopback").isVisible(), true);
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => /copied/.test(document.getElementById("phone-status").textContent));
@@ -104,6 +105,39 @@ test("phone link: the dialog has a button, copies the link, and says that phones
     await page.waitForSelector("[data-page-tool=phone]:focus");
     assert.deepEqual(errors, []);
     await close();
+});
+
+test("phone link: the server's own token is added to the link only if the user wants it", async () => {
+    const server = await startServer({ options: ["--token", "let+in"] });
+    const { page, close } = await openPage({ url: server.url, colorScheme: "dark" }); // with cookies of its own
+    await ready(page);
+    await openDialog(page);
+    await page.waitForSelector("#phone-key");
+    const link = await read(page);
+    assert.equal(new URL(link).search, "");
+    await page.click("#phone-adds-token");
+    await page.waitForFunction((before) => document.getElementById("phone-link").value !== before, link);
+    const open = await read(page);
+    assert.equal(new URL(open).searchParams.get("token"), "let+in");
+    const phone = await openPage({ url: open, colorScheme: "light" }); // without the cookies of the other page
+    await ready(phone.page);
+    await phone.page.locator("#drawing").focus();
+    await phone.page.keyboard.press("n");
+    await named(page, "8-cell");
+
+    await page.keyboard.press("Escape");
+    await page.waitForSelector("#drawing:focus");
+    await openDialog(page);
+    assert.equal(await page.inputValue("#phone-link"), link, "each time is a choice");
+    // The browser has the token as a cookie, which the page does not know.
+    await page.goto(server.url.replace(/\?.*/, ""));
+    await ready(page);
+    await openDialog(page);
+    await page.waitForSelector("#phone-locked");
+    assert.equal(await page.locator("#phone-key").isVisible(), false);
+    await phone.close();
+    await close();
+    await server.stop();
 });
 
 test("phone link: an address that phones can reach is shown without a warning", async () => {

@@ -89,10 +89,15 @@ export function rememberSession({ session, token }: Credentials): void {
     writeStored(kSessionKey, stored);
 }
 
-/** A link that opens this session for others. */
-export function shareLink({ session, token }: Credentials): string {
+/** The server's own token, if the address of the page has it. */
+export function serverTokenOfAddress(): string | undefined {
+    return new URLSearchParams(location.search).get("token") || undefined;
+}
+
+/** A link that opens this session for others; with the server's own token, also for those who do not know this. */
+export function shareLink({ session, token }: Credentials, serverToken?: string): string {
     const link = new URL(location.href);
-    link.search = "";
+    link.search = serverToken === undefined ? "" : new URLSearchParams({ token: serverToken }).toString();
     link.hash = new URLSearchParams({ session, token }).toString();
     return link.href;
 }

@@ -6,7 +6,7 @@ import { toSvgPath } from "lean-qr/extras/svg";
 
 import { Dialog } from "./dialog";
 import { byId } from "./element";
-import { isOwnComputer, shareLink } from "./link";
+import { isOwnComputer, serverTokenOfAddress, shareLink } from "./link";
 
 const kQuietZone = 4; // modules of white around the code, without which readers may not find it (ISO/IEC 18004)
 
@@ -14,11 +14,15 @@ export class PhoneDialog {
     private readonly dialog = new Dialog("phone");
     private readonly code = document.querySelector<SVGSVGElement>("#phone-code")!;
     private readonly link = byId<HTMLTextAreaElement>("phone-link");
+    private readonly addsToken = byId<HTMLInputElement>("phone-adds-token");
     private readonly copyButton = byId("phone-copy");
     private readonly status = byId("phone-status");
 
     constructor(private readonly client: Client) {
         this.link.addEventListener("focus", () => this.link.select());
+        this.addsToken.addEventListener("change", () => {
+            if (this.client.credentials) this.showLink(this.client.credentials);
+        });
         this.copyButton.addEventListener("click", () => void this.copy());
     }
 
@@ -26,12 +30,14 @@ export class PhoneDialog {
     open(): void {
         const { credentials } = this.client;
         if (!credentials) return;
-        this.status.textContent = "";
         const loopback = byId("phone-loopback");
         loopback.hidden = !isOwnComputer(location.hostname);
         loopback.querySelector("b")!.textContent = location.hostname;
+        this.addsToken.checked = false; // whoever sees the screen can scan the code, so each time is a choice
+        this.status.textContent = "";
         this.showLink(credentials);
         this.dialog.open(this.copyButton);
+        void this.showWhoIsLetIn();
     }
 
     /** Shows the link to a session that has replaced the one of the open dialog. */
@@ -39,10 +45,19 @@ export class PhoneDialog {
         if (this.dialog.isOpen) this.showLink(credentials);
     }
 
+    /** Says whether the server lets in only those who know its own token, and offers to add this token to the link. */
+    private async showWhoIsLetIn(): Promise<void> {
+        const isRequired = await requiresToken();
+        const isKnown = serverTokenOfAddress() !== undefined;
+        byId("phone-locked").hidden = !isRequired || isKnown;
+        byId("phone-key").hidden = !isRequired || !isKnown;
+    }
+
     private showLink(credentials: Credentials): void {
-        const link = shareLink(credentials);
+        const link = shareLink(credentials, this.addsToken.checked ? serverTokenOfAddress() : undefined);
         if (link === this.link.value) return;
         this.link.value = link;
+        this.status.textContent = "";
         const code = generate(link, { minCorrectionLevel: correction.M });
         const side = String(code.size + 2 * kQuietZone);
         this.code.setAttribute("viewBox", `${-kQuietZone} ${-kQuietZone} ${side} ${side}`);
@@ -60,4 +75,13 @@ export class PhoneDialog {
             this.status.textContent = "The link is selected: copy it with Ctrl-C, or Cmd-C on a Mac.";
         }
     }
+}
+
+/** Whether the server answers only requests with its own token, as it does by default on all addresses but loopback. */
+async function requiresToken(): Promise<boolean> {
+    // The request is sent without the cookie in which the browser keeps the token. The server counts only wrong tokens,
+    // not missing ones. A proxy that asks for a password names another scheme.
+    const options: RequestInit = { method: "HEAD", credentials: "omit", cache: "no-store" };
+    const answer = await fetch(new URL(".", location.href), options).catch(() => undefined);
+    return answer?.status === 401 && answer.headers.get("WWW-Authenticate") === "Bearer";
 }
