@@ -49,7 +49,8 @@ class StateReader : public MemberReader {
 //
 // The checks concern single members, and how members fit each other and the object. Their limits are at least as wide
 // as those that the server enforces for clients. Without them, a damaged record could produce, for example, a state
-// with a million slices instead of an error.
+// with a million slices instead of an error. A later version may allow more, so what exceeds a limit throws
+// LaterRecord: otherwise, clients would forget the session.
 
 // Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, each may
 // exceed its limit by this fraction.
@@ -62,10 +63,10 @@ void check(const session::HyperplaneSettings& slices, double circumradius) {
         throwLater("the number of slices is not allowed: " + std::to_string(count));
     if (!(spacing > 0 && spacing >= session::kMinSpacing * circumradius * (1 - kSlack) &&
           spacing <= session::kMaxSpacing * circumradius * (1 + kSlack)))
-        throwUnreadable("the spacing of the slices is out of range");
-    if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwUnreadable("the focus is out of range");
+        throwLater("the spacing of the slices is out of range");
+    if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwLater("the focus is out of range");
     if (!(std::abs(offset) <= session::kMaxOffset * circumradius * (1 + kSlack)))
-        throwUnreadable("the offset is out of range");
+        throwLater("the offset is out of range");
 }
 
 void check(const scene::CellTypeFilter& filter, std::size_t typeCount) {
@@ -82,7 +83,7 @@ void check(const scene::CellTypeFilter& filter, std::size_t typeCount) {
 void check(const slicing::FieldSettings& field) {
     if (field.levels.empty() || field.levels.size() > slicing::kMaxLevels)
         throwLater("the number of levels is out of range");
-    if (!session::isTransferFunction(field.fog)) throwUnreadable("the fog is not a transfer function");
+    if (!session::isTransferFunction(field.fog)) throwLater("the fog is not a transfer function");
 }
 
 void check(const State& state) {
@@ -95,7 +96,7 @@ void check(const State& state) {
         throwUnreadable("an element is missing");
     const glm::dvec3 point = glm::abs(state.look.focusPoint);
     if (!(std::max({point.x, point.y, point.z}) <= session::kMaxOffset * info.circumradius * (1 + kSlack)))
-        throwUnreadable("the focus point is out of range");
+        throwLater("the focus point is out of range");
     if (state.turning && state.ongoingTurnToward) throwUnreadable("a state both turns and approaches an orientation");
     if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
 }
@@ -114,7 +115,7 @@ State decodeState(const json& array, ObjectListDecoder& objects) {
     visitStoredMembers(state, reader);
     reader.refuseUnreadMembers();
     if (!(glm::length(state.referenceFrame.boost) <= geometry::ReferenceFrame::kMaxBoost))
-        throwUnreadable("a boost is too fast");
+        throwLater("a boost is too fast");
     state.object = objects.transformedTo(state.source, state.referenceFrame);
     check(state);
     return state;

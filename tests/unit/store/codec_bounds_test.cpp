@@ -1,4 +1,5 @@
-// What the server accepts can be read from the store, also at the bounds of the settings.
+// What the server accepts can be read from the store, also at the bounds of the settings; what exceeds these bounds, a
+// later version may have stored.
 
 #include <cmath>
 #include <cstddef>
@@ -119,6 +120,29 @@ TEST(Codec, ReadsTheFocusPointAtItsBoundsFarFromTheOrigin) {
     session::must(session, set);
     EXPECT_EQ(session.current.look.focusPoint.x, reach);
     EXPECT_TRUE(same(session, readAgain(session)));
+}
+
+// A later version may have wider bounds. Clients keep a session of a later version, but forget one that is unreadable.
+TEST(Codec, TakesValuesBeyondItsBoundsForThoseOfALaterVersion) {
+    using session::State;
+    const auto expectLater = [](auto change) {
+        Session session;
+        change(session.current);
+        EXPECT_THROW(readAgain(session), LaterRecord);
+    };
+    expectLater([](State& state) { state.alpha = 7; });
+    expectLater([](State& state) { state.slices.count = 200'001; });
+    expectLater([](State& state) { state.slices.spacing = 1e9; });
+    expectLater([](State& state) { state.slices.spacing = 1e-9; });
+    expectLater([](State& state) { state.slices.focus = session::kMaxFocus + 1; });
+    expectLater([](State& state) { state.slices.offset = -1e9; });
+    expectLater([](State& state) { state.look.focusPoint.y = 1e9; });
+    expectLater([](State& state) { state.look.field.levels.assign(slicing::kMaxLevels + 1, 0.0); });
+    expectLater([](State& state) {
+        for (std::size_t i = 0; i <= slicing::kMaxFogControlPoints; ++i)
+            state.look.field.fog.push_back({static_cast<double>(i), 0.5});
+    });
+    expectLater([](State& state) { state.referenceFrame.boost = glm::dvec3(0.7); });
 }
 
 TEST(Codec, ReadsALargeFieldInManyFramesOfReference) {
