@@ -132,6 +132,7 @@ inline geometry::Plane planeIn(const nlohmann::json& value) {
 }
 
 inline glm::dquat quaternionIn(const nlohmann::json& value) {
+    refuseUnknownMembers(value, 4);
     return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>(), value.at(3).get<double>()};
 }
 
@@ -229,9 +230,11 @@ class MemberReader {
         into = fields::SampleStorage(std::move(samples));
     }
     static void read(const nlohmann::json& value, glm::dvec3& into, geometry::Range range) {
+        refuseUnknownMembers(value, 3);
         for (int i = 0; i < 3; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
     }
     static void read(const nlohmann::json& value, glm::dvec4& into, geometry::Range range) {
+        refuseUnknownMembers(value, 4);
         for (int i = 0; i < 4; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
     }
     static void read(const nlohmann::json& value, geometry::Turn& into) {
@@ -239,9 +242,13 @@ class MemberReader {
             into[planeIn(plane)] = readNumber(radians, session::kMaxAngle);
         };
         if (value.at(0).is_array()) {
-            for (const nlohmann::json& pair : value) angle(pair.at(0), pair.at(1));
+            for (const nlohmann::json& pair : value) {
+                refuseUnknownMembers(pair, 2);
+                angle(pair.at(0), pair.at(1));
+            }
             return;
         }
+        refuseUnknownMembers(value, 3);
         angle(value.at(0), value.at(1));
         if (!value.at(2).is_null())
             into[geometry::perpendicular(planeIn(value.at(0)))] = readNumber(value.at(2), session::kMaxAngle);

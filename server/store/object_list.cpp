@@ -41,6 +41,7 @@ ObjectListDecoder::ObjectListDecoder(const json& list, const ObjectLookup& objec
                                      std::size_t maxVertices)
     : vertexBudget_(maxVertices) {
     for (const json& entry : list) {
+        refuseUnknownMembers(entry, 2);
         if (entry.size() == 1) {
             objects_.push_back(rebuilt(readShortText(entry.at(0)), cache));
         } else if (auto object = objectOf(readShortText(entry.at(1)))) {

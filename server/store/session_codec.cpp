@@ -127,7 +127,10 @@ class SessionReader : public MemberReader {
         for (const json& state : value) into.push_back(decodeState(state, *objects_));
     }
     void decode(const json& value, session::LoadedObjects& into) const {
-        for (const json& own : value) into[readShortText(own.at(0))] = objects_->at(own.at(1));
+        for (const json& own : value) {
+            refuseUnknownMembers(own, 2);
+            into[readShortText(own.at(0))] = objects_->at(own.at(1));
+        }
     }
 
     const std::size_t size_;

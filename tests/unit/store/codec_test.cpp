@@ -156,7 +156,12 @@ TEST(Codec, StoresEachPartUnderItsNumber) {
 TEST(Codec, RefusesMembersOfLaterVersions) {
     using nlohmann::json;
     Session session;
+    ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     session::line(session, "set pace=2");
+    session::press(session, "r");
+    geometry::Turn inThreePlanes(geometry::Plane::xy, 1, 1);
+    inThreePlanes[geometry::Plane::xz] = 1;
+    session.undoSteps.at(0).lastTurn = inThreePlanes;
     session.current.look.highlight = slicing::Element{slicing::ElementKind::cell, 0};
     session.current.look.field.fog = {{-1, 0.5}, {0, 1}};
     session.current.ongoingTurnToward = session::OngoingTurnToward{{}, 1};
@@ -173,9 +178,12 @@ TEST(Codec, RefusesMembersOfLaterVersions) {
     ASSERT_EQ(refusalOf(whole), "");
     // All arrays that a later version may extend: the record; its state; the angles, the slices, the look, the turn
     // toward an element and the frame of reference; the parts, the camera's orbit, the highlight, the settings of the
-    // field and a control point of its fog; and a state of the history.
-    for (const char* place : {"", "/3", "/3/3", "/3/4", "/3/5", "/3/8", "/3/9", "/3/5/1", "/3/5/2", "/3/5/8", "/3/5/10",
-                              "/3/5/10/2/0", "/4/0"}) {
+    // field and a control point of its fog; and a state of the history. Lists of a fixed length: the name and the key
+    // of an object; a quaternion, a turn, a velocity and the focus point; a plane and its angle; the name and the index
+    // of a loaded object.
+    for (const char* place :
+         {"",        "/3",          "/3/3", "/3/4", "/3/5", "/3/8", "/3/9",   "/3/5/1", "/3/5/2",   "/3/5/8",
+          "/3/5/10", "/3/5/10/2/0", "/4/0", "/2/0", "/3/1", "/3/7", "/3/9/1", "/3/5/9", "/4/0/7/0", "/6/0"}) {
         json later = whole;
         json& array = later.at(json::json_pointer(place));
         ASSERT_TRUE(array.is_array()) << place;
