@@ -14,7 +14,7 @@ the connection stays open while a script is idle.
 
 The package oval4d_messages beside it has the types of messages. Only type checkers and editors need it.
 
-The client is one file, although it is long, so that a project can copy it.
+This file is long, because the client is one file, so that a project can copy it.
 """
 
 from __future__ import annotations
