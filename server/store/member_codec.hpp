@@ -190,6 +190,7 @@ class MemberReader {
     }
     template <text::HasChoices Enum>
     static void read(const nlohmann::json& value, Enum& into) {
+        static_assert(text::hasNoAliases(choicesOf(Enum{})), "two enumerators are stored under one number");
         const auto number = readInteger<unsigned>(value);
         const auto& choices = choicesOf(Enum{});
         const auto found = std::ranges::find_if(

@@ -64,6 +64,13 @@ consteval std::array<Row, size> completeTable(const Row (&rows)[size]) {
     return table;
 }
 
+/// Returns whether each value has only one row. Then no two enumerators have the same number, either.
+template <typename Row, std::size_t size>
+consteval bool hasNoAliases(const std::array<Row, size>& rows) {
+    return std::ranges::all_of(rows,
+                               [&](const Row& row) { return std::ranges::count(rows, row.value, &Row::value) == 1; });
+}
+
 /// Returns the value with this name or alias; an empty optional if the table does not contain the name.
 template <typename Choices>
 constexpr auto valueNamed(const Choices& choices, std::string_view name)

@@ -31,6 +31,11 @@ static_assert(!isComplete(std::to_array<FruitRow>(
 static_assert(!isComplete(std::to_array<FruitRow>(
     {{"a", Fruit::apple}, {"b", Fruit::pear}, {"c", Fruit::plum}, {"d", static_cast<Fruit>(kMaxEnumerators)}})));
 
+static_assert(hasNoAliases(std::to_array<FruitRow>({{"pear", Fruit::pear}, {"plum", Fruit::plum}})));
+static_assert(!hasNoAliases(kAllFruits));
+enum class Equal { first = 1, second = 1 };
+static_assert(!hasNoAliases(std::to_array<NamedValue<Equal>>({{"first", Equal::first}, {"second", Equal::second}})));
+
 // Numbers need not follow one another.
 enum class Sparse : unsigned char { two = 2, last = kMaxEnumerators - 1 };
 static_assert(isComplete(std::to_array<NamedValue<Sparse>>({{"two", Sparse::two}, {"last", Sparse::last}})));
