@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
+#include "fields/field.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
 #include "store/member_codec.hpp"
@@ -101,6 +102,21 @@ void check(const State& state) {
     if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
 }
 
+// Fits the settings to a field in a file of the data folder, which may have been replaced by a file with another box
+// since the state was stored.
+void fitToFile(State& state) {
+    const fields::Field* const field = slicing::fieldIn(state.source);
+    if (field == nullptr || !field->source) return;
+    const geometry::ObjectInfo& info = slicing::infoOf(state.object);
+    const double radius = info.circumradius, reach = session::kMaxOffset * radius;
+    auto& [count, spacing, focus, offset] = state.slices;
+    spacing = std::clamp(spacing, session::kMinSpacing * radius, session::kMaxSpacing * radius);
+    offset = std::clamp(offset, -reach, reach);
+    state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
+    for (std::vector<std::uint32_t>* types : {&state.look.cellTypes.hidden, &state.look.cellTypes.faded})
+        std::erase_if(*types, [&](std::uint32_t type) { return type >= info.cellTypes.size(); });
+}
+
 }  // namespace
 
 json encodeState(const State& state, ObjectListEncoder& objects) {
@@ -117,6 +133,7 @@ State decodeState(const json& array, ObjectListDecoder& objects) {
     if (!(glm::length(state.referenceFrame.boost) <= geometry::ReferenceFrame::kMaxBoost))
         throwLater("a boost is too fast");
     state.object = objects.transformedTo(state.source, state.referenceFrame);
+    fitToFile(state);
     check(state);
     return state;
 }

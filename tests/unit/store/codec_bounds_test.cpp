@@ -3,7 +3,9 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -102,6 +104,45 @@ TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
             EXPECT_LE(std::abs(state.look.focusPoint.y), session::kMaxOffset * grown);
             EXPECT_TRUE(same(session, readAgain(session))) << samples;
         }
+    }
+}
+
+// The bounds of the settings, and the kinds of cells that may be hidden, are those of the box in the new file.
+TEST(Codec, ReadsSessionsWhoseFileHasBeenReplaced) {
+    const auto fieldInFile = [](const glm::dvec4& end) -> slicing::Object {
+        fields::FieldArray array;
+        array.shape = {2, 2, 2, 2};
+        array.box = {-end, end};
+        array.samples = fields::SampleStorage(std::vector<float>(16));
+        fields::Field field = *fields::fieldFromArray("run", array);
+        fields::FileSource source;
+        source.dataName = "run.npy";
+        field.source = std::make_shared<const fields::FileSource>(std::move(source));
+        return std::make_shared<const fields::Field>(std::move(field));
+    };
+    Session session;
+    session::ObjectLoader loader({}, support::cache());
+    ASSERT_TRUE(session::replaceObject(session.current, fieldInFile({1, 2, 3, 4}), loader));
+    const geometry::ObjectInfo& info = slicing::infoOf(session.current.object);
+    ASSERT_GT(info.cellTypes.size(), 1U);
+    session.current.look.cellTypes.hidden = {static_cast<std::uint32_t>(info.cellTypes.size() - 1)};
+    session.current.look.focusPoint.y = -info.circumradius;
+    session.current.slices.offset = info.circumradius;
+    ObjectTable table;
+    const std::string record = encodeWhole(session, 1000, table.keyOf);
+    for (const double size : {1e-4, 1.0, 1e8}) {
+        SCOPED_TRACE(size);
+        const slicing::Object other = fieldInFile(glm::dvec4(size));
+        const auto openFile = [&](const std::string& /*key*/) { return std::optional(other); };
+        const session::State state = decodeSession(record, "", openFile, support::cache()).current;
+        const double radius = slicing::infoOf(other).circumradius, reach = session::kMaxOffset * radius;
+        EXPECT_EQ(state.source, other);
+        EXPECT_GE(state.slices.spacing, session::kMinSpacing * radius);
+        EXPECT_LE(state.slices.spacing, session::kMaxSpacing * radius);
+        EXPECT_LE(std::abs(state.slices.offset), reach);
+        EXPECT_LE(std::abs(state.look.focusPoint.y), reach);
+        for (const std::uint32_t type : state.look.cellTypes.hidden)
+            EXPECT_LT(type, slicing::infoOf(other).cellTypes.size());
     }
 }
 
