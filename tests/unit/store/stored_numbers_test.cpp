@@ -1,13 +1,16 @@
 // The numbers that stored sessions contain. Servers of earlier versions have written them: a line of this file is never
-// changed or removed, and a new enumerator or part adds one.
+// changed or removed, and a new enumerator, part or setting with choices adds one.
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "scene/look.hpp"
+#include "session/setting_table.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::store {
@@ -18,24 +21,27 @@ using Numbers = std::vector<std::pair<std::string, unsigned>>;
 template <text::HasChoices Enum>
 Numbers numbersOf() {
     Numbers numbers;
-    for (const auto& choice : choicesOf(Enum{})) {
-        const bool isAlias = choice.name != text::nameOf(choicesOf(Enum{}), choice.value);
-        if (!isAlias) numbers.emplace_back(choice.name, static_cast<unsigned>(choice.value));
-    }
+    for (const auto& choice : choicesOf(Enum{})) numbers.emplace_back(choice.name, static_cast<unsigned>(choice.value));
     return numbers;
 }
 
 TEST(StoredNumbers, OfEnumeratorsStayTheSame) {
-    EXPECT_EQ(numbersOf<scene::View>(),
-              (Numbers{{"oval", 0}, {"single", 1}, {"matrix", 2}, {"strip", 3}, {"column", 4}, {"grid", 5}}));
-    EXPECT_EQ(numbersOf<scene::Coloring>(),
-              (Numbers{{"cell", 0}, {"kind", 1}, {"w", 2}, {"plain", 3}, {"light", 4}, {"growth", 5}, {"value", 6}}));
-    EXPECT_EQ(numbersOf<scene::CapStyle>(), (Numbers{{"plain", 0}, {"value", 1}, {"open", 2}}));
-    EXPECT_EQ(numbersOf<scene::ProjectionKind>(), (Numbers{{"off", 0}, {"perspective", 1}, {"orthogonal", 2}}));
-    EXPECT_EQ(numbersOf<scene::Background>(),
-              (Numbers{{"auto", 0}, {"dark", 1}, {"light", 2}, {"white", 3}, {"transparent", 4}}));
-    EXPECT_EQ(numbersOf<fields::Inside>(), (Numbers{{"below", 0}, {"above", 1}}));
-    EXPECT_EQ(numbersOf<slicing::ElementKind>(), (Numbers{{"vertex", 0}, {"edge", 1}, {"face", 2}, {"cell", 3}}));
+    std::map<std::string, Numbers> numbers{{"highlight", numbersOf<slicing::ElementKind>()}};
+    session::forEachSetting([&]<typename Row>(const Row& setting) {
+        if constexpr (Row::kIsInState) {
+            using Value = std::remove_cvref_t<decltype(setting.ofState(std::declval<session::State&>()))>;
+            if constexpr (text::HasChoices<Value>) numbers.emplace(setting.name.text, numbersOf<Value>());
+        }
+    });
+    const std::map<std::string, Numbers> expected{
+        {"view", {{"oval", 0}, {"single", 1}, {"matrix", 2}, {"strip", 3}, {"column", 4}, {"grid", 5}}},
+        {"color", {{"cell", 0}, {"kind", 1}, {"w", 2}, {"plain", 3}, {"light", 4}, {"growth", 5}, {"value", 6}}},
+        {"caps", {{"plain", 0}, {"value", 1}, {"open", 2}}},
+        {"projection", {{"off", 0}, {"perspective", 1}, {"orthogonal", 2}}},
+        {"background", {{"auto", 0}, {"dark", 1}, {"light", 2}, {"white", 3}, {"transparent", 4}}},
+        {"inside", {{"below", 0}, {"above", 1}}},
+        {"highlight", {{"vertex", 0}, {"edge", 1}, {"face", 2}, {"cell", 3}}}};
+    EXPECT_EQ(numbers, expected);
 }
 
 TEST(StoredNumbers, OfPlanesStayTheSame) {
