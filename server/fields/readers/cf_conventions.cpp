@@ -94,4 +94,18 @@ std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, cons
     return CoordinateEnds{at.front(), at.back()};
 }
 
+void countFromLeastIfFar(CoordinateEnds& ends, std::size_t count, const std::string& name, std::string& unit,
+                         std::vector<std::string>& warnings) {
+    constexpr double kClose = 2e-5;  // makeField() refuses boxes that are smaller for their distance from 0
+    if (count < 2) return;
+    const double step = std::abs(ends.last - ends.first) / static_cast<double>(count - 1);
+    if (!(step < kClose * std::max(std::abs(ends.first), std::abs(ends.last)))) return;
+    const double least = std::min(ends.first, ends.last);
+    warnings.push_back("the coordinates of " + text::inQuotes(name) + " are counted from the least of them, " +
+                       text::shortestDecimal(least) + (unit.empty() ? "" : " " + unit) +
+                       ": they are too close to each other for their distance from 0");
+    ends = {ends.first - least, ends.last - least};
+    unit.resize(std::min(unit.find(" since "), unit.size()));
+}
+
 }  // namespace oval4d::fields

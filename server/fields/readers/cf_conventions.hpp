@@ -34,4 +34,11 @@ struct CoordinateEnds {
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings);
 
+/// Functions are evaluated in single precision, which hardly distinguishes places between samples that are close to
+/// each other for their distance from 0, such as hours since 1900. If `count` coordinates between these ends are on
+/// average closer to each other than 2·10⁻⁵ of this distance, subtracts the least of them from both ends, adds a
+/// warning that tells it, and removes " since …" from `unit`. `name` is the name of the dimension.
+void countFromLeastIfFar(CoordinateEnds& ends, std::size_t count, const std::string& name, std::string& unit,
+                         std::vector<std::string>& warnings);
+
 }  // namespace oval4d::fields

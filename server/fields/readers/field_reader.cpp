@@ -64,8 +64,12 @@ bool comesBefore(const std::string& a, const std::string& b) {
 void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-    const auto last = static_cast<double>(times.size() - 1);
-    if (known) static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
+    CoordinateEnds ends{0, static_cast<double>(times.size() - 1)};
+    if (known) {
+        static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
+        ends = {times.front(), times.back()};
+        if (!options.box) countFromLeastIfFar(ends, times.size(), "w", series.units[3], series.warnings);
+    }
     // If the files state no times, all times are equal, which needs no warning.
     const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();
     if (series.boxIsKnown && !known && differ && !options.box) {
@@ -74,8 +78,8 @@ void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadO
             "number of the file, from 0 on");
     }
     if (!known) series.units[3].clear();  // w is then the number of the file
-    series.box.min.w = known ? times.front() : 0;
-    series.box.max.w = known ? times.back() : last;
+    series.box.min.w = ends.first;
+    series.box.max.w = ends.last;
     if (!series.boxIsKnown) series.box = defaultBox(series.shape, true);
     if (options.box) series.box = *options.box;
     series.boxIsKnown = series.boxIsKnown || options.box;

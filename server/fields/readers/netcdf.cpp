@@ -293,7 +293,9 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
         Dimension& each = dimensions[i];
         each.axis = (*axes)[i];
         if (each.size == 0) return badField("the array is empty");
-        const auto ends = coordinates[i] ? endsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
+        auto ends = coordinates[i] ? endsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
+        if (ends && !options.box)
+            countFromLeastIfFar(*ends, each.size, stated[i].name, stated[i].units, field.warnings);
         field.boxIsKnown = field.boxIsKnown || ends;
         if (ends) field.units.at(each.axis) = stated[i].units;
         const CoordinateEnds found = ends.value_or(CoordinateEnds{0, static_cast<double>(each.size - 1)});

@@ -250,7 +250,8 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
         named = named || !each.name.empty();
         if (!imageStatesCoordinates && !each.name.empty() && !array.path.empty()) {
             if (const auto at = coordinates(folder, zarr, group + each.name, size, unit, each)) {
-                const auto ends = endsOfCoordinates(*at, each.name, field.warnings);
+                auto ends = endsOfCoordinates(*at, each.name, field.warnings);
+                if (ends && !options.box) countFromLeastIfFar(*ends, size, each.name, unit, field.warnings);
                 if (ends) range = {ends->first, ends->last, true};
             }
         }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "fields/array_field.hpp"
 #include "unit/fields/readers/written_formats.hpp"
 
 namespace oval4d::fields::test {
@@ -180,6 +181,48 @@ TEST(Netcdf, PackedCoordinatesAreUnpacked) {
     EXPECT_EQ(field.box, (Box{{-1, 2.5, 0, 0}, {-0.5, 3, 0, 0}}));
     const auto values = field.samples.values();
     EXPECT_EQ(std::vector(values.begin(), values.end()), (std::vector<float>{3, 4, 5, 0, 1, 2}));  // y decreases
+}
+
+// A variable f(time, x) at two times.
+std::string fileOfTimes(const std::array<double, 2>& times, const std::string& units) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    int file = 0, coordinate = 0, variable = 0;
+    std::array<int, 2> dimensions{};
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    check(nc_def_dim(file, "time", 2, &dimensions[0]));
+    check(nc_def_dim(file, "x", 2, &dimensions[1]));
+    check(nc_def_var(file, "time", NC_DOUBLE, 1, dimensions.data(), &coordinate));
+    check(nc_def_var(file, "f", NC_FLOAT, 2, dimensions.data(), &variable));
+    check(nc_put_att_text(file, coordinate, "units", units.size(), units.data()));
+    check(nc_enddef(file));
+    const std::array<float, 4> samples{0, 1, 2, 3};
+    check(nc_put_var_double(file, coordinate, times.data()));
+    check(nc_put_var_float(file, variable, samples.data()));
+    check(nc_close(file));
+    return readFile(path);
+}
+
+// Floats as large as hours since 1900 are an eighth of an hour apart.
+TEST(Netcdf, TimesFarFromZeroAreCountedFromTheFirst) {
+    const auto hours = readOrFail(fileOfTimes({1'087'824, 1'087'825}, "hours since 1900-01-01"));
+    EXPECT_EQ(hours.box.min.w, 0);
+    EXPECT_EQ(hours.box.max.w, 1);
+    EXPECT_EQ(hours.units[3], "hours");
+    ASSERT_EQ(hours.warnings.size(), 1U);
+    EXPECT_NE(hours.warnings.front().find("1087824 hours since 1900-01-01"), std::string::npos);
+    EXPECT_TRUE(fieldFromArray("hours", hours));
+    const auto falling = readOrFail(fileOfTimes({1'087'825, 1'087'824}, "hours since 1900-01-01"));
+    EXPECT_EQ(falling.box, hours.box);
+    EXPECT_EQ(falling.samples.values()[0], 2);
+    const Box box{{0, 0, 0, 5}, {1, 0, 0, 6}};
+    const auto placed = readOrFail(fileOfTimes({1'087'824, 1'087'825}, "hours since 1900-01-01"), {.box = box});
+    EXPECT_EQ(placed.box, box);
+    EXPECT_TRUE(placed.warnings.empty());
+    const auto days = readOrFail(fileOfTimes({40'000, 40'001}, "days since 1900-01-01"));
+    EXPECT_EQ(days.box.min.w, 40'000);
+    EXPECT_EQ(days.units[3], "days since 1900-01-01");
+    EXPECT_TRUE(days.warnings.empty());
 }
 
 TEST(Netcdf, HeadersMayBeLongerThanTheValues) {

@@ -102,6 +102,16 @@ TEST(FieldSeries, KeepsTheUnitsThatAllFilesHave) {
               "file 2 of the series: the unit of its values is 'degC', but that of the first file is 'K'");
 }
 
+TEST(FieldSeries, CountsTimesFarFromZeroFromTheFirst) {
+    const auto series = seriesOf({1.7e9, 1.7e9 + 60, 1.7e9 + 120});  // seconds since 1970, for example
+    ASSERT_TRUE(series) << series.error().message;
+    EXPECT_EQ(series->box.min.w, 0);
+    EXPECT_EQ(series->box.max.w, 120);
+    EXPECT_EQ(series->units[3], "s");
+    ASSERT_EQ(series->warnings.size(), 1U);
+    EXPECT_NE(series->warnings.front().find("1700000000 s"), std::string::npos) << series->warnings.front();
+}
+
 TEST(FieldSeries, WarnsOfTimesThatDoNotIncrease) {
     for (const auto& [times, warnings] : {std::pair{std::vector{7.0, 5.0, 3.0}, 1U},
                                           {std::vector{3.0, 3.0, 5.0}, 1U},

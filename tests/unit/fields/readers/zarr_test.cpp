@@ -238,6 +238,26 @@ TEST(Zarr, ReadsARegionWhereTheCoordinateDecreases) {
     EXPECT_TRUE(opened.contains("f/1") && !opened.contains("f/0") && !opened.contains("f/2"));
 }
 
+// The region is in the coordinates of the box, which are counted from the least one.
+TEST(Zarr, CoordinatesFarFromZeroAreCountedFromTheLeast) {
+    const Files files{{".zgroup", R"({"zarr_format":2})"},
+                      {"f/.zarray", zarray("[3]", "[3]")},
+                      {"f/.zattrs", R"({"_ARRAY_DIMENSIONS":["x"]})"},
+                      {"f/0", chunkOf({1, 2, 3})},
+                      {"x/.zarray", zarray("[3]", "[3]")},
+                      {"x/.zattrs", R"({"_ARRAY_DIMENSIONS":["x"],"units":"m"})"},
+                      {"x/0", chunkOf({5'400'000, 5'400'001, 5'400'002})}};
+    const auto whole = readFiles(files, "f");
+    ASSERT_TRUE(whole) << whole.error().message;
+    EXPECT_EQ(whole->box, (Box{{0, 0, 0, 0}, {2, 0, 0, 0}}));
+    EXPECT_EQ(whole->units[0], "m");
+    ASSERT_EQ(whole->warnings.size(), 1U);
+    EXPECT_NE(whole->warnings.front().find("5400000 m"), std::string::npos) << whole->warnings.front();
+    const auto part = readFiles(files, ReadOptions{.variable = "f", .region = Box{{1, 0, 0, 0}, {2, 0, 0, 0}}});
+    ASSERT_TRUE(part) << part.error().message;
+    EXPECT_EQ(part->box, (Box{{1, 0, 0, 0}, {2, 0, 0, 0}}));
+}
+
 // The checksum CRC-32C (RFC 3720, appendix B.4), bit by bit.
 std::uint32_t crc32c(const std::string& bytes) {
     std::uint32_t crc = ~std::uint32_t{0};
