@@ -74,7 +74,6 @@ test("field panel: a mistake is explained, and the wrong character is marked", a
 test("field panel: a slider changes a named value in the text and the picture, and nothing else", async () => {
     const { page, script, errors, close } = await openPanel({ isStopped: true });
     await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=0.7, b=pi");
-    assert.equal(await page.locator("#field-constants input").count(), 1, "only numbers have sliders");
     await script.request({ type: "set", slices: { focus: 1 }, levels: [0, 0.5], color: "w" });
     await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
     const before = await focusSurface(page, script);
@@ -83,7 +82,7 @@ test("field panel: a slider changes a named value in the text and the picture, a
     await page.waitForFunction(() => /a=0\.(75|8)/.test(document.getElementById("field-formula").value));
     assert.match(await formula(page), /^x\^2\+y\^2\+z\^2\+w\^2 < a\^2; a=0\.\d+, b=pi$/);
     const value = Number(/a=([\d.]+)/.exec(await formula(page))[1]);
-    assert.equal(await page.locator("#field-constants output").textContent(), String(value));
+    assert.equal(await page.locator("[data-constant=a] + output").textContent(), String(value));
     const reach = ({ surface }) => Math.max(...surface.points.filter((_, i) => i % 3 === 0));
     const state = await stateAfter(page, script);
     const after = await focusSurface(page, script);
@@ -94,7 +93,24 @@ test("field panel: a slider changes a named value in the text and the picture, a
     await script.request({ type: "undo" });
     await page.waitForFunction(() => document.getElementById("field-formula").value.endsWith("; a=0.7, b=pi"));
     assert.match((await script.state()).field.formula, /; a=0\.7, b=3\.14\d*$/, "one undo takes back the whole drag");
-    assert.equal(await page.locator("#field-constants output").textContent(), "0.7");
+    assert.equal(await page.locator("[data-constant=a] + output").textContent(), "0.7");
+    assert.deepEqual(errors, []);
+    await close();
+});
+
+test("field panel: constants that are not typed as numbers have sliders, too, and expressions have none", async () => {
+    const { page, script, errors, close } = await openPanel();
+    await write(page, script, "x^2+y^2+z^2+w^2 < a*p; a=pi/2, b=max(1, 2), p=b+0*x");
+    await page.waitForSelector("[data-constant=b]");
+    const sliders = page.locator("#field-constants input");
+    const names = () => sliders.evaluateAll((all) => all.map(({ dataset }) => dataset.constant));
+    assert.deepEqual(await names(), ["a", "b"]);
+    assert.deepEqual(await page.locator("#field-constants output").allTextContents(), ["1.571", "2"]);
+    await page.focus("[data-constant=a]");
+    await page.keyboard.press("ArrowRight");
+    await page.waitForFunction(() => / a=1\.58, b=max/.test(document.getElementById("field-formula").value));
+    assert.deepEqual(await names(), ["a", "b"]);
+    await script.until(({ field }) => /a=1\.58/.test(field.formula), "the value of the slider");
     assert.deepEqual(errors, []);
     await close();
 });

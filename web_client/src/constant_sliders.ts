@@ -1,7 +1,9 @@
 // Sliders for the named constants of a formula, such as a in "x^2 - a; a=0.7". Moving a slider rewrites the formula.
 
 import { element } from "./element";
-import { constantsOf, rangeFor, textOfSliderValue, withConstant } from "./formula";
+import { constantsOf, rangeFor, textOfSliderValue, valuesOfTexts, withConstant } from "./formula";
+
+const kDigits = 4; // significant digits of the values beside the sliders
 
 interface Row {
     slider: HTMLInputElement;
@@ -11,6 +13,7 @@ interface Row {
 
 export class ConstantSliders {
     private readonly rows = new Map<string, Row>(); // by the constant's name
+    private readonly values = new Map<string, number>(); // of texts such as "pi/2", as the server has computed them
     private formula = "";
 
     /** `changed` is called with the new text of the formula. */
@@ -19,10 +22,16 @@ export class ConstantSliders {
         private readonly changed: (formula: string) => void,
     ) {}
 
+    /** Learns the values of constants that are not typed as numbers, from a formula as the server writes it. */
+    learn(typed: string, written: string): void {
+        for (const [text, value] of valuesOfTexts(typed, written)) this.values.set(text, value);
+        this.update(this.formula);
+    }
+
     /** Shows the constants of a formula. A slider keeps its range as long as the range contains the value. */
     update(formula: string): void {
         this.formula = formula;
-        const constants = constantsOf(formula);
+        const constants = constantsOf(formula, this.values);
         const names = constants.map(({ name }) => name);
         if (names.join() !== [...this.rows.keys()].join()) {
             const kept = new Map(this.rows);
@@ -36,14 +45,13 @@ export class ConstantSliders {
 
     private show(row: Row, value: number): void {
         const { slider } = row;
-        const text = String(value);
         if (slider.min === "" || value < Number(slider.min) || value > Number(slider.max)) {
             const { min, max, step } = rangeFor(value);
             Object.assign(slider, { min: String(min), max: String(max), step: String(step) });
             row.step = step;
         }
-        row.value.textContent = text;
-        slider.value = text;
+        row.value.textContent = String(Number(value.toPrecision(kDigits)));
+        slider.value = String(value);
     }
 
     private makeRow(name: string): Row {

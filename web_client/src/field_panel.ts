@@ -167,6 +167,7 @@ export class FieldPanel {
         const { lastLoad, state, loaded } = this;
         if (!lastLoad || lastLoad.isRecorded || !loaded || !state || state.revision < lastLoad.revision) return;
         lastLoad.isRecorded = true;
+        this.sliders.learn(loaded.formula, state.field?.formula ?? "");
         this.ownText = formulaKeyOf(state);
         if (this.typedFields.size >= kMaxTyped) this.typedFields.clear();
         this.typedFields.set(this.ownText, loaded);

@@ -1,12 +1,18 @@
 // The text of a formula: its named constants, and the place of a mistake.
 
-/** A constant such as a=0.7 after the formula, whose value is a number. */
+/** A name that is defined after the formula, such as a in a=pi/2. */
+interface Definition {
+    name: string;
+    /** What is written after the equals sign. */
+    text: string;
+    /** The index in the formula at which this text begins. */
+    from: number;
+}
+
+/** A constant such as a=0.7 after the formula. */
 export interface FormulaConstant {
     name: string;
     value: number;
-    /** The indices in the text at which the value begins and ends. */
-    from: number;
-    to: number;
 }
 
 /** A mistake that the server has found. */
@@ -18,22 +24,46 @@ export interface FormulaMistake {
 
 // A formula has no "=" within parentheses, so a name and "=" after a comma or a semicolon always define a constant.
 const kDefinitions = /[;,]\s*[A-Za-z]\w*\s*=.*$/s;
-const kConstant = /([;,]\s*([A-Za-z]\w*)\s*=\s*)([-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?=\s*(?:[;,]|$))/g;
+const kDefinition = /([;,]\s*([A-Za-z]\w*)\s*=\s*)(.*?)(?=\s*(?:[;,]\s*[A-Za-z]\w*\s*=|[;,]?\s*$))/gs;
+const kNumber = /^[-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?$/;
 
-/** The constants of a formula whose values are numbers, in the order of the text. */
-export function constantsOf(formula: string): FormulaConstant[] {
-    return [...formula.matchAll(kConstant)].map((match) => {
+function definitionsOf(formula: string): Definition[] {
+    return [...formula.matchAll(kDefinition)].map((match) => {
         const [, before = "", name = "", text = ""] = match;
-        const from = match.index + before.length;
-        const value = Number(text.replace("\u2212", "-").replace(/\s/g, ""));
-        return { name, value, from, to: from + text.length };
+        return { name, text, from: match.index + before.length };
+    });
+}
+
+/**
+ * The constants of a formula whose values are numbers, or texts such as "pi/2" whose values are in `known`. They are in
+ * the order of the formula.
+ */
+export function constantsOf(formula: string, known: ReadonlyMap<string, number> = new Map()): FormulaConstant[] {
+    return definitionsOf(formula).flatMap(({ name, text }) => {
+        const isNumber = kNumber.test(text);
+        const value = isNumber ? Number(text.replace("\u2212", "-").replace(/\s/g, "")) : known.get(text);
+        return value === undefined ? [] : [{ name, value }];
+    });
+}
+
+/**
+ * The values of the texts of constants in a typed formula, such as "pi/2". `written` is the same formula as the server
+ * writes it: with the values of constants as numbers.
+ */
+export function valuesOfTexts(typed: string, written: string): [text: string, value: number][] {
+    const values = new Map(constantsOf(written).map(({ name, value }) => [name, value]));
+    return definitionsOf(typed).flatMap(({ name, text }): [string, number][] => {
+        const value = values.get(name);
+        return value === undefined ? [] : [[text, value]];
     });
 }
 
 /** The formula with `value` as the value of the constant `name`; the unchanged formula if it has no such constant. */
 export function withConstant(formula: string, name: string, value: string): string {
-    const constant = constantsOf(formula).find((one) => one.name === name);
-    return constant ? formula.slice(0, constant.from) + value + formula.slice(constant.to) : formula;
+    const definition = definitionsOf(formula).find((one) => one.name === name);
+    if (!definition) return formula;
+    const { from, text } = definition;
+    return formula.slice(0, from) + value + formula.slice(from + text.length);
 }
 
 /**
