@@ -4,6 +4,9 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -22,6 +25,7 @@
 #include "export/mesh/skeleton.hpp"
 #include "export/mesh/solid.hpp"
 #include "export/omissions.hpp"
+#include "fields/field.hpp"
 #include "slicing/element.hpp"
 #include "text/message_text.hpp"
 
@@ -368,11 +372,15 @@ std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene,
                                                       const ExportRequest& request, const ExportLimits& limits,
                                                       std::stop_token stop) {
     const Budget budget(limits, std::move(stop));
+    std::variant<ExportedFile, ExportRefusal> made;
     try {
-        return Exporter(scene, object, orientation, request, budget).run();
+        made = Exporter(scene, object, orientation, request, budget).run();
     } catch (ExportRefused& refused) {
-        return std::move(refused.error);
+        made = std::move(refused.error);
     }
+    const fields::Field* const field = slicing::fieldIn(object);
+    if (field != nullptr && field->isLost()) throw std::runtime_error("the file of the field can no longer be read");
+    return made;
 }
 
 }  // namespace oval4d::exports

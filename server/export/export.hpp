@@ -41,7 +41,7 @@ struct ExportedFile {
 ///
 /// Returns an ExportRefusal if a limit is exceeded, if there is nothing to export, if the format cannot contain what is
 /// requested, or if a stop is requested. Throws std::runtime_error if a library that writes the file fails, if the font
-/// of a label cannot be read, or if the plate of a label cannot be made.
+/// of a label cannot be read, if the plate of a label cannot be made, or if the file of a field can no longer be read.
 std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene, const slicing::Object& object,
                                                       const geometry::Rotation& orientation,
                                                       const ExportRequest& request, const ExportLimits& limits,

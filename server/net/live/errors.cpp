@@ -18,12 +18,12 @@ Error pictureError(const session::State& state, const std::string& sessionId, st
                    const std::exception& why, const Error& otherwise) {
     const fields::Field* const field = slicing::fieldIn(state.object);
     if (field != nullptr && field->isLost()) {
-        spdlog::warn("picture not made session={} revision={} reason=\"{}\"", sessionId, revision, why.what());
+        spdlog::warn("picture or file not made session={} revision={} reason=\"{}\"", sessionId, revision, why.what());
         return {ErrorCode::bad_field,
                 "the file of this field has been changed or shortened, or cannot be read any more; load it again"};
     }
     if (dynamic_cast<const slicing::TooManySliceEdges*>(&why) != nullptr) return {ErrorCode::too_large, why.what()};
-    spdlog::error("picture failed session={} revision={} fault=\"{}\"", sessionId, revision, why.what());
+    spdlog::error("picture or file failed session={} revision={} fault=\"{}\"", sessionId, revision, why.what());
     return otherwise;
 }
 

@@ -172,7 +172,7 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
-        spdlog::error("file failed session={} revision={} fault=\"{}\"", sessionId_, askedRevision, fault.what());
+        made = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
     }
     if (!made || !*made) {
         sendError(*peer, services_.metrics, made ? made->error() : kInternalError, id);
@@ -195,7 +195,7 @@ asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<P
     } catch (const parallel::QueueFull&) {
         found = kTooManyJobs;
     } catch (const std::exception& fault) {
-        spdlog::error("search failed session={} revision={} fault=\"{}\"", sessionId_, askedRevision, fault.what());
+        found = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
     }
     if (!found) {
         sendError(*peer, services_.metrics, found.error(), id);
