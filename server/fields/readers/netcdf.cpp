@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -179,6 +180,38 @@ std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     return {};
 }
 
+// Returns what the file states about a dimension of `variable`.
+CfDimension describe(const Variable& variable, int dimension) {
+    CfDimension stated{dimensionName(variable.group, dimension), {}, {}, {}, {}};
+    if (const auto coordinate = coordinateOf(variable, dimension)) {
+        stated.axis = textOf(*coordinate, "axis");
+        stated.standardName = textOf(*coordinate, "standard_name");
+        stated.units = textOf(*coordinate, "units");
+        stated.positive = textOf(*coordinate, "positive");
+    }
+    return stated;
+}
+
+// Returns the indices of the dimensions of a variable that count. If there are more than four, leaves out dimensions of
+// size 1 until four remain: first those that are no axes of space or time, such as the only member of an ensemble.
+std::vector<std::size_t> keptDimensions(const Variable& variable) {
+    std::vector<std::size_t> kept(variable.dimensions.size());
+    std::iota(kept.begin(), kept.end(), std::size_t{0});
+    for (const bool axesToo : {false, true}) {
+        for (std::size_t i = 0; i < kept.size() && kept.size() > 4;) {
+            const int dimension = variable.dimensions[kept[i]];
+            std::size_t size = 0;
+            const bool isSingle = nc_inq_dimlen(variable.group, dimension, &size) == NC_NOERR && size == 1;
+            if (isSingle && (axesToo || !cfAxis(describe(variable, dimension)))) {
+                kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
+            } else {
+                ++i;
+            }
+        }
+    }
+    return kept;
+}
+
 // Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
 // bounds of a coordinate variable. Such a variable is read only if the options name it.
 bool isAuxiliary(const Variable& variable) {
@@ -216,17 +249,19 @@ std::string pathOf(const Variable& variable, int file) {
 
 Result<Variable> defaultVariable(int file, FieldArray& field) {
     Variable chosen;
-    std::size_t candidates = 0;
+    std::size_t candidates = 0, most = 0;
     for (const int group : groupsOf(file)) {
         int count = 0;
         if (nc_inq_nvars(group, &count) != NC_NOERR) return badField("the file's variables cannot be read");
         for (int id = 0; id < count; ++id) {
             const auto variable = variableAt(group, id);
-            if (!variable || rowOf(variable->type) == nullptr || variable->dimensions.size() > 4 ||
-                isAuxiliary(*variable))
-                continue;
+            if (!variable || rowOf(variable->type) == nullptr || isAuxiliary(*variable)) continue;
+            const std::size_t dimensions = keptDimensions(*variable).size();
+            if (dimensions > 4) continue;
             ++candidates;
-            if (variable->dimensions.size() > chosen.dimensions.size()) chosen = *variable;
+            if (dimensions <= most) continue;
+            most = dimensions;
+            chosen = *variable;
         }
     }
     if (candidates == 0) return badField("the file has no variable of real numbers with 1 to 4 dimensions");
@@ -264,22 +299,17 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
     return endsOfCoordinates(at, name, field.warnings);
 }
 
-// Returns the dimensions with their axes. Sets the box and the units of `field`, and adds warnings to it.
-Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const ReadOptions& options, FieldArray& field) {
+// Returns the dimensions in `kept` (see keptDimensions()) with their axes. Sets the box and the units of `field`, and
+// adds warnings to it.
+Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std::vector<std::size_t>& kept,
+                                             const ReadOptions& options, FieldArray& field) {
     std::vector<CfDimension> stated;
     std::vector<std::optional<Variable>> coordinates;
     std::vector<Dimension> dimensions;
-    for (const int id : variable.dimensions) {
-        CfDimension each{dimensionName(variable.group, id), {}, {}, {}, {}};
-        auto coordinate = coordinateOf(variable, id);
-        if (coordinate) {
-            each.axis = textOf(*coordinate, "axis");
-            each.standardName = textOf(*coordinate, "standard_name");
-            each.units = textOf(*coordinate, "units");
-            each.positive = textOf(*coordinate, "positive");
-        }
-        stated.push_back(std::move(each));
-        coordinates.push_back(std::move(coordinate));
+    for (const std::size_t index : kept) {
+        const int id = variable.dimensions[index];
+        stated.push_back(describe(variable, id));
+        coordinates.push_back(coordinateOf(variable, id));
         std::size_t size = 0;
         if (nc_inq_dimlen(variable.group, id, &size) != NC_NOERR) return badField("a dimension cannot be read");
         if (size > kMaxSamplesPerAxis) return Error{ErrorCode::too_large, "a dimension has more than 2^24 samples"};
@@ -308,9 +338,10 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const Rea
 }
 
 Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& options, const Variable& variable,
-                                const AxisMapping& mapping) {
+                                const std::vector<std::size_t>& kept, const AxisMapping& mapping) {
     const NumberFormat format = formatOf(variable, *rowOf(variable.type));
-    const std::size_t skipped = 4 - variable.dimensions.size();
+    const std::size_t skipped = 4 - kept.size();
+    std::vector<std::size_t> start(variable.dimensions.size(), 0), count(variable.dimensions.size(), 1);
     auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
     // The cache keeps chunks for the next slab, which often needs the same chunks. A failure of the call is ignored,
@@ -321,8 +352,11 @@ Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& opt
     for (const Slab& slab : mapping.slabs(kSlabSize)) {
         const auto& size = slab.layout.size;
         numbers.resize(size[0] * size[1] * size[2] * size[3] * sizeOf(format.type));
-        const int status = nc_get_vara(variable.group, variable.id, slab.start.data() + skipped, size.data() + skipped,
-                                       numbers.data());
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            start[kept[i]] = slab.start[skipped + i];
+            count[kept[i]] = size[skipped + i];
+        }
+        const int status = nc_get_vara(variable.group, variable.id, start.data(), count.data(), numbers.data());
         if (status != NC_NOERR)
             return badField("the variable cannot be read: " + text::printable(nc_strerror(status), kMaxNetcdfText));
         convert(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
@@ -348,7 +382,8 @@ Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& optio
     const auto variable =
         options.variable.empty() ? defaultVariable(open.id(), field) : variableAtPath(open.id(), options.variable);
     if (!variable) return variable.error();
-    const auto dimensions = mapDimensions(*variable, options, field);
+    const std::vector<std::size_t> kept = keptDimensions(*variable);
+    const auto dimensions = mapDimensions(*variable, kept, options, field);
     if (!dimensions) return dimensions.error();
     const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
@@ -356,7 +391,7 @@ Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& optio
     if (!field.boxIsKnown) field.box = defaultBox(field.shape, true);
     if (options.box) field.box = *options.box;
     field.boxIsKnown = field.boxIsKnown || options.box;
-    auto samples = readSlabs(file, options, *variable, *mapping);
+    auto samples = readSlabs(file, options, *variable, kept, *mapping);
     if (!samples) return samples.error();
     field.samples = *samples;
     std::string& quantity = field.quantity.name;

@@ -225,6 +225,30 @@ TEST(Netcdf, TimesFarFromZeroAreCountedFromTheFirst) {
     EXPECT_TRUE(days.warnings.empty());
 }
 
+TEST(Netcdf, DimensionsOfSizeOneAreLeftOutOfMoreThanFour) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.nc").string();
+    const std::array<const char*, 6> names{"time", "member", "z", "y", "x", "part"};
+    const std::array<std::size_t, 6> sizes{1, 1, 3, 2, 2, 1};
+    int file = 0, variable = 0, flat = 0;
+    std::array<int, 6> dimensions{};
+    check(nc_create(path.c_str(), NC_CLOBBER, &file));
+    for (std::size_t i = 0; i < 6; ++i) check(nc_def_dim(file, names[i], sizes[i], &dimensions[i]));
+    check(nc_def_var(file, "mean", NC_FLOAT, 2, &dimensions[3], &flat));
+    check(nc_def_var(file, "f", NC_FLOAT, 6, dimensions.data(), &variable));
+    check(nc_enddef(file));
+    std::array<float, 12> samples{};
+    for (std::size_t i = 0; i < 12; ++i) samples[i] = static_cast<float>(i);
+    check(nc_put_var_float(file, variable, samples.data()));
+    check(nc_close(file));
+    const auto field = readOrFail(readFile(path));
+    EXPECT_EQ(field.quantity.name, "f");
+    EXPECT_EQ(field.shape, (Shape{2, 2, 3, 1}));
+    const auto values = field.samples.values();
+    EXPECT_EQ(std::vector(values.begin(), values.end()), std::vector(samples.begin(), samples.end()));
+    EXPECT_EQ(readOrFail(readFile(path), {.axes = "wzyx"}).shape, field.shape);
+}
+
 TEST(Netcdf, HeadersMayBeLongerThanTheValues) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
