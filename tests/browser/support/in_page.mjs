@@ -79,9 +79,12 @@ export function ofElements(steps, operation, given) {
                 if (position) return [x + one.clientLeft + position.x, y + one.clientTop + position.y];
                 return [x + width / 2, y + height / 2];
             };
-            const isInside = ([x, y]) => x >= 0 && y >= 0 && x < innerWidth && y < innerHeight;
+            const isHitAt = (point) => {
+                const hit = document.elementFromPoint(...point);
+                return hit !== null && (one.contains(hit) || hit.closest("label")?.control === one);
+            };
             let before = boxOf(one);
-            if (!isInside(pointIn(before))) {
+            if (!isHitAt(pointIn(before))) {
                 operations.show([one]);
                 before = boxOf(one);
             }
@@ -89,9 +92,7 @@ export function ofElements(steps, operation, given) {
             const box = boxOf(one);
             if (["x", "y", "width", "height"].some((side) => box[side] !== before[side])) return undefined;
             const point = pointIn(box);
-            const hit = document.elementFromPoint(...point);
-            const isHit = hit !== null && (one.contains(hit) || hit.closest("label")?.control === one);
-            return isHit ? { x: point[0], y: point[1] } : undefined;
+            return isHitAt(point) ? { x: point[0], y: point[1] } : undefined;
         },
         fill: ([one], text) => {
             if (one === undefined || !isVisible(one) || one.disabled || one.readOnly) return false;
