@@ -69,22 +69,22 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     // share them.
     constexpr std::size_t kBytesOfVertex = 100;
     const std::size_t vertices = std::max(slicing::elementCounts(source)[0], memoryOfImage(source) / kBytesOfVertex);
-    if (vertices > vertexBudget_) throwUnreadable("its objects have too many vertices");
+    if (vertices > vertexBudget_) throwLater("its objects have too many vertices");
     vertexBudget_ -= vertices;
     transformed_.push_back({source, frame, slicing::transformedTo(source, frame)});
     return transformed_.back().image;
 }
 
 /// Returns the polytope with this name (see polytopes::designNamed()), and subtracts its number of vertices from
-/// `vertexBudget_`. Throws LaterRecord if there is no such polytope, and UnreadableRecord if it cannot be built or has
-/// more vertices than `vertexBudget_`.
+/// `vertexBudget_`. Throws LaterRecord if there is no such polytope or it has more vertices than `vertexBudget_`, and
+/// UnreadableRecord if it cannot be built.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope; clients may build far fewer (session::Limits)
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     if (design == nullptr) throwLater("the catalogue has no polytope called " + text::inQuotes(name));
     const std::size_t vertices = polytopes::elementCounts(*design).vertices;
-    if (vertices > vertexBudget_) throwUnreadable("its polytopes have too many vertices");
+    if (vertices > vertexBudget_) throwLater("its polytopes have too many vertices");
     vertexBudget_ -= vertices;
     try {
         return cache.get(*design);

@@ -40,7 +40,8 @@ class ObjectListDecoder {
     static constexpr std::size_t kMaxTotalVertices = 10'000'000;
 
     /// Reads what ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
-    /// built, or if the objects that are built from their names have more than `maxVertices` vertices altogether.
+    /// built; LaterRecord if the catalogue lacks one, or if the objects that are built from their names have more than
+    /// `maxVertices` vertices altogether.
     ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache,
                       std::size_t maxVertices = kMaxTotalVertices);
 
@@ -49,8 +50,8 @@ class ObjectListDecoder {
     const slicing::Object& at(const nlohmann::json& index) const;
 
     /// Returns `source` in the frame of reference `frame` (see slicing::transformedTo()). Calls with equal arguments
-    /// return the same object, so that states share it. Throws UnreadableRecord, before it transforms the object, if
-    /// the transformed objects and the objects built from their names would have more than `maxVertices` vertices
+    /// return the same object, so that states share it. Throws LaterRecord, before it transforms the object, if the
+    /// transformed objects and the objects built from their names would have more than `maxVertices` vertices
     /// altogether (see the constructor).
     slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 

@@ -50,8 +50,8 @@ class StateReader : public MemberReader {
 //
 // The checks concern single members, and how members fit each other and the object. Their limits are at least as wide
 // as those that the server enforces for clients. Without them, a damaged record could produce, for example, a state
-// with a million slices instead of an error. A later version may allow more, so what exceeds a limit throws
-// LaterRecord: otherwise, clients would forget the session.
+// with a million slices instead of an error. A later version may allow more, or build an object with more elements, so
+// what exceeds a limit or is missing in the object throws LaterRecord: otherwise, clients would forget the session.
 
 // Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, each may
 // exceed its limit by this fraction.
@@ -73,9 +73,9 @@ void check(const session::HyperplaneSettings& slices, double circumradius) {
 void check(const scene::CellTypeFilter& filter, std::size_t typeCount) {
     const auto& [hidden, faded] = filter;
     for (const std::vector<std::uint32_t>* types : {&hidden, &faded}) {
-        const auto unsorted = std::ranges::adjacent_find(*types, std::greater_equal<>());
-        if (unsorted != types->end() || (!types->empty() && types->back() >= typeCount))
-            throwUnreadable("the hidden or faded cell types are not in order or out of range");
+        if (std::ranges::adjacent_find(*types, std::greater_equal<>()) != types->end())
+            throwUnreadable("the hidden or faded cell types are not in order");
+        if (!types->empty() && types->back() >= typeCount) throwLater("a hidden or faded cell type is missing");
     }
     if (std::ranges::any_of(hidden, [&](auto type) { return std::ranges::binary_search(faded, type); }))
         throwUnreadable("a cell type is both hidden and faded");
@@ -94,7 +94,7 @@ void check(const State& state) {
     check(state.look.field);
     const auto& highlight = state.look.highlight;
     if (highlight && highlight->index >= slicing::elementCount(state.object, highlight->kind))
-        throwUnreadable("an element is missing");
+        throwLater("the highlighted element is missing");
     const glm::dvec3 point = glm::abs(state.look.focusPoint);
     if (!(std::max({point.x, point.y, point.z}) <= session::kMaxOffset * info.circumradius * (1 + kSlack)))
         throwLater("the focus point is out of range");

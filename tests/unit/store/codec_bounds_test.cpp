@@ -13,6 +13,7 @@
 #include "fields/array_field.hpp"
 #include "session/settings.hpp"
 #include "store/cbor.hpp"
+#include "store/object_list.hpp"
 #include "unit/store/object_table.hpp"
 #include "unit/store/support.hpp"
 
@@ -184,6 +185,25 @@ TEST(Codec, TakesValuesBeyondItsBoundsForThoseOfALaterVersion) {
             state.look.field.fog.push_back({static_cast<double>(i), 0.5});
     });
     expectLater([](State& state) { state.referenceFrame.boost = glm::dvec3(0.7); });
+    expectLater([](State& state) { state.look.highlight = slicing::Element{slicing::ElementKind::cell, 5}; });
+    expectLater([](State& state) { state.look.cellTypes.hidden = {1'000}; });
+}
+
+// The limit of a later version may be higher.
+TEST(Codec, TakesTooManyVerticesForThoseOfALaterVersion) {
+    ObjectTable table;
+    const auto list = nlohmann::json::array({nlohmann::json::array({"5-cell"})});
+    const auto expectLater = [&](auto read) {
+        try {
+            read();
+            FAIL() << "too many vertices were built";
+        } catch (const LaterRecord& fault) {
+            EXPECT_NE(std::string(fault.what()).find("too many vertices"), std::string::npos) << fault.what();
+        }
+    };
+    expectLater([&] { const ObjectListDecoder objects(list, table.objectOf, support::cache(), 4); });
+    ObjectListDecoder objects(list, table.objectOf, support::cache(), 5);
+    expectLater([&] { objects.transformedTo(objects.at(0), {.pace = 2}); });
 }
 
 TEST(Codec, ReadsALargeFieldInManyFramesOfReference) {
