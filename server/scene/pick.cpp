@@ -58,7 +58,7 @@ class Picker {
             const bool points = parts.balls || !scene_.slices->ballScale.empty();
             pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
                  {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, drawsFaces_},
-                 {{}, PictureArea::slice, i});
+                 {{}, PickedIn::slice, i});
         }
     }
 
@@ -68,7 +68,7 @@ class Picker {
         for (std::size_t i = 0; i < projection.parts.size(); ++i) {
             const ProjectionPartLook& part = projection.parts[i];
             pick(projection.elements, i, scene_.projectionPlacement.position, projection.scale,
-                 {part.ballRadius, part.barRadius, part.faceOpacity > 0}, {{}, PictureArea::projection, 0});
+                 {part.ballRadius, part.barRadius, part.faceOpacity > 0}, {{}, PickedIn::projection, 0});
         }
     }
 
@@ -95,7 +95,7 @@ class Picker {
             if (distance > std::max(scene_.matrix.pointRadius * size_.y * own, kHitRadius)) continue;
             if (distance > nearest || styles.points[i] == Visibility::hidden) continue;
             nearest = distance;
-            picked_ = {elementOfPoint(section->pointSource[i]), PictureArea::matrix, 0};
+            picked_ = {elementOfPoint(section->pointSource[i]), PickedIn::matrix, 0};
         }
         if (picked_) return;
         nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kHitRadius);
@@ -104,7 +104,7 @@ class Picker {
             if (distance > nearest || styles.edges[e] == Visibility::hidden) continue;
             nearest = distance;
             picked_ = {elementOf(section->edgeSource[e], ElementKind::cell, counts_[3], ElementKind::face),
-                       PictureArea::matrix, 0};
+                       PickedIn::matrix, 0};
         }
     }
 
@@ -114,7 +114,7 @@ class Picker {
         const glm::dvec2 at = pixel_ / size_.y;
         if (layout.isDensityStrip) {
             if (const auto vertex = vertexInDensityStripAt(scene_, at))
-                picked_ = {{ElementKind::vertex, *vertex}, PictureArea::coordinates, 0};
+                picked_ = {{ElementKind::vertex, *vertex}, PickedIn::coordinates, 0};
             return;
         }
         if (!layout.hasLines()) return;
@@ -126,7 +126,7 @@ class Picker {
         const bool inColumn = at.x - first - column * layout.columnStep <= 4 * layout.lineStep + layout.lineWidth;
         const double index = row * layout.perRow + column;
         if (!inRow || !inColumn || index >= static_cast<double>(counts_[0])) return;
-        picked_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PictureArea::coordinates, 0};
+        picked_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PickedIn::coordinates, 0};
     }
 
     const std::optional<PickedElement>& picked() const { return picked_; }
@@ -154,7 +154,7 @@ class Picker {
 
     // Finds the element at the pixel in slice i of `set`, or in part i of the projection; keeps it in picked_ if it is
     // nearer than the element that picked_ has. `position` and `scale` map the units of the object to world space.
-    // `where`: the area and the slice to report.
+    // `where`: the members `in` and `slice` to report.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
               const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];

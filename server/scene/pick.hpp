@@ -12,19 +12,19 @@
 
 namespace oval4d::scene {
 
-/// The part of a picture in which an element is found.
-enum class PictureArea : std::uint8_t { slice, projection, coordinates, matrix };
-inline constexpr auto kPictureAreas =
-    text::completeTable<text::NamedValue<PictureArea>>({{"slice", PictureArea::slice},
-                                                        {"projection", PictureArea::projection},
-                                                        {"coordinates", PictureArea::coordinates},
-                                                        {"matrix", PictureArea::matrix}});
+/// What is drawn where something is picked: a slice, the projection, the parallel coordinates or the matrix.
+enum class PickedIn : std::uint8_t { slice, projection, coordinates, matrix };
+inline constexpr auto kPickedIn =
+    text::completeTable<text::NamedValue<PickedIn>>({{"slice", PickedIn::slice},
+                                                     {"projection", PickedIn::projection},
+                                                     {"coordinates", PickedIn::coordinates},
+                                                     {"matrix", PickedIn::matrix}});
 
 /// An element of the object that a picture shows at a pixel.
 struct PickedElement {
     slicing::Element element;
-    PictureArea area = PictureArea::slice;
-    std::size_t slice = 0;  ///< for PictureArea::slice: the index of the slice in the SliceSet
+    PickedIn in = PickedIn::slice;
+    std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet
     double depth = 0;       ///< in slices and in the projection: the distance from the eye along the camera's axis
 };
 

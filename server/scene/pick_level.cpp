@@ -26,7 +26,7 @@ constexpr double kHitDistance = 3;  // pixels: the least distance within which a
 // The points of a slice, in its own place or in the projection, on the ray through a pixel: start + depth · direction,
 // in the units of the object.
 struct SliceRay {
-    PictureArea area = PictureArea::slice;
+    PickedIn in = PickedIn::slice;
     std::size_t slice = 0;
     glm::dvec3 start{0}, direction{0};
     double entry = 0, exit = 0;  // the depths between which the ray is in the box
@@ -50,21 +50,21 @@ class RayCaster {
     // `element`.
     std::optional<PickedLevel> nearestBefore(const std::optional<PickedElement>& element) {
         constexpr double kInf = std::numeric_limits<double>::infinity();
-        const bool isElementInProjection = element && element->area == PictureArea::projection;
+        const bool isElementInProjection = element && element->in == PickedIn::projection;
         std::vector<SliceRay> rays;
-        const auto addRay = [&](PictureArea area, std::size_t slice, const glm::dvec3& position, double scale) {
+        const auto addRay = [&](PickedIn in, std::size_t slice, const glm::dvec3& position, double scale) {
             if (!scene_.placements[slice].drawn) return;
             placeSection(slice);
-            if (const auto ray = rayThrough(area, slice, position, scale)) rays.push_back(*ray);
+            if (const auto ray = rayThrough(in, slice, position, scale)) rays.push_back(*ray);
         };
         for (std::size_t i = 0; i < scene_.placements.size(); ++i)
-            addRay(PictureArea::slice, i, scene_.placements[i].position, scene_.scale);
+            addRay(PickedIn::slice, i, scene_.placements[i].position, scene_.scale);
         std::ranges::sort(rays, {}, &SliceRay::entry);
         castAll(rays, element && !isElementInProjection ? element->depth : kInf);
         const auto& focus = scene_.projection.focusSurface;
         if (!found_ && (!element || isElementInProjection) && scene_.projectionPlacement.shown && focus) {
             rays.clear();
-            addRay(PictureArea::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
+            addRay(PickedIn::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
             castAll(rays, element ? element->depth : kInf);
         }
         field_.function->releasePages();
@@ -96,10 +96,9 @@ class RayCaster {
 
     // Returns the ray in a slice, whose section must have been placed; an empty optional if it misses the box.
     // `position` and `scale` map the units of the object to world space.
-    std::optional<SliceRay> rayThrough(PictureArea area, std::size_t slice, const glm::dvec3& position,
-                                       double scale) const {
+    std::optional<SliceRay> rayThrough(PickedIn in, std::size_t slice, const glm::dvec3& position, double scale) const {
         SliceRay ray;
-        ray.area = area;
+        ray.in = in;
         ray.slice = slice;
         ray.start = (scene_.camera.eye - position) / scale;
         ray.direction = direction_ / scale;
@@ -175,7 +174,7 @@ class RayCaster {
         if (crossing.depth >= nearest_) return;
         nearest_ = crossing.depth;
         const glm::dvec3 p = ray.start + crossing.depth * ray.direction;
-        found_ = {level.index, crossing.cap, ray.area, ray.slice, glm::dvec4(p, scene_.placements[ray.slice].w)};
+        found_ = {level.index, crossing.cap, ray.in, ray.slice, glm::dvec4(p, scene_.placements[ray.slice].w)};
     }
 
     bool isInside(float value, const SurfaceLook::LevelLook& look) const {
@@ -228,7 +227,7 @@ std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, con
             const glm::dvec2 offset = nearestToOrigin(line[k] - at, line[k + 1] - at);
             if (glm::length(offset) > nearest) continue;
             nearest = glm::length(offset);
-            found = {contours.level[i], false, PictureArea::matrix, 0, scene.sectionMatrix.point};
+            found = {contours.level[i], false, PickedIn::matrix, 0, scene.sectionMatrix.point};
             found->point[axes[0]] = at.x + offset.x;
             found->point[axes[1]] = at.y + offset.y;
         }
@@ -242,8 +241,7 @@ std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& fi
                                      const geometry::Rotation& orientation, glm::dvec2 point,
                                      const std::optional<PickedElement>& element) {
     if (scene.surfaces.empty()) return std::nullopt;
-    const bool isElementInSpace =
-        element && (element->area == PictureArea::slice || element->area == PictureArea::projection);
+    const bool isElementInSpace = element && (element->in == PickedIn::slice || element->in == PickedIn::projection);
     if (element && !isElementInSpace) return std::nullopt;
     if (const auto shown = matrixPointAt(scene, point)) return pickContour(scene, point, *shown);
     if (isClearedOfSlices(scene, point)) return std::nullopt;

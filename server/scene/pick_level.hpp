@@ -19,9 +19,9 @@ namespace oval4d::scene {
 struct PickedLevel {
     std::size_t level = 0;  ///< the index of the level in slicing::FieldSettings::levels
     bool cap = false;       ///< whether the point is on a cap (see slicing::SliceSurface), inside the body of the level
-    PictureArea area = PictureArea::slice;  ///< slice, projection or matrix
-    std::size_t slice = 0;                  ///< but for PictureArea::matrix: the index of the slice in the SliceSet
-    glm::dvec4 point{0};                    ///< in the units of the object, after the rotation
+    PickedIn in = PickedIn::slice;  ///< slice, projection or matrix
+    std::size_t slice = 0;          ///< but for PickedIn::matrix: the index of the slice in the SliceSet
+    glm::dvec4 point{0};            ///< in the units of the object, after the rotation
 };
 
 /// Returns what the picture shows of the levels of `field`, rotated by `orientation`, at the point (x, y), in pixels

@@ -109,9 +109,9 @@ std::string answerMessage(const Answer& answer, std::optional<double> id) {
 std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
                       const slicing::Object& source, std::uint64_t revision, std::optional<double> id) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;
-    const auto writeArea = [&](JsonWriter& w, scene::PictureArea area, std::size_t slice) {
-        w.member("in", text::nameOf(scene::kPictureAreas, area));
-        if (area != scene::PictureArea::slice) return;
+    const auto writePickedIn = [&](JsonWriter& w, scene::PickedIn in, std::size_t slice) {
+        w.member("in", text::nameOf(scene::kPickedIn, in));
+        if (in != scene::PickedIn::slice) return;
         w.member("slice", scene.placements[slice].index);
         w.member("w", origin.w + scene.placements[slice].w);
     };
@@ -120,10 +120,10 @@ std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const
         w.key("highlight");
         writeValue(w, at.element ? std::optional(at.element->element) : std::nullopt);
         if (at.element) {
-            writeArea(w, at.element->area, at.element->slice);
+            writePickedIn(w, at.element->in, at.element->slice);
             writeElementMembers(w, at.element->element, scene, object, source);
         } else if (at.level) {
-            writeArea(w, at.level->area, at.level->slice);
+            writePickedIn(w, at.level->in, at.level->slice);
             w.member("level", std::uint64_t{at.level->level});
             w.member("cap", at.level->cap);
             slicing::FieldSample sample = *at.sample;

@@ -78,7 +78,7 @@ TEST(PickLevel, FindsTheNearestPointOfTheOuterLevelOnTheRay) {
                 ++found;
                 EXPECT_EQ(hit->level, 1U) << "it encloses the other level";
                 EXPECT_FALSE(hit->cap);
-                EXPECT_EQ(hit->area, PictureArea::slice);
+                EXPECT_EQ(hit->in, PickedIn::slice);
                 EXPECT_NEAR(glm::dot(hit->point, hit->point), 0.6, 1e-5);
                 EXPECT_EQ(hit->point.w, picture.scene.placements[hit->slice].w);
                 const glm::dvec2 pixel = picture.pixelOf(hit->slice, glm::dvec3(hit->point));
@@ -175,7 +175,7 @@ TEST(PickLevel, FindsTheSurfaceOfTheFocusSliceInTheProjection) {
     const auto at = [&](const glm::dvec3& p) { return picture.at(picture.pixelOfWorld(center + scale * p)); };
     const auto hit = at(radius * toEye);
     ASSERT_TRUE(hit);
-    EXPECT_EQ(hit->area, PictureArea::projection);
+    EXPECT_EQ(hit->in, PickedIn::projection);
     EXPECT_EQ(hit->slice, slice);
     EXPECT_FALSE(hit->cap);
     EXPECT_LT(glm::distance(hit->point, glm::dvec4(radius * toEye, w)), 1e-4);
@@ -210,13 +210,13 @@ TEST(PickLevel, FindsTheSurfacesOfSlicesBeforeThatOfTheProjection) {
                     continue;
                 }
                 ASSERT_TRUE(found);
-                EXPECT_EQ(found->area, PictureArea::slice);
+                EXPECT_EQ(found->in, PickedIn::slice);
                 EXPECT_EQ(found->slice, inSlice->slice);
                 EXPECT_EQ(found->point, inSlice->point);
                 // With the slice behind the eye, the projection is found.
                 scene.placements[10].position = 11.0 * scene.camera.eye;
                 const auto alone = picture.at(pixel);
-                both += alone && alone->area == PictureArea::projection ? 1 : 0;
+                both += alone && alone->in == PickedIn::projection ? 1 : 0;
                 scene.placements[10].position = glm::dvec3(0);
             }
         }
@@ -270,7 +270,7 @@ TEST(PickLevel, FindsContoursInThePanelsOfTheMatrix) {
                 const auto hit = picture.at(pixelAt(0.6 * radius, 0.8 * radius));
                 ASSERT_TRUE(hit) << row << ", " << column;
                 EXPECT_EQ(hit->level, level);
-                EXPECT_EQ(hit->area, PictureArea::matrix);
+                EXPECT_EQ(hit->in, PickedIn::matrix);
                 EXPECT_NEAR(glm::dot(hit->point, hit->point), look.field.levels[level], 0.01);
                 glm::dvec4 expected = point;
                 expected[column] = 0.6 * radius;

@@ -68,7 +68,7 @@ TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
             if (!nearest) continue;
             const auto hit = picture.at(pixel);
             ASSERT_TRUE(hit) << name << ", slice " << i;
-            if (hit->area != PictureArea::slice || hit->slice != i) continue;  // another slice is in front of it
+            if (hit->in != PickedIn::slice || hit->slice != i) continue;  // another slice is in front of it
             EXPECT_EQ(hit->element, (slicing::Element{ElementKind::edge, picture.slices.vertexSource[*nearest]}));
         }
     }
@@ -98,7 +98,7 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
                     if (glm::distance(a, b) * scale * 720 < 20) continue;  // a short edge is hidden by its points
                     const auto hit = picture.at(pixelOf(0.5 * (a + b)));
                     ASSERT_TRUE(hit) << name;
-                    EXPECT_EQ(hit->area, PictureArea::matrix);
+                    EXPECT_EQ(hit->in, PickedIn::matrix);
                     EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, section.edgeSource[e]}));
                     const auto end = picture.at(pixelOf(a));
                     ASSERT_TRUE(end);
@@ -143,7 +143,7 @@ TEST(Pick, FindsPointsOfACloudInTheMatrixAsFarAsTheyAreDrawn) {
     };
     const auto hit = at(0.9 * radius);
     ASSERT_TRUE(hit);
-    EXPECT_EQ(hit->area, PictureArea::matrix);
+    EXPECT_EQ(hit->in, PickedIn::matrix);
     EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, 0}));
     EXPECT_FALSE(at(1.1 * radius));
 }
@@ -240,7 +240,7 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
         const auto hit = picture.at(picture.project(picture.scene.projectionPlacement.position +
                                                     projection.scale * projection.elements.vertices[v]));
         ASSERT_TRUE(hit);
-        EXPECT_EQ(hit->area, PictureArea::projection);
+        EXPECT_EQ(hit->in, PickedIn::projection);
         found +=
             hit->element == slicing::Element{ElementKind::vertex, projection.elements.vertexSource[v] - 96} ? 1 : 0;
     }
@@ -252,7 +252,7 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
         const double y = layout.zero - row * layout.rowStep + 0.5 * layout.amplitude;
         const auto hit = picture.at({x * 720, (1 - y) * 720, 0});
         ASSERT_TRUE(hit);
-        EXPECT_EQ(hit->area, PictureArea::coordinates);
+        EXPECT_EQ(hit->in, PickedIn::coordinates);
         EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, static_cast<std::size_t>(i)}));
     }
 }
@@ -280,7 +280,7 @@ TEST(Pick, FindsWhatIsInASliceBeforeTheProjectionFromEverywhere) {
                     const auto inSlice = picture.at(pixel);
                     if (!inSlice) continue;
                     ASSERT_TRUE(found);
-                    EXPECT_EQ(found->area, PictureArea::slice) << x << ", " << y;
+                    EXPECT_EQ(found->in, PickedIn::slice) << x << ", " << y;
                     EXPECT_EQ(found->element, inSlice->element);
                     EXPECT_EQ(found->slice, inSlice->slice);
                     const glm::dvec3 center = picture.project(picture.scene.projectionPlacement.position);
@@ -308,7 +308,7 @@ std::optional<std::size_t> vertexInStrip(Picture& picture, double along, double 
     const CoordinatesLayout& layout = picture.scene.coordinates;
     const double x = layout.left + layout.lineWidth / 2 + along * layout.lineStep;
     const auto hit = picture.at({x * 720, (1 - height) * 720, 0});
-    if (!hit || hit->area != PictureArea::coordinates) return std::nullopt;
+    if (!hit || hit->in != PickedIn::coordinates) return std::nullopt;
     EXPECT_EQ(hit->element.kind, ElementKind::vertex);
     return hit->element.index;
 }

@@ -9,7 +9,12 @@ import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
 import { FillMesh } from "./fill_mesh";
 import { FogPainter } from "./fog_painter";
-import { allHighlighted, changeBetween, type ElementCounts, type HighlightedElements } from "./highlighted_elements";
+import {
+    changeBetween,
+    keptAndPointedElements,
+    type ElementCounts,
+    type HighlightedElements,
+} from "./highlighted_elements";
 import { HitTester } from "./hit_tester";
 import { onWhite } from "./on_white";
 import { drawOverlay } from "./overlay";
@@ -120,7 +125,7 @@ export class GeometryView {
         this.picture = picture;
         this.pictureOrbit = orbit;
         this.hitTester = new HitTester(picture, orbit);
-        const highlighted = (this.highlighted = allHighlighted(picture, this.pointed));
+        const highlighted = (this.highlighted = keptAndPointedElements(picture, this.pointed));
         const filled = this.fillMesh.update(picture, highlighted);
         const isField = this.surfacePainter.update(picture) || picture.scene.fog !== undefined;
         this.fogPainter.update(picture);
@@ -143,7 +148,7 @@ export class GeometryView {
         this.pointed = pointed;
         const { picture, highlighted: before } = this;
         if (!picture || !before) return;
-        const highlighted = (this.highlighted = allHighlighted(picture, pointed));
+        const highlighted = (this.highlighted = keptAndPointedElements(picture, pointed));
         const change = changeBetween(before, highlighted);
         for (const mesh of [this.sliceMesh, this.fillMesh, this.projectionMesh]) {
             mesh.writeColorsToBuffers(picture, highlighted, change);

@@ -46,7 +46,10 @@ function ownHighlight({ element, number }: PolytopeElement, { edges, faces }: El
 }
 
 /** The parts of a picture that show the kept element and the element under the pointer. */
-export function allHighlighted({ highlight }: Slices, pointed: HighlightedElements | undefined): HighlightedElements {
+export function keptAndPointedElements(
+    { highlight }: Slices,
+    pointed: HighlightedElements | undefined,
+): HighlightedElements {
     return {
         vertices: new Set([...(highlight?.vertices ?? []), ...(pointed?.vertices ?? [])]),
         edges: new Set([...(highlight?.edges ?? []), ...(pointed?.edges ?? [])]),
