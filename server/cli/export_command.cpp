@@ -7,8 +7,10 @@
 
 #include "cli/state_arguments.hpp"
 #include "pipeline/export_pipeline.hpp"
+#include "session/picture.hpp"
 #include "text/choice.hpp"
 #include "text/message_text.hpp"
+#include "wire/export_query.hpp"
 
 namespace oval4d {
 
@@ -65,10 +67,9 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {
     session::QueryParameters query = queryOf(app.remaining());
-    const auto request =
-        valueOrThrow(pipeline::extractExportRequest(query, formatOf(options), commandLineLimits().slices));
+    const auto request = valueOrThrow(wire::extractExportRequest(query, formatOf(options), commandLineLimits().slices));
     const auto state = loadState(query, session::kFileParameters);
-    const auto file = valueOrThrow(pipeline::exportState(state, request, commandLineLimits()));
+    const auto file = valueOrThrow(pipeline::exportFile(session::pictureOf(state), request, commandLineLimits()));
     for (const std::string& warning : file.warnings) std::cerr << "oval4d: " << warning << '\n';
     writeOutput(options.output, file.bytes);
 }

@@ -8,6 +8,7 @@
 #include "cli/state_arguments.hpp"
 #include "pipeline/frame_limits.hpp"
 #include "pipeline/pipeline.hpp"
+#include "session/picture.hpp"
 #include "wire/state_message.hpp"
 
 namespace oval4d {
@@ -26,8 +27,8 @@ void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin,
                                 {.sliceEdges = std::numeric_limits<std::size_t>::max()});
     std::vector<std::uint8_t> png;
-    pipeline.drawPng(state, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(state)), viewport,
-                     slicing::Quality::full, png);
+    const scene::PictureRequest picture = session::pictureOf(state, viewport);
+    pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture)), png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -8,6 +8,7 @@
 
 #include "export/export_contents.hpp"
 #include "export/formats/formats.hpp"
+#include "geometry/range.hpp"
 #include "text/choice.hpp"
 
 namespace oval4d::exports {
@@ -29,6 +30,11 @@ inline constexpr auto kLabels = text::completeTable<text::NamedValue<LabelPlacem
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
 inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
+/// Returns these bounds for the files of a format.
+inline geometry::Range sizeRangeOf(const Format& format) {
+    return format.writeDrawing != nullptr ? geometry::Range{kMinDrawingSize, kMaxDrawingSize}
+                                          : geometry::Range{kMinSize, kMaxSize};
+}
 
 /// The options of an export. `body` and `label` apply only to formats with bodies; `size` applies to formats with
 /// bodies and to drawings.

@@ -5,6 +5,10 @@
 
 namespace oval4d::geometry {
 
+/// Bounds of hyperplanes that users choose, as multiples of the object's circumradius.
+inline constexpr double kMinSpacing = 1e-6, kMaxSpacing = 10;
+inline constexpr double kMaxOffset = 10;  ///< the absolute value of w from which the hyperplanes are counted
+
 /// Parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1, or, if
 /// `listed` is not empty, w = listed[n − first].
 struct Hyperplanes {

@@ -3,16 +3,15 @@
 #include <spdlog/spdlog.h>
 
 #include "polytopes/catalogue/catalogue.hpp"
-#include "session/session.hpp"
+#include "session/picture.hpp"
 
 namespace oval4d::net {
 
 void Readiness::warmUpOrMarkBroken(pipeline::Pipeline& pipeline) {
     try {
-        const session::State state = session::initialState();
         std::vector<std::uint8_t> png;
         pipeline.warmUp();
-        pipeline.drawPng(state, "", {}, slicing::Quality::full, png);
+        pipeline.drawPng(session::pictureOf(session::initialState()), "", png);
         (void)polytopes::findEntry("");  // the first call builds the tables of names
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {

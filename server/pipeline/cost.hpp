@@ -4,8 +4,8 @@
 #include <chrono>
 
 #include "export/export_request.hpp"
-#include "scene/scene.hpp"
-#include "session/session.hpp"
+#include "scene/picture_request.hpp"
+#include "slicing/object.hpp"
 
 namespace oval4d::pipeline {
 
@@ -15,21 +15,21 @@ namespace oval4d::pipeline {
 using EstimatedSeconds = std::chrono::duration<double>;
 
 /// Returns the estimated time of Pipeline::drawPng().
-EstimatedSeconds frameCost(const session::State& state, scene::Viewport viewport, slicing::Quality quality);
+EstimatedSeconds frameCost(const scene::PictureRequest& picture);
 
 /// Returns the estimated time of Pipeline::slice() and Pipeline::writeSlices() together.
-EstimatedSeconds geometryCost(const session::State& state, slicing::Quality quality);
+EstimatedSeconds geometryCost(const scene::PictureRequest& picture);
 
 /// Returns the estimated time of Pipeline::describePoint().
-EstimatedSeconds pointCost(const session::State& state);
+EstimatedSeconds pointCost(const scene::PictureRequest& picture);
 
-/// Returns the estimated time of slicing::sampleField() for the state's field.
-EstimatedSeconds sampleCost(const session::State& state);
+/// Returns the estimated time of slicing::sampleField() for a field.
+EstimatedSeconds sampleCost(const slicing::Object& object);
 
 /// Returns the estimated time of Pipeline::nameFocusSection().
-EstimatedSeconds focusSectionCost(const session::State& state);
+EstimatedSeconds focusSectionCost(const slicing::Object& object);
 
-/// Returns the estimated time of exportState().
-EstimatedSeconds exportCost(const session::State& state, const exports::ExportRequest& request);
+/// Returns the estimated time of exportFile().
+EstimatedSeconds exportCost(const scene::PictureRequest& picture, const exports::ExportRequest& request);
 
 }  // namespace oval4d::pipeline

@@ -1,7 +1,6 @@
 #include "pipeline/export_pipeline.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -10,8 +9,6 @@
 
 #include "pipeline/pipeline.hpp"
 #include "scene/composer.hpp"
-#include "session/expression.hpp"
-#include "session/settings.hpp"
 #include "slicing/element_shape.hpp"
 #include "slicing/projector.hpp"
 #include "slicing/slice_edges.hpp"
@@ -19,80 +16,17 @@
 #include "text/ascii.hpp"
 #include "text/choice.hpp"
 #include "text/message_text.hpp"
-#include "text/words.hpp"
+#include "wire/export_query.hpp"
 
 namespace oval4d::pipeline {
 
 namespace {
 
-template <typename Choices, typename Value>
-Result<std::monostate> parseChoice(const std::string& name, const std::string& value, const Choices& choices,
-                                   Value& into) {
-    if (const auto found = text::valueNamed(choices, value)) {
-        into = *found;
-        return std::monostate{};
-    }
-    return Error{ErrorCode::bad_message,
-                 name + " must be " + text::alternatives(text::namesOf(choices)) + ", not " + text::inQuotes(value)};
-}
-
-/// The least and the greatest value of the option `size` of an export, in millimeters.
-struct MillimeterRange {
-    double least, most;
-};
-MillimeterRange sizeRangeOf(const exports::Format& format) {
-    const bool isDrawing = format.writeDrawing != nullptr;
-    return isDrawing ? MillimeterRange{exports::kMinDrawingSize, exports::kMaxDrawingSize}
-                     : MillimeterRange{exports::kMinSize, exports::kMaxSize};
-}
-
-Result<std::monostate> parseSize(const std::string& text, const MillimeterRange& bounds, double& size) {
-    const char* const end = text.data() + text.size();
-    double value = 0;
-    const auto [stopped, fault] = std::from_chars(text.data(), end, value);
-    if (fault != std::errc{} || stopped != end || !(value >= bounds.least && value <= bounds.most)) {
-        return Error{ErrorCode::out_of_range, "size must be from " + text::roundedDecimal(bounds.least) + " to " +
-                                                  text::roundedDecimal(bounds.most) + " millimeters, not " +
-                                                  text::inQuotes(text)};
-    }
-    size = value;
-    return std::monostate{};
-}
-
-Result<std::monostate> parseSwitch(const std::string& name, const std::string& value, bool& into) {
-    const bool yes = value == "on" || value == "true" || value == "yes" || value == "1";
-    const bool no = value == "off" || value == "false" || value == "no" || value == "0";
-    if (!yes && !no) return Error{ErrorCode::bad_message, name + " must be on or off, not " + text::inQuotes(value)};
-    into = yes;
-    return std::monostate{};
-}
-
-Result<std::monostate> parseChosenW(const std::string& text, std::vector<double>& at) {
-    auto list = session::evaluateList(text);
-    if (!list) return Error{list.error().code, "at: " + list.error().message};
-    at = std::move(*list);
-    return std::monostate{};
-}
-
-Error wrongFit(int maxSlices, const std::string& given) {
-    return {ErrorCode::out_of_range,
-            "fit must be a whole number of slices from 1 to " + std::to_string(maxSlices) + ", not " + given};
-}
-
-Result<std::monostate> parseFittedSlices(const std::string& text, int maxSlices, std::optional<int>& fit) {
-    const auto value = session::evaluate(text);
-    if (!value) return Error{value.error().code, "fit: " + value.error().message};
-    if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
-        return wrongFit(maxSlices, text::roundedDecimal(*value));
-    fit = static_cast<int>(*value);
-    return std::monostate{};
-}
-
 // Returns the hyperplanes at the values of w in `at`, which is ExportRequest::chosenW. These values are coordinates in
 // the object's file, as in the labels of slices.
-Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const session::State& state) {
-    const double origin = slicing::infoOf(state.object).originInFile.w;
-    const double reach = session::kMaxOffset * slicing::infoOf(state.object).circumradius;
+Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const scene::PictureRequest& picture) {
+    const double origin = slicing::infoOf(picture.object).originInFile.w;
+    const double reach = geometry::kMaxOffset * slicing::infoOf(picture.object).circumradius;
     for (const double w : at) {
         if (std::abs(w - origin) <= reach) continue;
         return Error{ErrorCode::out_of_range,
@@ -106,16 +40,16 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     }
     std::vector<double> own = at;
     for (double& w : own) w -= origin;
-    return geometry::Hyperplanes{0, static_cast<int>(at.size()), state.slices.spacing, 0, std::move(own)};
+    return geometry::Hyperplanes{0, static_cast<int>(at.size()), picture.planes.spacing, 0, std::move(own)};
 }
 
 // Divides the object's extent along w into `count` equal intervals, and returns the hyperplanes in the middles of the
 // intervals. If slices are thick, as those of a point cloud, the intervals are slightly longer, because a slice does
 // not contain the points at the upper end of its interval.
-geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state) {
-    const double larger = slicing::propertiesOf(state.object).slicesAreThick ? 1 + 1e-9 : 1;
-    const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
-    const double shortest = session::kMinSpacing * slicing::infoOf(state.object).circumradius;
+geometry::Hyperplanes fittingHyperplanes(int count, const scene::PictureRequest& picture) {
+    const double larger = slicing::propertiesOf(picture.object).slicesAreThick ? 1 + 1e-9 : 1;
+    const auto [least, most] = slicing::rangeOfW(picture.object, picture.orientation);
+    const double shortest = geometry::kMinSpacing * slicing::infoOf(picture.object).circumradius;
     const double spacing = std::max(larger * (most - least) / count, shortest);  // a flat object may have no extent
     const double middle = (least + most) / 2;
     return {-(count - 1) / 2, count, spacing, count % 2 == 1 ? middle : middle - spacing / 2};
@@ -124,14 +58,10 @@ geometry::Hyperplanes fittingHyperplanes(int count, const session::State& state)
 // Returns the hyperplanes of the slices in the file. Errors: `bad_message` if the options contradict each other;
 // `out_of_range` for too many slices, for a number of slices less than 1, or for values of w that are too far away or
 // equal.
-Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const session::State& state,
+Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const scene::PictureRequest& picture,
                                             int maxSlices) {
     const bool all = request.contents == exports::ExportContentsKind::oval;
-    if (!request.choosesSlices()) {
-        auto planes = state.hyperplanes();
-        if (!all) planes = {state.slices.focus, 1, planes.spacing, planes.offset};
-        return planes;
-    }
+    if (!request.choosesSlices()) return all ? picture.planes : picture.focusPlane();
     if (!request.chosenW.empty() && request.fittedSlices)
         return Error{ErrorCode::bad_message, "give either at or fit, not both"};
     if (!all) {
@@ -140,28 +70,28 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     }
     if (request.fittedSlices) {
         if (*request.fittedSlices < 1 || *request.fittedSlices > maxSlices)
-            return wrongFit(maxSlices, text::roundedDecimal(*request.fittedSlices));
-        return fittingHyperplanes(*request.fittedSlices, state);
+            return wire::wrongFit(maxSlices, text::roundedDecimal(*request.fittedSlices));
+        return fittingHyperplanes(*request.fittedSlices, picture);
     }
     if (request.chosenW.size() > static_cast<std::size_t>(maxSlices)) {
         return Error{ErrorCode::out_of_range, "the number of values of at must be at most " +
                                                   std::to_string(maxSlices) + ", not " +
                                                   std::to_string(request.chosenW.size())};
     }
-    return hyperplanesAt(request.chosenW, state);
+    return hyperplanesAt(request.chosenW, picture);
 }
 
 // Returns a set whose only slice is the projection of the whole object, to be exported instead of `slices`. The
 // projection is orthogonal if the picture shows an orthogonal projection, else perspective.
-slicing::SliceSet projectionOf(const session::State& state, const slicing::SliceSet& slices) {
-    const scene::ProjectionSettings& settings = state.look.projection;
+slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slicing::SliceSet& slices) {
+    const scene::ProjectionSettings& settings = picture.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
-    const double radius = slicing::infoOf(state.object).circumradius;
+    const double radius = slicing::infoOf(picture.object).circumradius;
     slicing::SliceSet projected;
     std::vector<std::uint32_t> faceCells;
     slicing::Projector().project(
-        state.object, state.orientation, slices,
-        {.projection = {parallel ? 0 : 1 / (settings.eye * radius)}, .culled = !state.look.parts.back}, projected,
+        picture.object, picture.orientation, slices,
+        {.projection = {parallel ? 0 : 1 / (settings.eye * radius)}, .culled = !picture.look.parts.back}, projected,
         faceCells);
     projected.planes = slices.planes;
     projected.rotatedVertices = slices.rotatedVertices;
@@ -180,21 +110,22 @@ bool readsFieldSurfaces(const exports::ExportRequest& request) {
 
 }  // namespace
 
-Result<exports::ExportedFile> exportState(const session::State& state, const exports::ExportRequest& request,
-                                          const exports::ExportLimits& limits, std::stop_token stop) {
-    const auto chosen = hyperplanesOf(request, state, limits.slices);
+Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, const exports::ExportRequest& request,
+                                         const exports::ExportLimits& limits, std::stop_token stop) {
+    const auto chosen = hyperplanesOf(request, picture, limits.slices);
     if (!chosen) return chosen.error();
     const geometry::Hyperplanes& planes = *chosen;
     const bool drawing = request.format->writeDrawing != nullptr;
-    if (const auto [least, most] = sizeRangeOf(*request.format); !(request.size >= least && request.size <= most)) {
+    if (const auto [least, most] = exports::sizeRangeOf(*request.format);
+        !(request.size >= least && request.size <= most)) {
         return Error{ErrorCode::out_of_range, std::string("the size of a ") + (drawing ? "drawing" : "body") +
                                                   " must be " +
                                                   text::outsideBoundsText(least, most, " millimeters", request.size)};
     }
-    const bool isField = slicing::fieldIn(state.object) != nullptr;
+    const bool isField = slicing::fieldIn(picture.object) != nullptr;
     std::optional<slicing::Element> element;  // the highlighted element, if it is exported alone
     if (request.contents == exports::ExportContentsKind::highlight && request.format->canContain(request.contents)) {
-        element = state.look.highlight;
+        element = picture.look.highlight;
         if (!element) {
             return Error{ErrorCode::no_body,
                          "nothing is highlighted; click an element of the picture, or name one, as in highlight cell "
@@ -207,23 +138,23 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
     if (isField && readsFieldSurfaces(request)) {
-        slicing::setUniformDetail(slicing::infoOf(state.object).circumradius, planes, slicing::Quality::file, detail);
+        slicing::setUniformDetail(slicing::infoOf(picture.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
     }
     if (element) {
-        slicing::writeElementAsSlice(state.object, *element, state.orientation, slices);
+        slicing::writeElementAsSlice(picture.object, *element, picture.orientation, slices);
     } else {
         try {
-            slicing::checkSliceEdges(state.object, state.orientation, planes, limits.sliceEdges);
+            slicing::checkSliceEdges(picture.object, picture.orientation, planes, limits.sliceEdges);
         } catch (const slicing::TooManySliceEdges& fault) {
             return Error{ErrorCode::too_large, fault.what()};
         }
-        slicing::Slicer().slice(state.object, state.orientation, planes, state.look.field, detail, slices);
+        slicing::Slicer().slice(picture.object, picture.orientation, planes, picture.look.field, detail, slices);
     }
-    if (request.contents == exports::ExportContentsKind::projection && !drawing) slices = projectionOf(state, slices);
+    if (request.contents == exports::ExportContentsKind::projection && !drawing) slices = projectionOf(picture, slices);
     scene::Look look;
     if (hasOwnLook) {
-        look = state.look;
+        look = picture.look;
         if (drawing) look.background = scene::Background::white;  // because drawings are printed on white paper
         if (request.contents == exports::ExportContentsKind::matrix) {
             look.view = scene::View::matrix;
@@ -239,9 +170,9 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
             look.projection.kind = scene::ProjectionKind::perspective;
         }
     }
-    look.coloring = state.look.coloring;
+    look.coloring = picture.look.coloring;
     look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
-    look.field = state.look.field;
+    look.field = picture.look.field;
     if (!hasOwnLook) look.parts.faces = isField;  // show the surfaces of fields, but do not fill faces
     scene::Scene scene;
     scene::Composer composer;
@@ -253,12 +184,12 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     if (isSquare) viewport.width = viewport.height;
     if (isExportedInPortrait(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
-    composer.compose(state.object, state.orientation, slices, focus, look, viewport, scene, slicing::Quality::file);
+    composer.compose(picture.object, picture.orientation, slices, focus, look, viewport, scene, slicing::Quality::file);
     if (element) scene.look.highlight = element;  // set only now, because compose() would color the element differently
     // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
     // also shows the focus point, as the view `matrix` does.
-    if (isSquare && state.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
-    auto made = exports::exportScene(scene, state.object, state.orientation, request, limits, std::move(stop));
+    if (isSquare && picture.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
+    auto made = exports::exportScene(scene, picture.object, picture.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {
         using Cause = exports::ExportRefusal::Cause;
         const ErrorCode code = error->cause == Cause::no_body   ? ErrorCode::no_body
@@ -269,42 +200,9 @@ Result<exports::ExportedFile> exportState(const session::State& state, const exp
     return std::get<exports::ExportedFile>(std::move(made));
 }
 
-Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
-                                                    int maxSlices) {
-    exports::ExportRequest request = exports::defaultRequestFor(format);
-    session::QueryParameters rest;
-    bool hasContents = false;
-    for (auto& [name, written] : query) {
-        const std::string value(text::trimmed(text::withPlainBlanks(written)));
-        Result<std::monostate> done = std::monostate{};
-        if (name == "of") {
-            hasContents = true;
-            done = parseChoice(name, value, exports::kExportContents, request.contents);
-        } else if (name == "at") {
-            done = parseChosenW(value, request.chosenW);
-        } else if (name == "fit") {
-            done = parseFittedSlices(value, maxSlices, request.fittedSlices);
-        } else if (name == "body") {
-            done = parseChoice(name, value, exports::kBodies, request.body);
-        } else if (name == "label") {
-            done = parseChoice(name, value, exports::kLabels, request.label);
-        } else if (name == "exact") {
-            done = parseSwitch(name, value, request.exact);
-        } else if (name == "size") {
-            done = parseSize(value, sizeRangeOf(format), request.size);
-        } else {
-            rest.emplace_back(std::move(name), std::move(written));
-        }
-        if (!done) return done.error();
-    }
-    if (!hasContents && request.choosesSlices()) request.contents = exports::ExportContentsKind::oval;
-    query = std::move(rest);
-    return request;
-}
-
-std::string fileName(const session::State& state, const exports::ExportRequest& request) {
+std::string fileName(const slicing::Object& object, const exports::ExportRequest& request) {
     std::string name;
-    for (const char c : slicing::infoOf(state.object).name) {
+    for (const char c : slicing::infoOf(object).name) {
         const bool plain = text::isDigit(c) || text::isLetter(c) || c == '-';
         name += plain ? c : '_';
     }

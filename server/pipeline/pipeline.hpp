@@ -12,12 +12,11 @@
 #include "parallel/fork_join.hpp"
 #include "parallel/ownership.hpp"
 #include "pipeline/focus_section.hpp"
-#include "raster/picture_request.hpp"
 #include "raster/rasterizer.hpp"
 #include "scene/composer.hpp"
-#include "session/session.hpp"
+#include "scene/picture_request.hpp"
 #include "slicing/slicer.hpp"
-#include "wire/request.hpp"
+#include "wire/encoding.hpp"
 #include "wire/slices_message.hpp"
 
 namespace oval4d::pipeline {
@@ -34,8 +33,8 @@ struct PictureWorkLimits {
     std::size_t sliceEdges = 5'000'000;  ///< edges of all slices together (see slicing::checkSliceEdges())
 };
 
-/// Converts a session's state to the data that a client displays: a `slices` message (state → slices → scene → message)
-/// or a PNG file (state → pixels → file). Used by the server and the command line. Keeps its memory between calls. A
+/// Makes of a picture's description what a client displays: a `slices` message (picture → slices → scene → message) or
+/// a PNG file (picture → pixels → file). Used by the server and the command line. Keeps its memory between calls. A
 /// pipeline may be used by one thread at a time.
 class Pipeline {
   public:
@@ -48,34 +47,33 @@ class Pipeline {
     /// Returns the two names of the section in the focus slice, for the `state` message: the name of the slice, such as
     /// "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
     /// slicing::SectionNamePair). A name that does not exist is empty.
-    slicing::SectionNamePair nameFocusSection(const session::State& state);
+    slicing::SectionNamePair nameFocusSection(const scene::PictureRequest& picture);
 
-    /// Slices the state's object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the
-    /// slices exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the samples of a field are in a file that
-    /// can no longer be read.
-    void slice(const session::State& state, slicing::Quality quality, slicing::SliceSet& out);
+    /// Slices the object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the slices
+    /// exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the samples of a field are in a file that can no
+    /// longer be read.
+    void slice(const scene::PictureRequest& picture, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of `slices`, the result of slice() for this state and quality. `revision` is
-    /// Session::revision. `id` is the id of the request that the message answers; empty if there is none. Overwrites
-    /// `out`.
-    void writeSlices(const session::State& state, const slicing::SliceSet& slices, std::uint64_t revision,
-                     std::optional<double> id, scene::Viewport viewport, wire::Encoding encoding, std::string& out,
-                     slicing::Quality quality = slicing::Quality::full);
+    /// Writes the `slices` message of `slices`, the result of slice() for this picture; their looks and viewports may
+    /// differ. `revision` is Session::revision. `id` is the id of the request that the message answers; empty if there
+    /// is none. Overwrites `out`.
+    void writeSlices(const scene::PictureRequest& picture, const slicing::SliceSet& slices, std::uint64_t revision,
+                     std::optional<double> id, wire::Encoding encoding, std::string& out);
 
     /// Returns the `at` message, which says what the picture shows at `point`, in pixels from the upper left corner
     /// (see scene::pickElement() and scene::pickLevel()). `revision` and `id`: see writeSlices(). Slices the object,
     /// unless the last call has cut the same slices; extracts no surfaces of a field, but evaluates its function along
     /// one ray and, in the matrix, for the contours. Throws slicing::TooManySliceEdges and std::runtime_error as
     /// slice() does.
-    std::string describePoint(const session::State& state, std::uint64_t revision, std::optional<double> id,
-                              scene::Viewport viewport, glm::dvec2 point);
+    std::string describePoint(const scene::PictureRequest& picture, std::uint64_t revision, std::optional<double> id,
+                              glm::dvec2 point);
 
-    /// Draws the picture of the state and encodes it as a PNG file, with `stateText`, the `state` message, in a text
-    /// chunk. Overwrites `out`. Calls `drawn`, if given, when the picture is drawn but not yet encoded. Throws
+    /// Draws the picture and encodes it as a PNG file, with `stateText`, the `state` message, in a text chunk.
+    /// Overwrites `out`. Calls `drawn`, if given, when the picture is drawn but not yet encoded. Throws
     /// slicing::TooManySliceEdges as slice() does, and std::runtime_error if the picture cannot be drawn, most likely
     /// because no GL context can be created.
-    void drawPng(const session::State& state, std::string_view stateText, scene::Viewport viewport,
-                 slicing::Quality quality, std::vector<std::uint8_t>& out, const std::function<void()>& drawn = {});
+    void drawPng(const scene::PictureRequest& picture, std::string_view stateText, std::vector<std::uint8_t>& out,
+                 const std::function<void()>& drawn = {});
 
     /// Prepares for drawing, so that the first frame takes no longer than later ones (see Rasterizer::warmUp()).
     void warmUp() { rasterizer_->warmUp(); }
@@ -109,14 +107,13 @@ class Pipeline {
         slicing::SurfaceDetail detail;
         SlicesToPointAt toPointAt;
         FocusSectionNamer sectionNamer;
-        raster::PictureRequest picture;
         scene::Composer composer;
         scene::Scene scene;
         wire::SlicesMessageWriter slicesWriter;
         image::PngEncoder encoder;
     };
 
-    const slicing::SliceSet& sliceToPointAt(const session::State& state);
+    const slicing::SliceSet& sliceToPointAt(const scene::PictureRequest& picture);
 
     const std::unique_ptr<raster::Rasterizer> rasterizer_;
     parallel::ForkJoin* const forkJoin_;

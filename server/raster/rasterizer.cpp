@@ -6,13 +6,13 @@ void LocalRasterizer::warmUp() {
     if (!renderer_) renderer_.emplace(render::fontFile(), render::ShapeBackend::fastest, forkJoin_);
 }
 
-std::span<const std::uint8_t> LocalRasterizer::draw(const PictureRequest& picture, DrawTimes& times) {
+std::span<const std::uint8_t> LocalRasterizer::draw(const scene::PictureRequest& picture, DrawTimes& times) {
     workspace_.pixels.resize(image::byteCount(picture.viewport.width, picture.viewport.height));
     draw(picture, workspace_.pixels, times);
     return workspace_.pixels;
 }
 
-void LocalRasterizer::draw(const PictureRequest& picture, std::span<std::uint8_t> pixels, DrawTimes& times) {
+void LocalRasterizer::draw(const scene::PictureRequest& picture, std::span<std::uint8_t> pixels, DrawTimes& times) {
     warmUp();
     Workspace& m = workspace_;
     m.composer.limitFaceFilling(fillSteps_);

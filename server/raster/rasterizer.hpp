@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "parallel/fork_join.hpp"
-#include "raster/picture_request.hpp"
 #include "render/renderer.hpp"
 #include "scene/composer.hpp"
+#include "scene/picture_request.hpp"
 #include "slicing/slicer.hpp"
 
 namespace oval4d::raster {
@@ -32,7 +32,7 @@ class Rasterizer {
 
     /// Draws a picture and sets `times`. Returns the pixels, with the layout of image::Image, which are valid until the
     /// next call of draw() or freeMemory(). Throws std::runtime_error if drawing fails.
-    virtual std::span<const std::uint8_t> draw(const PictureRequest& picture, DrawTimes& times) = 0;
+    virtual std::span<const std::uint8_t> draw(const scene::PictureRequest& picture, DrawTimes& times) = 0;
 
     /// Frees the memory that this object keeps between pictures. The next picture takes longer to draw.
     virtual void freeMemory() = 0;
@@ -50,14 +50,14 @@ class LocalRasterizer : public Rasterizer {
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
 
     void warmUp() override;
-    std::span<const std::uint8_t> draw(const PictureRequest& picture, DrawTimes& times) override;
+    std::span<const std::uint8_t> draw(const scene::PictureRequest& picture, DrawTimes& times) override;
     /// Frees the memory that this object keeps between pictures, except what Renderer::freeMemory() keeps, such as the
     /// GL context.
     void freeMemory() override;
 
     /// Draws into `pixels`. Throws std::invalid_argument if `pixels` does not have the size of the viewport (see
     /// image::byteCount()).
-    void draw(const PictureRequest& picture, std::span<std::uint8_t> pixels, DrawTimes& times);
+    void draw(const scene::PictureRequest& picture, std::span<std::uint8_t> pixels, DrawTimes& times);
 
   private:
     // What this object keeps between pictures, so that the next one needs no new memory.

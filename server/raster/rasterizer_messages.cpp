@@ -17,7 +17,7 @@ void archiveMembers(auto& picture, auto& archive) {
 
 }  // namespace
 
-void encodeRequest(const PictureRequest& picture, const RasterizerLimits& limits, std::string& out) {
+void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out) {
     out.clear();
     serialization::ByteWriter archive(out);
     archive(slicing::infoOf(picture.source).serial), archive(slicing::infoOf(picture.object).serial);

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "raster/picture_request.hpp"
+#include "scene/picture_request.hpp"
 
 namespace oval4d::raster {
 
@@ -18,18 +18,18 @@ struct RasterizerLimits {
 
 /// The request for one picture.
 struct DrawRequest {
-    /// The serial number of PictureRequest::source. The object itself is sent in a separate message, and only if the
-    /// rasterizer process does not have this object in its cache.
+    /// The serial number of scene::PictureRequest::source. The object itself is sent in a separate message, and only if
+    /// the rasterizer process does not have this object in its cache.
     std::uint64_t source = 0;
-    /// The serial number of PictureRequest::object. This object is never sent: the rasterizer process makes it from the
-    /// source object and the frame of reference.
+    /// The serial number of scene::PictureRequest::object. This object is never sent: the rasterizer process makes it
+    /// from the source object and the frame of reference.
     std::uint64_t object = 0;
-    PictureRequest picture;  ///< the picture to draw; its objects are not sent
+    scene::PictureRequest picture;  ///< the picture to draw; its objects are not sent
     RasterizerLimits limits;
 };
 
 /// Encodes a draw request. Overwrites `out`.
-void encodeRequest(const PictureRequest& picture, const RasterizerLimits& limits, std::string& out);
+void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out);
 /// Decodes a draw request. Overwrites the members of `out` that are sent. Throws std::runtime_error if bytes are
 /// missing or damaged, or if the orientation is not a rotation.
 void decodeRequest(std::string_view bytes, DrawRequest& out);

@@ -60,7 +60,7 @@ void RasterizerProcess::warmUp(const std::stop_token& stop) {
     process_.converseWithRetry([](const Channel&, const WaitLimit&) { return TransferResult::complete; }, stop);
 }
 
-std::span<const std::uint8_t> RasterizerProcess::draw(const PictureRequest& picture, SharedPixels& pixels,
+std::span<const std::uint8_t> RasterizerProcess::draw(const scene::PictureRequest& picture, SharedPixels& pixels,
                                                       DrawTimes& times, const std::stop_token& stop) {
     encodeRequest(picture, limits_, request_);
     const auto drawn = pixels.resize(image::byteCount(picture.viewport.width, picture.viewport.height));

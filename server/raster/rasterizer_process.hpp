@@ -51,7 +51,7 @@ class RasterizerProcess {
 
     /// Like Rasterizer::draw(), but draws into `pixels`, which this function resizes if necessary. The result is valid
     /// until `pixels` is resized again.
-    std::span<const std::uint8_t> draw(const PictureRequest& picture, SharedPixels& pixels, DrawTimes& times,
+    std::span<const std::uint8_t> draw(const scene::PictureRequest& picture, SharedPixels& pixels, DrawTimes& times,
                                        const std::stop_token& stop);
 
   private:

@@ -37,7 +37,7 @@ void WorkerRasterizer::warmUp() {
     if (lock && shared_.multithreaded_) shared_.multithreaded_->warmUp(stop_);
 }
 
-std::span<const std::uint8_t> WorkerRasterizer::draw(const PictureRequest& picture, DrawTimes& times) {
+std::span<const std::uint8_t> WorkerRasterizer::draw(const scene::PictureRequest& picture, DrawTimes& times) {
     const auto drawn = drawInFasterProcess(picture, times);
     shared_.lastDrawSeconds_ = times.draw;
     return drawn;
@@ -47,7 +47,8 @@ void WorkerRasterizer::freeMemory() {
     if (pixels_) pixels_->resize(0);
 }
 
-std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const PictureRequest& picture, DrawTimes& times) {
+std::span<const std::uint8_t> WorkerRasterizer::drawInFasterProcess(const scene::PictureRequest& picture,
+                                                                    DrawTimes& times) {
     struct DrawingCounter {
         std::atomic<int>& drawing;
         const bool alone = drawing++ == 0;

@@ -48,11 +48,11 @@ class WorkerRasterizer : public Rasterizer {
     WorkerRasterizer(SharedRasterizerProcess& shared, std::stop_token stop);
 
     void warmUp() override;
-    std::span<const std::uint8_t> draw(const PictureRequest& picture, DrawTimes& times) override;
+    std::span<const std::uint8_t> draw(const scene::PictureRequest& picture, DrawTimes& times) override;
     void freeMemory() override;
 
   private:
-    std::span<const std::uint8_t> drawInFasterProcess(const PictureRequest& picture, DrawTimes& times);
+    std::span<const std::uint8_t> drawInFasterProcess(const scene::PictureRequest& picture, DrawTimes& times);
 
     SharedRasterizerProcess& shared_;
     const std::stop_token stop_;

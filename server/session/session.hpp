@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "errors/error.hpp"
+#include "geometry/hyperplanes.hpp"
 #include "geometry/range.hpp"
 #include "geometry/reference_frame.hpp"
 #include "geometry/rotation.hpp"
@@ -26,9 +27,8 @@ namespace oval4d::session {
 /// The objects loaded into a session, by name.
 using LoadedObjects = std::map<std::string, slicing::Object, std::less<>>;
 
-/// Bounds of HyperplaneSettings.
-inline constexpr double kMinSpacing = 1e-6, kMaxSpacing = 10;  ///< as multiples of the object's circumradius
-inline constexpr double kMaxOffset = 10;     ///< absolute value of the offset, as a multiple of the circumradius
+/// Bounds of HyperplaneSettings, besides those of its spacing and its offset.
+using geometry::kMaxOffset, geometry::kMaxSpacing, geometry::kMinSpacing;
 inline constexpr int kMaxFocus = 1'000'000;  ///< absolute value of the focus index
 
 /// The hyperplanes that cut the object into slices: w = offset + n · spacing, for `count` consecutive integers n.

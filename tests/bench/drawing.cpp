@@ -20,10 +20,10 @@
 #include <vector>
 
 #include "image/png.hpp"
-#include "pipeline/picture_of_state.hpp"
-#include "raster/picture_request.hpp"
 #include "raster/rasterizer.hpp"
+#include "scene/picture_request.hpp"
 #include "session/object_loader.hpp"
+#include "session/picture.hpp"
 #include "session/query.hpp"
 
 namespace oval4d::bench {
@@ -86,7 +86,7 @@ class Drawer {
         image.height = viewport.height;
         image.pixels.resize(image::byteCount(viewport.width, viewport.height));
         raster::DrawTimes times;
-        pipeline::writePictureOfState(state_, viewport, slicing::Quality::full, picture_);
+        session::writePicture(state_, viewport, slicing::Quality::full, picture_);
         rasterizer_.draw(picture_, image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }
@@ -95,7 +95,7 @@ class Drawer {
 
   private:
     session::State state_;
-    raster::PictureRequest picture_;
+    scene::PictureRequest picture_;
     raster::LocalRasterizer rasterizer_;
     image::PngEncoder encoder_;
     std::vector<std::uint8_t> png_;

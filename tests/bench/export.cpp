@@ -28,6 +28,7 @@
 
 #include "pipeline/export_pipeline.hpp"
 #include "session/object_loader.hpp"
+#include "session/picture.hpp"
 #include "session/query.hpp"
 #include "slicing/fill.hpp"
 #include "slicing/slicer.hpp"
@@ -72,7 +73,7 @@ constexpr FileToExport kFiles[] = {
 };
 
 json files(const std::string& polytope, int turns) {
-    const session::State state = stateOf(polytope);
+    const scene::PictureRequest picture = session::pictureOf(stateOf(polytope));
     json rows = json::array();
     for (const FileToExport& file : kFiles) {
         rows.push_back({{"format", file.format}, {"about", file.about}, {"bytes", 0}, {"ms", json::array()}});
@@ -84,7 +85,7 @@ json files(const std::string& polytope, int turns) {
             request.body = kFiles[i].body;
             std::size_t bytes = 0;
             const double time = millisecondsOf([&] {
-                const auto exported = pipeline::exportState(state, request, exports::ExportLimits{});
+                const auto exported = pipeline::exportFile(picture, request, exports::ExportLimits{});
                 if (!exported) throw std::runtime_error(exported.error().message);
                 bytes = exported->bytes.size();
             });

@@ -27,6 +27,7 @@
 #include "pipeline/pipeline.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
+#include "session/picture.hpp"
 #include "session/query.hpp"
 #include "session/settings.hpp"
 #include "wire/state_message.hpp"
@@ -143,9 +144,14 @@ class Bench {
             geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
     }
 
+    const scene::PictureRequest& picture(slicing::Quality quality = slicing::Quality::full) {
+        session::writePicture(state_, job_.viewport, quality, picture_);
+        return picture_;
+    }
+
     void cut(int i) {
         turn(i);
-        pipeline_.slice(state_, slicing::Quality::full, set_);
+        pipeline_.slice(picture(), set_);
     }
 
     void slices() {
@@ -167,7 +173,7 @@ class Bench {
         repeat(("state to " + name).c_str(), 50, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 cut(i);
-                pipeline_.writeSlices(state_, set_, 1, {}, job_.viewport, encoding, text_);
+                pipeline_.writeSlices(picture_, set_, 1, {}, encoding, text_);
             }));
             write.add(pipeline_.times().write);
             bytes += text_.size();
@@ -183,8 +189,8 @@ class Bench {
         repeat("frame", job_.frames, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 turn(i);
-                wire::stateMessage(state_, pipeline_.nameFocusSection(state_), 1, {}, text_);
-                pipeline_.drawPng(state_, text_, job_.viewport, slicing::Quality::full, png_);
+                wire::stateMessage(state_, pipeline_.nameFocusSection(picture()), 1, {}, text_);
+                pipeline_.drawPng(picture_, text_, png_);
             }));
             compose.add(pipeline_.times().compose);
             draw.add(pipeline_.times().draw);
@@ -194,14 +200,15 @@ class Bench {
             repeat("draft", job_.frames, [&](int i, Samples& whole) {
                 whole.add(secondsOf([&] {
                     turn(i);
-                    wire::stateMessage(state_, pipeline_.nameFocusSection(state_), 1, {}, text_);
-                    pipeline_.drawPng(state_, text_, job_.viewport, slicing::Quality::draft, png_);
+                    wire::stateMessage(state_, pipeline_.nameFocusSection(picture(slicing::Quality::draft)), 1, {},
+                                       text_);
+                    pipeline_.drawPng(picture_, text_, png_);
                 }));
             });
         }
         for (int i = 0; i < std::min(job_.frames, 24); ++i) {
             turn(5 * i);
-            pipeline_.drawPng(state_, {}, job_.viewport, slicing::Quality::full, png_);
+            pipeline_.drawPng(picture(), {}, png_);
             const LibpngFile again = encodeByLibpng(png_);
             libpng.add(again.seconds);
             ours += png_.size();
@@ -218,6 +225,7 @@ class Bench {
 
     const Job job_;
     session::State state_ = session::initialState();
+    scene::PictureRequest picture_;  // what picture() has written last
     parallel::ForkJoin forkJoin_;
     pipeline::Pipeline pipeline_{makeRasterizer(forkJoin_), &forkJoin_};
     slicing::SliceSet set_;

@@ -10,6 +10,7 @@
 #include "pipeline/export_pipeline.hpp"
 #include "session/query.hpp"
 #include "support.hpp"
+#include "wire/export_query.hpp"
 
 using namespace oval4d;
 using fuzz::require;
@@ -74,7 +75,7 @@ void describe(session::QueryParameters query) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     for (const exports::Format& format : exports::formats()) {
         session::QueryParameters settings = query;
-        const auto request = pipeline::extractExportRequest(settings, format, fuzz::kLimits.maxSlices);
+        const auto request = wire::extractExportRequest(settings, format, fuzz::kLimits.maxSlices);
         if (!request) {
             fuzz::requireSentence(request.error());
             return;
@@ -93,7 +94,7 @@ void describe(session::QueryParameters query) {
         }
         fuzz::requireSound(*state, fuzz::kLimits);
         fuzz::requireRoundTrip(*state, {});
-        const std::string name = pipeline::fileName(*state, *request);
+        const std::string name = pipeline::fileName(state->object, *request);
         const std::string_view plain = "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ-_.";
         require(name.find_first_not_of(plain) == std::string::npos, "a file's name needs no quoting:", name);
     }

@@ -14,10 +14,12 @@
 #include "net/jobs/run_on_pool.hpp"
 #include "pipeline/cost.hpp"
 #include "session/object_loader.hpp"
+#include "session/picture.hpp"
 #include "session/query.hpp"
 #include "slicing/slice_edges.hpp"
 #include "text/message_text.hpp"
 #include "text/words.hpp"
+#include "wire/export_query.hpp"
 #include "wire/messages.hpp"
 #include "wire/state_message.hpp"
 
@@ -98,8 +100,8 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
         auto held = client->byteAccount().reserve(image::byteCount(viewport.width, viewport.height));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(state, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(state)), viewport,
-                         slicing::Quality::full, png);
+        const scene::PictureRequest picture = session::pictureOf(state, viewport);
+        pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture)), png);
         metrics.observe(pipeline.times());
         held->forceResize(png.capacity());
         return SharedBytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));
@@ -202,9 +204,10 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAcco
         if (!viewport) co_return countedError(viewport.error());
         const auto requested = co_await state(std::move(query), session::kPictureParameters, client);
         if (!requested) co_return countedError(requested.error());
+        const auto cost = pipeline::frameCost(session::pictureOf(*requested, *viewport));
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics),
-            client->pictureJobQueue(), pipeline::frameCost(*requested, *viewport, slicing::Quality::full));
+            client->pictureJobQueue(), cost);
         if (!png) co_return countedError(kTooManyBytes);
         co_return noCacheReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
@@ -220,20 +223,21 @@ asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAcco
 asio::awaitable<Reply> Routes::file(session::QueryParameters query, const exports::Format& format,
                                     AddressAccountPtr client) {
     try {
-        const auto exported = pipeline::extractExportRequest(query, format, services_.options.session.maxSlices);
+        const auto exported = wire::extractExportRequest(query, format, services_.options.session.maxSlices);
         if (!exported) co_return countedError(exported.error());
         const auto requested = co_await state(std::move(query), session::kFileParameters, client);
         if (!requested) co_return countedError(requested.error());
-        const ExportResult made = co_await runOnPool<ExportResult>(
-            services_.exportWorkers, exportJob(services_, *requested, *exported, client), client->exportJobQueue(),
-            pipeline::exportCost(*requested, *exported));
+        const scene::PictureRequest picture = session::pictureOf(*requested);
+        const ExportResult made =
+            co_await runOnPool<ExportResult>(services_.exportWorkers, exportJob(services_, picture, *exported, client),
+                                             client->exportJobQueue(), pipeline::exportCost(picture, *exported));
         if (!*made) co_return countedError(made->error());
         const FinishedFile& finished = **made;
         Reply answer = noCacheReply(format.mediaType, finished.bytes);
         if (!finished.warnings.empty())
             answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
-        answer.headers.emplace_back("Content-Disposition",
-                                    "attachment; filename=\"" + pipeline::fileName(*requested, *exported) + "\"");
+        answer.headers.emplace_back(
+            "Content-Disposition", "attachment; filename=\"" + pipeline::fileName(requested->object, *exported) + "\"");
         co_return answer;
     } catch (const parallel::QueueFull&) {
         co_return countedError(kTooManyJobs);

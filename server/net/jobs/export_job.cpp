@@ -30,17 +30,17 @@ class ScopedFileMetrics {
 
 }  // namespace
 
-std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
+std::function<ExportResult(std::size_t worker)> exportJob(Services services, const scene::PictureRequest& picture,
                                                           const exports::ExportRequest& request,
                                                           const AddressAccountPtr& client) {
-    return [services, state, request, client](std::size_t /*worker*/) -> ExportResult {
+    return [services, picture, request, client](std::size_t /*worker*/) -> ExportResult {
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
         exports::ExportLimits limits = services.options.file;
         limits.slices = services.options.session.maxSlices;
         limits.sliceEdges = services.options.picture.sliceEdges;
         limits.grantTotalBytes = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
-        auto made = pipeline::exportState(state, request, limits, services.exportWorkers.stopToken());
+        auto made = pipeline::exportFile(picture, request, limits, services.exportWorkers.stopToken());
         if (!made) {
             const bool overBudget = made.error().code == ErrorCode::too_many;
             return Result<FinishedFile>(overBudget ? kTooManyBytes : made.error());

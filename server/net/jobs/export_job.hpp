@@ -23,9 +23,9 @@ struct FinishedFile {
 using ExportResult = std::optional<Result<FinishedFile>>;
 
 /// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
-/// the last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportState(); `too_many` means that
+/// the last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportFile(); `too_many` means that
 /// the byte account has no room for the file.
-std::function<ExportResult(std::size_t worker)> exportJob(Services services, const session::State& state,
+std::function<ExportResult(std::size_t worker)> exportJob(Services services, const scene::PictureRequest& picture,
                                                           const exports::ExportRequest& request,
                                                           const AddressAccountPtr& client);
 

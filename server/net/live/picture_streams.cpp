@@ -11,6 +11,7 @@
 #include "net/live/errors.hpp"
 #include "pipeline/cost.hpp"
 #include "pipeline/focus_section.hpp"
+#include "session/picture.hpp"
 
 namespace oval4d::net {
 
@@ -292,8 +293,8 @@ SnapshotPtr PictureStreams::currentState() {
     slicing::SectionNamePair section;
     if (section_ && section_->first == revision()) {
         section = section_->second;
-    } else if (pipeline::FocusSectionNamer::isFast(session_.current)) {
-        section = pipeline::FocusSectionNamer().names(session_.current);
+    } else if (pipeline::FocusSectionNamer::isFast(session_.current.object)) {
+        section = pipeline::FocusSectionNamer().names(session::pictureOf(session_.current));
     } else {
         return nullptr;
     }
@@ -302,7 +303,7 @@ SnapshotPtr PictureStreams::currentState() {
 
 std::function<SnapshotPtr(pipeline::Pipeline&)> PictureStreams::currentStateJob() const {
     return [state = session_.current, ofRevision = revision(), changed = lastChangeTime()](pipeline::Pipeline& worker) {
-        return makeStateSnapshot(state, ofRevision, changed, worker.nameFocusSection(state));
+        return makeStateSnapshot(state, ofRevision, changed, worker.nameFocusSection(session::pictureOf(state)));
     };
 }
 
@@ -327,8 +328,8 @@ void PictureStreams::requestState(const Subscriber& subscriber) {
         }
         asio::post(self->strand_, [self, made] { self->onStateMade(made); });
     };
-    stateRequested_ =
-        services_.pictureWorkers.post(job, subscriber.jobQueues.pictures, pipeline::focusSectionCost(session_.current));
+    stateRequested_ = services_.pictureWorkers.post(job, subscriber.jobQueues.pictures,
+                                                    pipeline::focusSectionCost(session_.current.object));
     if (!stateRequested_) scheduleRetry();
 }
 

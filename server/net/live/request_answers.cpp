@@ -13,6 +13,7 @@
 #include "net/jobs/run_on_pool.hpp"
 #include "net/live/errors.hpp"
 #include "pipeline/cost.hpp"
+#include "session/picture.hpp"
 #include "session/query.hpp"
 #include "session/settings.hpp"
 #include "slicing/element.hpp"
@@ -138,7 +139,7 @@ asio::awaitable<void> RequestAnswers::answerWithState(std::shared_ptr<Peer> peer
         if (!state) {
             state = co_await runOnPool<SnapshotPtr>(services_.pictureWorkers, streams_->currentStateJob(),
                                                     streams_->jobQueuesOf(peer->client()).pictures,
-                                                    pipeline::focusSectionCost(session_.current));
+                                                    pipeline::focusSectionCost(session_.current.object));
             streams_->keepIfCurrent(state);
         }
         peer->send({state->stateTextFor(scheme, id), false});
@@ -166,9 +167,10 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
     const std::uint64_t askedRevision = revision();
     ExportResult made;
     try {
+        const scene::PictureRequest picture = session::pictureOf(session_.current);
         made = co_await runOnPool<ExportResult>(
-            services_.exportWorkers, exportJob(services_, session_.current, request, peer->client()),
-            streams_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(session_.current, request));
+            services_.exportWorkers, exportJob(services_, picture, request, peer->client()),
+            streams_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(picture, request));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -219,9 +221,11 @@ asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> pe
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
-        OutgoingMessage picture = co_await runOnPool<OutgoingMessage>(
-            services_.pictureWorkers, requestedJob(key, id, point), streams_->jobQueuesOf(peer->client()).pictures,
-            point ? pipeline::pointCost(session_.current) : pictureCost(session_.current, key, slicing::Quality::full));
+        const Seconds cost = point ? pipeline::pointCost(session::pictureOf(session_.current, key.viewport))
+                                   : pictureCost(session_.current, key, slicing::Quality::full);
+        OutgoingMessage picture =
+            co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, requestedJob(key, id, point),
+                                                streams_->jobQueuesOf(peer->client()).pictures, cost);
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
     } catch (const parallel::QueueFull&) {
@@ -242,7 +246,7 @@ asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> pee
         try {
             peer->send(co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, sampleJob(point, id),
                                                            streams_->jobQueuesOf(peer->client()).pictures,
-                                                           pipeline::sampleCost(session_.current)));
+                                                           pipeline::sampleCost(session_.current.object)));
         } catch (const parallel::QueueFull&) {
             failed = kTooManyJobs;
         } catch (const std::exception& fault) {
@@ -270,7 +274,10 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob
     const SnapshotPtr known = streams_->currentFullSnapshot();
     return [known, state = session_.current, askedRevision = revision(), changed = streams_->lastChangeTime(), key, id,
             point, &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
-        if (point) return textMessage(pipeline.describePoint(state, askedRevision, id, key.viewport, *point));
+        if (point) {
+            const scene::PictureRequest picture = session::pictureOf(state, key.viewport);
+            return textMessage(pipeline.describePoint(picture, askedRevision, id, *point));
+        }
         const SnapshotPtr snapshot =
             suffices(known, key) ? known
                                  : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pipeline/cost.hpp"
+#include "session/picture.hpp"
 #include "wire/state_message.hpp"
 
 namespace oval4d::net {
@@ -33,9 +34,10 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->revision = revision;
     made->changed = changed;
     made->quality = quality;
-    made->section = pipeline.nameFocusSection(state);
+    const scene::PictureRequest picture = session::pictureOf(state, key.viewport, quality);
+    made->section = pipeline.nameFocusSection(picture);
     made->sliced = key.stream != Stream::frames;
-    if (made->sliced) pipeline.slice(state, quality, made->slices);
+    if (made->sliced) pipeline.slice(picture, made->slices);
     return made;
 }
 
@@ -55,33 +57,37 @@ bool suffices(const SnapshotPtr& snapshot, const StreamKey& key) {
 
 OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                             std::optional<double> id, const std::function<void()>& whenDrawn) {
+    const auto applyOverrides = [&key](scene::Look& look) {
+        if (key.background) look.background = *key.background;
+        if (key.highlight) look.highlight = *key.highlight;
+    };
+    scene::PictureRequest picture = session::pictureOf(snapshot.state, key.viewport, snapshot.quality);
+    applyOverrides(picture.look);
     using scene::Background;
-    session::State state = snapshot.state;
-    if (key.background) state.look.background = *key.background;
-    if (key.highlight) state.look.highlight = *key.highlight;
-    SharedBytes stateText;  // to store in the PNG file; unlike `state` below, keeps the background `automatic`
+    if (key.scheme == scene::Scheme::light && picture.look.background == Background::automatic)
+        picture.look.background = Background::light;
     if (key.stream == Stream::frames) {
-        stateText = key.background || key.highlight
-                        ? SharedBytes(wire::stateMessage(state, snapshot.section, snapshot.revision, {},
-                                                         snapshot.quality, key.scheme))
-                        : snapshot.stateTextFor(key.scheme);
-    }
-    const bool isLight = key.scheme == scene::Scheme::light;
-    if (isLight && state.look.background == Background::automatic) state.look.background = Background::light;
-    if (key.stream == Stream::frames) {
+        SharedBytes stateText;  // to store in the PNG file; unlike `picture`, keeps the background `automatic`
+        if (key.background || key.highlight) {
+            session::State state = snapshot.state;
+            applyOverrides(state.look);
+            stateText = SharedBytes(
+                wire::stateMessage(state, snapshot.section, snapshot.revision, {}, snapshot.quality, key.scheme));
+        } else {
+            stateText = snapshot.stateTextFor(key.scheme);
+        }
         std::vector<std::uint8_t> png;
-        pipeline.drawPng(state, stateText.view(), key.viewport, snapshot.quality, png, whenDrawn);
+        pipeline.drawPng(picture, stateText.view(), png, whenDrawn);
         return {SharedBytes(std::move(png)), true};
     }
     std::string text;
-    pipeline.writeSlices(state, snapshot.slices, snapshot.revision, id, key.viewport, key.encoding, text,
-                         snapshot.quality);
+    pipeline.writeSlices(picture, snapshot.slices, snapshot.revision, id, key.encoding, text);
     return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
 }
 
 Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality) {
-    return key.stream == Stream::frames ? pipeline::frameCost(state, key.viewport, quality)
-                                        : pipeline::geometryCost(state, quality);
+    const scene::PictureRequest picture = session::pictureOf(state, key.viewport, quality);
+    return key.stream == Stream::frames ? pipeline::frameCost(picture) : pipeline::geometryCost(picture);
 }
 
 }  // namespace oval4d::net

@@ -8,19 +8,14 @@
 namespace oval4d::pipeline {
 namespace {
 
-session::State stateOf(const slicing::Object& object) {
-    session::State state = session::initialState();
-    state.source = state.object = object;
-    return state;
-}
-
 TEST(FocusSectionNamer, IsFastWhereThereIsLittleToCut) {
-    EXPECT_TRUE(FocusSectionNamer::isFast(session::initialState()));
-    EXPECT_TRUE(FocusSectionNamer::isFast(stateOf(support::shared("24-cell"))));
-    EXPECT_FALSE(FocusSectionNamer::isFast(stateOf(support::shared("600-cell"))));
-    const session::State field = stateOf(session::exampleFields().front().field);
+    EXPECT_TRUE(FocusSectionNamer::isFast(support::shared("24-cell")));
+    EXPECT_FALSE(FocusSectionNamer::isFast(support::shared("600-cell")));
+    const slicing::Object field = session::exampleFields().front().field;
     EXPECT_TRUE(FocusSectionNamer::isFast(field));
-    EXPECT_EQ(FocusSectionNamer().names(field), slicing::SectionNamePair{}) << "sections of fields have no names";
+    scene::PictureRequest picture;
+    picture.source = picture.object = field;
+    EXPECT_EQ(FocusSectionNamer().names(picture), slicing::SectionNamePair{}) << "sections of fields have no names";
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 
 #include "pipeline/cost.hpp"
 #include "scene/pick_level.hpp"
-#include "session/session.hpp"
 #include "slicing/slice_edges.hpp"
 #include "unit/polytopes/support.hpp"
 #include "unit/slicing/field_support.hpp"
@@ -18,19 +17,20 @@ namespace {
 
 constexpr scene::Viewport kViewport{640, 360};
 
-session::State stateWith(const slicing::Object& object) {
-    session::State state = session::initialState();
-    state.source = state.object = object;
-    state.slices.spacing = slicing::infoOf(object).circumradius / 10;
-    return state;
+scene::PictureRequest pictureOf(const slicing::Object& object) {
+    scene::PictureRequest picture;
+    picture.source = picture.object = object;
+    picture.planes.spacing = slicing::infoOf(object).circumradius / 10;
+    picture.viewport = kViewport;
+    return picture;
 }
 
 // Returns the answers at points all over the picture, `step` pixels apart, one after another.
-std::string answersAt(Pipeline& pipeline, const session::State& state, int step = 40) {
+std::string answersAt(Pipeline& pipeline, const scene::PictureRequest& picture, int step = 40) {
     std::string answers;
     for (int x = step / 2; x < kViewport.width; x += step) {
         for (int y = step / 2; y < kViewport.height; y += step)
-            answers += pipeline.describePoint(state, 3, {}, kViewport, glm::dvec2(x, y)) + "\n";
+            answers += pipeline.describePoint(picture, 3, {}, glm::dvec2(x, y)) + "\n";
     }
     return answers;
 }
@@ -38,29 +38,29 @@ std::string answersAt(Pipeline& pipeline, const session::State& state, int step 
 TEST(Pipeline, PointsAtTheSlicesOfEachState) {
     std::mt19937 random(4);
     Pipeline used(nullptr, nullptr);
-    session::State state = stateWith(support::shared("24-cell"));
+    scene::PictureRequest picture = pictureOf(support::shared("24-cell"));
     const auto check = [&](const char* what) {
         Pipeline fresh(nullptr, nullptr);
-        const std::string answers = answersAt(used, state);
-        EXPECT_EQ(answers, answersAt(fresh, state)) << what;
+        const std::string answers = answersAt(used, picture);
+        EXPECT_EQ(answers, answersAt(fresh, picture)) << what;
         EXPECT_NE(answers.find(R"("element":"cell")"), std::string::npos) << what;
     };
     check("at first");
-    state.orientation = support::randomRotation(random);
+    picture.orientation = support::randomRotation(random);
     check("turned");
-    state.slices.spacing *= 0.7;
+    picture.planes.spacing *= 0.7;
     check("other hyperplanes");
-    state.look.projection.kind = scene::ProjectionKind::perspective;
+    picture.look.projection.kind = scene::ProjectionKind::perspective;
     check("with the projection");
-    state.source = state.object = support::shared("16-cell");
+    picture.source = picture.object = support::shared("16-cell");
     check("another object");
 }
 
 TEST(Pipeline, PointsAtAStateAfterOneWhoseSlicesAreTooLarge) {
     Pipeline pipeline(nullptr, nullptr, {.fillSteps = 0, .sliceEdges = 1000});
-    const session::State small = stateWith(support::shared("5-cell"));
+    const scene::PictureRequest small = pictureOf(support::shared("5-cell"));
     const std::string answers = answersAt(pipeline, small);
-    EXPECT_THROW(answersAt(pipeline, stateWith(support::shared("600-cell"))), slicing::TooManySliceEdges);
+    EXPECT_THROW(answersAt(pipeline, pictureOf(support::shared("600-cell"))), slicing::TooManySliceEdges);
     EXPECT_EQ(answersAt(pipeline, small), answers);
 }
 
@@ -73,26 +73,26 @@ TEST(Pipeline, PointsAtAFieldAlongOneRay) {
         return glm::dot(p, p) - 0.5;
     };
     const fields::Box box{glm::dvec4(-1), glm::dvec4(1)};
-    session::State state = stateWith(std::make_shared<const fields::Field>(slicing::testField(ball, 4, box)));
-    state.look.parts.coordinates = true;
-    state.look.field.levels = {0};
+    scene::PictureRequest picture = pictureOf(std::make_shared<const fields::Field>(slicing::testField(ball, 4, box)));
+    picture.look.parts.coordinates = true;
+    picture.look.field.levels = {0};
     Pipeline pipeline(nullptr, nullptr);
     for (const scene::View view : {scene::View::oval, scene::View::matrix}) {
-        state.look.view = view;
-        const std::string answers = answersAt(pipeline, state, 10);
+        picture.look.view = view;
+        const std::string answers = answersAt(pipeline, picture, 10);
         EXPECT_NE(answers.find(R"("level":0,"cap":false,"place":[)"), std::string::npos);
         EXPECT_NE(answers.find(R"("value":0)"), std::string::npos);
         EXPECT_NE(answers.find(R"("element":)"), std::string::npos) << "the box is found, too";
         for (int x = 5; x < kViewport.width; x += 20) {
             evaluations = 0;
-            pipeline.describePoint(state, 3, {}, kViewport, glm::dvec2(x, kViewport.height / 3.0));
-            EXPECT_LT(evaluations, state.slices.count * (scene::kRaySamples + 500));
+            pipeline.describePoint(picture, 3, {}, glm::dvec2(x, kViewport.height / 3.0));
+            EXPECT_LT(evaluations, picture.planes.count * (scene::kRaySamples + 500));
         }
     }
-    EXPECT_LT(pointCost(state), geometryCost(state, slicing::Quality::full));
-    state.look.parts.faces = false;
+    EXPECT_LT(pointCost(picture), geometryCost(picture));
+    picture.look.parts.faces = false;
     evaluations = 0;
-    EXPECT_EQ(answersAt(pipeline, state, 10).find(R"("level")"), std::string::npos);
+    EXPECT_EQ(answersAt(pipeline, picture, 10).find(R"("level")"), std::string::npos);
     EXPECT_EQ(evaluations, 0) << "no surfaces are shown";
 }
 

@@ -12,9 +12,9 @@
 namespace oval4d::raster {
 namespace {
 
-// tests/unit/pipeline/picture_of_state_test.cpp checks that requests come as they were.
+// tests/unit/pipeline/picture_request_test.cpp checks that requests come as they were.
 TEST(RasterizerMessages, BytesCutShortAreRefused) {
-    PictureRequest picture;
+    scene::PictureRequest picture;
     picture.source = picture.object = polytopes::fiveCell();
     std::string bytes;
     encodeRequest(picture, {}, bytes);

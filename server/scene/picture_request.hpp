@@ -8,7 +8,7 @@
 #include "slicing/object.hpp"
 #include "slicing/surface_detail.hpp"
 
-namespace oval4d::raster {
+namespace oval4d::scene {
 
 /// What a picture shows, and how: all that affects its pixels, and nothing else.
 struct PictureRequest {
@@ -16,12 +16,15 @@ struct PictureRequest {
     geometry::ReferenceFrame referenceFrame;
     slicing::Object object;  ///< `source` in `referenceFrame` (see slicing::transformedTo())
     geometry::Rotation orientation;
-    geometry::Hyperplanes planes;
-    int focus = 0;  ///< the index n of the focus slice (see SlicePlacement::index)
-    scene::Look look;
-    scene::Viewport viewport;
+    geometry::Hyperplanes planes;  ///< evenly spaced: Hyperplanes::listed is empty
+    int focus = 0;                 ///< the index n of the focus slice (see SlicePlacement::index)
+    Look look;
+    Viewport viewport;
     slicing::Quality quality = slicing::Quality::full;
+
+    /// Returns the hyperplane of the focus slice.
+    geometry::Hyperplanes focusPlane() const { return {focus, 1, planes.spacing, planes.offset}; }
     bool operator==(const PictureRequest&) const = default;
 };
 
-}  // namespace oval4d::raster
+}  // namespace oval4d::scene

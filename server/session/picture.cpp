@@ -1,11 +1,10 @@
-#include "pipeline/picture_of_state.hpp"
+#include "session/picture.hpp"
 
 #include <tuple>
 
-namespace oval4d::pipeline {
+namespace oval4d::session {
 
-void writePictureOfState(const session::State& state, scene::Viewport viewport, slicing::Quality quality,
-                         raster::PictureRequest& out) {
+void writePicture(const State& state, scene::Viewport viewport, slicing::Quality quality, scene::PictureRequest& out) {
     // All members are named, so that this function does not compile without a new member. If the new member affects
     // pictures, it must be in the request, too. The angles of the keys and the motion do not.
     const auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing,
@@ -16,4 +15,10 @@ void writePictureOfState(const session::State& state, scene::Viewport viewport, 
                               quality);
 }
 
-}  // namespace oval4d::pipeline
+scene::PictureRequest pictureOf(const State& state, scene::Viewport viewport, slicing::Quality quality) {
+    scene::PictureRequest picture;
+    writePicture(state, viewport, quality, picture);
+    return picture;
+}
+
+}  // namespace oval4d::session

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "scene/picture_request.hpp"
+#include "session/session.hpp"
+
+namespace oval4d::session {
+
+/// Writes the request for the picture of a state. Overwrites `out` and reuses its memory.
+void writePicture(const State& state, scene::Viewport viewport, slicing::Quality quality, scene::PictureRequest& out);
+
+/// Returns what writePicture() writes.
+scene::PictureRequest pictureOf(const State& state, scene::Viewport viewport = {},
+                                slicing::Quality quality = slicing::Quality::full);
+
+}  // namespace oval4d::session
