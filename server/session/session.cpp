@@ -107,12 +107,6 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     return {left, quaternion()};
 }
 
-// The result of a command: the new state and the new loaded objects of the session.
-struct Outcome {
-    State next;
-    std::optional<LoadedObjects> loaded = {};  // empty if they stay the same
-};
-
 // Computes the outcome of the commands that may need an object or critical values of w from the loader. Does not change
 // the session.
 class OutcomeOfCommand {
@@ -226,8 +220,9 @@ class OutcomeOfCommand {
 // Applies each command to a copy of the state, which becomes the current state only on success.
 class CommandApplier {
   public:
-    CommandApplier(Session& session, const Limits& limits, ObjectLoader& loader)
-        : session_(session), limits_(limits), outcome_(session, limits, loader) {}
+    // `computed`: the outcome of the command, if it has been computed before.
+    CommandApplier(Session& session, const Limits& limits, ObjectLoader& loader, ComputedOutcome computed)
+        : session_(session), limits_(limits), outcome_(session, limits, loader), computed_(std::move(computed)) {}
 
     VoidResult operator()(const Key& key) {
         std::string pending = session_.pendingKey;
@@ -260,9 +255,9 @@ class CommandApplier {
         commit(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    VoidResult operator()(const Set& command) { return finish(outcome_.of(command), command.continues); }
+    VoidResult operator()(const Set& command) { return finish(outcomeOf(command), command.continues); }
     VoidResult operator()(const LoadObject& command) {
-        return command.append ? append(command) : finish(outcome_.of(command), command.continues);
+        return command.append ? append(command) : finish(outcomeOf(command), command.continues);
     }
     VoidResult operator()(const Undo& /*command*/) { return undo(session_); }
     VoidResult operator()(const Redo& /*command*/) { return redo(session_); }
@@ -277,9 +272,11 @@ class CommandApplier {
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
     }
-    VoidResult operator()(const ShowLinkedView& command) { return finish(outcome_.of(command), false); }
+    VoidResult operator()(const ShowLinkedView& command) { return finish(outcomeOf(command), false); }
 
   private:
+    Result<Outcome> outcomeOf(const auto& command) { return computed_ ? std::move(*computed_) : outcome_.of(command); }
+
     // Stores the outcome of a command in the session, unless it is an error. `continues`: whether the command belongs
     // to the undo step of the previous one.
     VoidResult finish(Result<Outcome> outcome, bool continues) {
@@ -306,48 +303,49 @@ class CommandApplier {
 
     VoidResult press(const Binding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
-        return finish(outcome_.of(binding), false);
+        return finish(outcomeOf(binding), false);
     }
 
     Session& session_;
     const Limits& limits_;
     const OutcomeOfCommand outcome_;
+    ComputedOutcome computed_;
 };
 
-// Computes the outcome of a command like CommandApplier, only to make the loader note what the command needs. Drops the
-// outcome, which may be an error. Does nothing for commands that need nothing from the loader.
+// Computes the outcome of a command like CommandApplier, to make the loader note what the command needs. Computes
+// nothing for commands that need nothing from the loader, nor for time steps to append, which have no Outcome.
 class NeedsOfCommand {
   public:
     NeedsOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
         : session_(session), outcome_(session, limits, loader) {}
 
-    void operator()(const Key& key) const {
+    ComputedOutcome operator()(const Key& key) const {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
-        if (binding && *binding && (*binding)->action->mayNeedLoading) static_cast<void>(outcome_.of(**binding));
+        if (!binding || !*binding || !(*binding)->action->mayNeedLoading) return {};
+        return outcome_.of(**binding);
     }
-    void operator()(const Set& command) const {
+    ComputedOutcome operator()(const Set& command) const {
         // A formula alone needs nothing, because its field is made at once.
-        if (command.object || command.pace || command.follow || command.boost) static_cast<void>(outcome_.of(command));
+        if (!command.object && !command.pace && !command.follow && !command.boost) return {};
+        return outcome_.of(command);
     }
-    void operator()(const LoadObject& command) const {
-        if (command.append) {
-            static_cast<void>(outcome_.extendedField(command));
-        } else {
-            static_cast<void>(outcome_.of(command));
-        }
+    ComputedOutcome operator()(const LoadObject& command) const {
+        if (!command.append) return outcome_.of(command);
+        static_cast<void>(outcome_.extendedField(command));
+        return {};
     }
-    void operator()(const CommandLine& command) const {
+    ComputedOutcome operator()(const CommandLine& command) const {
         const auto parsed = parseCommandLine(command.line, session_.current);
-        if (parsed) std::visit(*this, *parsed);
+        return parsed ? std::visit(*this, *parsed) : ComputedOutcome();
     }
-    void operator()(const ShowLinkedView& command) const { static_cast<void>(outcome_.of(command)); }
-    void operator()(const Rotate& /*command*/) const {}
-    void operator()(const TurnToward& /*command*/) const {}
-    void operator()(const TurnAtRandom& /*command*/) const {}
-    void operator()(const Undo& /*command*/) const {}
-    void operator()(const Redo& /*command*/) const {}
-    void operator()(const Reset& /*command*/) const {}
+    ComputedOutcome operator()(const ShowLinkedView& command) const { return outcome_.of(command); }
+    ComputedOutcome operator()(const Rotate& /*command*/) const { return {}; }
+    ComputedOutcome operator()(const TurnToward& /*command*/) const { return {}; }
+    ComputedOutcome operator()(const TurnAtRandom& /*command*/) const { return {}; }
+    ComputedOutcome operator()(const Undo& /*command*/) const { return {}; }
+    ComputedOutcome operator()(const Redo& /*command*/) const { return {}; }
+    ComputedOutcome operator()(const Reset& /*command*/) const { return {}; }
 
   private:
     const Session& session_;
@@ -375,13 +373,16 @@ double spanningSpacing(const slicing::Object& object, int count) {
     return count > 1 ? 2 * reach / (count - 1) : reach;
 }
 
-bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
-    std::visit(NeedsOfCommand(session, limits, loader), command);
+bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
+                  ComputedOutcome& outcome) {
+    outcome = std::visit(NeedsOfCommand(session, limits, loader), command);
+    if (loader.isPending()) outcome.reset();  // it is the error that something is missing
     return loader.isPending();
 }
 
-VoidResult apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader) {
-    return std::visit(CommandApplier(session, limits, loader), command);
+VoidResult apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
+                 ComputedOutcome outcome) {
+    return std::visit(CommandApplier(session, limits, loader, std::move(outcome)), command);
 }
 
 std::size_t historyMemoryWithoutObjects(const Session& session) {

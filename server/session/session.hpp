@@ -182,18 +182,30 @@ std::size_t historyMemoryWithoutObjects(const Session& session);
 
 class ObjectLoader;
 
+/// What a command makes of a session: the new state and the new loaded objects.
+struct Outcome {
+    State next;
+    std::optional<LoadedObjects> loaded = {};  ///< empty if they stay the same
+};
+/// The outcome of a command, or the error that the command ends with; empty if it has not been computed.
+using ComputedOutcome = std::optional<Result<Outcome>>;
+
 /// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. If so, this
 /// object or search becomes pending. The caller must complete it with ObjectLoader::completePending(), and call
 /// needsLoading() again, because a command may need first an object and then this object transformed to the frame of
-/// reference. Does not change the session.
-bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
+/// reference. Does not change the session. Overwrites `outcome`: if the result is false, and the function had to
+/// compute the outcome of the command, with this outcome, for apply().
+bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
+                  ComputedOutcome& outcome);
 
 /// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is
 /// refused ends the sequence to which it belongs (see Session::pendingKey). Every change adds an undo step, except
 /// moves of the camera, the end of continuous turning or of playing, commands with `continues`, and added time steps;
 /// see history.hpp. `loader` builds polytopes and reads files. If it has Mode::deferred, needsLoading() must have
-/// returned false for this session, this command and this loader.
-Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader);
+/// returned false for this session, this command and this loader. `outcome`: what needsLoading() has computed, if the
+/// session has not changed since; then this is not computed again.
+Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
+                             ComputedOutcome outcome = {});
 
 /// The speed of continuous turning: how often the last rotation is repeated per second.
 inline constexpr double kRotationRepeatsPerSecond = 6;

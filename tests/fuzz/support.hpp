@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -192,13 +193,14 @@ inline void execute(session::Session& session, const session::Command& command) 
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
     session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
-    for (int orders = 0; session::needsLoading(session, command, kLimits, loader); ++orders) {
+    session::ComputedOutcome outcome;
+    for (int orders = 0; session::needsLoading(session, command, kLimits, loader, outcome); ++orders) {
         require(session == before, "what is not ready yet changes nothing");
         if (!small) return;
         require(orders < 3, "a command orders at most a file, the array to which it is added, and images");
         loader.completePending();
     }
-    const auto done = session::apply(session, command, kLimits, loader);
+    const auto done = session::apply(session, command, kLimits, loader, std::move(outcome));
     require(!loader.isPending(), "a command needs nothing that was not found before");
     if (!done) {
         requireSentence(done.error());

@@ -139,8 +139,9 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     std::uint64_t before = 0;
     slicing::Object source, shown;
     session::LoadedObjects loaded;
+    session::ComputedOutcome outcome;
     try {
-        while (session::needsLoading(session_, command, limits, loader)) {
+        while (session::needsLoading(session_, command, limits, loader, outcome)) {
             // Without this call, the connection would not read for some time while this command runs, and would notice
             // too late that the client has left.
             if (peer && loader.isSearchPending()) peer->watchForDisconnect();
@@ -150,7 +151,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
         source = session_.current.source;
         shown = session_.current.object;
         loaded = session_.loaded;
-        done = session::apply(session_, command, limits, loader);
+        done = session::apply(session_, command, limits, loader, std::move(outcome));
         if (done) metered_->adjustReservationOrTrimUndo(session_.current.object != shown || session_.loaded != loaded);
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;

@@ -206,14 +206,15 @@ TEST(Load, FilesThatWouldBeRefusedAreNotRead) {
     ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
     const Limits full{.maxLoaded = 1};
     LoadObject load{"b", "off", kPentachoron};
-    EXPECT_FALSE(needsLoading(session, load, full, loader)) << "no room";
+    ComputedOutcome outcome;
+    EXPECT_FALSE(needsLoading(session, load, full, loader, outcome)) << "no room";
     load.append = true;
-    EXPECT_FALSE(needsLoading(session, load, full, loader)) << "no field to append to";
+    EXPECT_FALSE(needsLoading(session, load, full, loader, outcome)) << "no field to append to";
     load.append = false;
     load.format = "docx";
-    EXPECT_FALSE(needsLoading(session, load, Limits{}, loader)) << "no such format";
+    EXPECT_FALSE(needsLoading(session, load, Limits{}, loader, outcome)) << "no such format";
     load = {"a", "off", kPentachoron};
-    EXPECT_TRUE(needsLoading(session, load, full, loader)) << "it replaces the loaded object";
+    EXPECT_TRUE(needsLoading(session, load, full, loader, outcome)) << "it replaces the loaded object";
     EXPECT_TRUE(loader.pendingNeedsFile());
 }
 

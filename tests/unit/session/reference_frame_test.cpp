@@ -179,8 +179,9 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     const Session before = session;
     ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     const CommandLine both{"set polytope=120-cell boost=0.5,0,0"};
+    ComputedOutcome outcome;
     int images = 0;
-    for (; needsLoading(session, both, Limits{}, loader) && images < 5; ++images) {
+    for (; needsLoading(session, both, Limits{}, loader, outcome) && images < 5; ++images) {
         EXPECT_EQ(session, before);
         EXPECT_FALSE(loader.pendingNeedsFile());
         EXPECT_GT(loader.memoryNeeded(), slicing::memoryOf(support::shared("120-cell")));
@@ -195,7 +196,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     EXPECT_EQ(session.current.referenceFrame, (geometry::ReferenceFrame{2, {}, {0.5, 0, 0}}));
     ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
     const CommandLine small{"polytope 24-cell"};
-    EXPECT_FALSE(needsLoading(session, small, Limits{}, other)) << "small images are made at once";
+    EXPECT_FALSE(needsLoading(session, small, Limits{}, other, outcome)) << "small images are made at once";
     const auto image = other.transformedTo(support::shared("24-cell"), session.current.referenceFrame);
     ASSERT_TRUE(image);
     ASSERT_TRUE(session::apply(session, small, Limits{}, other));

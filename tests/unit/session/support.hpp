@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -82,9 +83,10 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
 inline int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
     const Session before = session;
     int orders = 0;
-    for (; needsLoading(session, command, Limits{}, loader); ++orders) loader.completePending();
+    ComputedOutcome outcome;
+    for (; needsLoading(session, command, Limits{}, loader, outcome); ++orders) loader.completePending();
     EXPECT_EQ(session, before);
-    done = apply(session, command, Limits{}, loader);
+    done = apply(session, command, Limits{}, loader, std::move(outcome));
     EXPECT_FALSE(loader.isPending()) << "a command needs nothing that needsLoading() has not found";
     return orders;
 }
