@@ -28,7 +28,7 @@ void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::
                                 {.sliceEdges = std::numeric_limits<std::size_t>::max()});
     std::vector<std::uint8_t> png;
     const scene::PictureRequest picture = session::pictureOf(state, viewport);
-    pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture)), png);
+    pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture).names), png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

@@ -12,12 +12,22 @@ bool FocusSectionNamer::isFast(const slicing::Object& object) {
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) <= kFew;
 }
 
-slicing::SectionNamePair FocusSectionNamer::names(const scene::PictureRequest& picture) {
+slicing::NamedSection FocusSectionNamer::name(const scene::PictureRequest& picture) {
     const geometry::Hyperplanes plane = picture.focusPlane();
-    if (!slicing::SectionNamer::mayHaveName(picture.object, picture.orientation, plane.w(0))) return {};
+    slicing::NamedSection section{slicing::infoOf(picture.object).serial, picture.orientation, plane.w(0), {}};
+    if (!slicing::SectionNamer::mayHaveName(picture.object, picture.orientation, section.w)) return section;
     slicer_.sliceWithoutSurfaces(picture.object, picture.orientation, plane, slice_);
-    return {namer_.nameOfSlice(slice_, 0),
-            namer_.nameOfObjectVertices(slice_, 0, slicing::elementCounts(picture.object)[1])};
+    return name(picture, slice_);
+}
+
+slicing::NamedSection FocusSectionNamer::name(const scene::PictureRequest& picture, const slicing::SliceSet& slices) {
+    const int slice = picture.focus - slices.planes.first;
+    slicing::NamedSection section{
+        slicing::infoOf(picture.object).serial, picture.orientation, picture.focusPlane().w(0), {}};
+    if (!slicing::propertiesOf(picture.object).sectionsHaveNames) return section;
+    section.names = {namer_.nameOfSlice(slices, slice),
+                     namer_.nameOfObjectVertices(slices, slice, slicing::elementCounts(picture.object)[1])};
+    return section;
 }
 
 }  // namespace oval4d::pipeline

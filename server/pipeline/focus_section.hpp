@@ -12,11 +12,12 @@ namespace oval4d::pipeline {
 /// between calls. May be used by one thread at a time.
 class FocusSectionNamer {
   public:
-    /// Cuts the focus slice of the object and returns its two names (see slicing::SectionNamePair). A name is empty if
-    /// it does not exist. The names are valid until the process ends. Takes at most about as long as one slice of a
-    /// picture.
-    slicing::SectionNamePair names(const scene::PictureRequest& picture);
-    /// Returns whether names() takes less than a millisecond: the object has few elements, or its sections have no
+    /// Cuts the focus slice of the object and names it (see slicing::SectionNamePair). A name is empty if it does not
+    /// exist. The names are valid until the process ends. Takes at most about as long as one slice of a picture.
+    slicing::NamedSection name(const scene::PictureRequest& picture);
+    /// Names the focus slice among `slices`, the slices of this picture, without cutting it again.
+    slicing::NamedSection name(const scene::PictureRequest& picture, const slicing::SliceSet& slices);
+    /// Returns whether name() takes less than a millisecond: the object has few elements, or its sections have no
     /// names.
     static bool isFast(const slicing::Object& object);
 

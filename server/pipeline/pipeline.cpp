@@ -16,9 +16,21 @@ Pipeline::Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::For
                    PictureWorkLimits limits)
     : rasterizer_(std::move(rasterizer)), forkJoin_(forkJoin), limits_(limits), workspace_(forkJoin) {}
 
-slicing::SectionNamePair Pipeline::nameFocusSection(const scene::PictureRequest& picture) {
+slicing::NamedSection Pipeline::nameFocusSection(const scene::PictureRequest& picture,
+                                                 const slicing::SliceSet* slices) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
-    return workspace_.sectionNamer.names(picture);
+    scene::Composer& composer = workspace_.composer;
+    FocusSectionNamer& namer = workspace_.sectionNamer;
+    const double w = picture.focusPlane().w(0);
+    if (const auto& known = composer.section(); known && known->isOf(picture.object, picture.orientation, w))
+        return *known;
+    composer.keepSection(slices != nullptr ? namer.name(picture, *slices) : namer.name(picture));
+    return *composer.section();
+}
+
+void Pipeline::keepFocusSection(const slicing::NamedSection& section) {
+    const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
+    workspace_.composer.keepSection(section);
 }
 
 void Pipeline::slice(const scene::PictureRequest& picture, slicing::SliceSet& out) {

@@ -44,10 +44,15 @@ class Pipeline {
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              PictureWorkLimits limits = {});
 
-    /// Returns the two names of the section in the focus slice, for the `state` message: the name of the slice, such as
-    /// "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
-    /// slicing::SectionNamePair). A name that does not exist is empty.
-    slicing::SectionNamePair nameFocusSection(const scene::PictureRequest& picture);
+    /// Returns the section in the focus slice with its two names, for the `state` message: the name of the slice, such
+    /// as "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
+    /// slicing::SectionNamePair). A name that does not exist is empty. `slices`: the result of slice() for this
+    /// picture; null if it has not been sliced, and the focus slice must be cut. If this section was named last,
+    /// returns the same names without finding them again.
+    slicing::NamedSection nameFocusSection(const scene::PictureRequest& picture,
+                                           const slicing::SliceSet* slices = nullptr);
+    /// Lets the next calls take these names for this section, instead of finding them.
+    void keepFocusSection(const slicing::NamedSection& section);
 
     /// Slices the object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the slices
     /// exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the samples of a field are in a file that can no

@@ -145,7 +145,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
         cellPainter_.updateCellColors(object, look.coloring, scheme, orientation, out.cellColors);
     }
     highlight(object, objectChanged, out);
-    nameSection(object, focus, out);
+    nameSection(object, orientation, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
@@ -191,15 +191,23 @@ void Composer::removeHighlightColor(Scene& out) {
 
 // Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the convex hull of
 // those vertices of the polytope that lie in the hyperplane, provided that this hull is a solid.
-void Composer::nameSection(const Object& object, int focus, Scene& out) {
+void Composer::nameSection(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
     out.sectionNames = {};
     std::string& focusName = layoutInput_.focusName;
     focusName.clear();
     if (!slicing::propertiesOf(object).sectionsHaveNames || slice < 0 || slice >= slices.planes.count) return;
-    out.sectionNames = {sectionNamer_.nameOfSlice(slices, slice),
-                        sectionNamer_.nameOfObjectVertices(slices, slice, slicing::elementCounts(object)[1])};
+    const double w = slices.planes.w(slice);
+    if (!section_ || !section_->isOf(object, orientation, w)) {
+        section_ = slicing::NamedSection{
+            slicing::infoOf(object).serial,
+            orientation,
+            w,
+            {sectionNamer_.nameOfSlice(slices, slice),
+             sectionNamer_.nameOfObjectVertices(slices, slice, slicing::elementCounts(object)[1])}};
+    }
+    out.sectionNames = section_->names;
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
         focusName = name;

@@ -48,6 +48,12 @@ class Composer {
                  int focus, const Look& look, Viewport viewport, Scene& out,
                  slicing::Quality quality = slicing::Quality::full, ScenePurpose purpose = ScenePurpose::drawing);
 
+    /// Returns the section in the focus slice that compose() has named last, or that was passed to keepSection(); an
+    /// empty optional before that.
+    const std::optional<slicing::NamedSection>& section() const { return section_; }
+    /// Lets compose() take these names for this section, instead of finding them.
+    void keepSection(const slicing::NamedSection& section) { section_ = section; }
+
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
     /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,
     /// SurfaceDetail::fogSteps is empty if there is no fog, and both are empty if `object` is not a field. The steps
@@ -87,7 +93,7 @@ class Composer {
     void cutSectionMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void traceContours(const slicing::Object& object, const geometry::Rotation& orientation, slicing::Quality quality,
                        Scene& out);
-    void nameSection(const slicing::Object& object, int focus, Scene& out);
+    void nameSection(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void setObjectLookAndViewport(const slicing::Object& object, const Look& look, Viewport viewport, Scene& out);
     void layOutIfChanged(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out);
     void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
@@ -108,6 +114,7 @@ class Composer {
     std::optional<ContourInput> contourInput_;  // of the contours that the scene has; empty if it has none
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
+    std::optional<slicing::NamedSection> section_;
     LayoutInput layoutInput_;           // the input of the next layout; a member to reuse its memory
     LayoutInput laidOut_;               // the input of the layout that the scene has
     const Scene* laidOutIn_ = nullptr;  // the scene that has the layout of laidOut_; null before the first layout

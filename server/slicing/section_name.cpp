@@ -61,6 +61,10 @@ std::vector<glm::dvec3> regularPolygon(int sides, double height) {
 
 }  // namespace
 
+bool NamedSection::isOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const {
+    return object == infoOf(shown).serial && w == focusW && orientation == rotation;
+}
+
 // A shape that has a name. Its circumradius is 1.
 struct SectionNamer::Shape {
     std::string name;

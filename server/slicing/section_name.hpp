@@ -24,6 +24,17 @@ struct SectionNamePair {
     bool operator==(const SectionNamePair&) const = default;
 };
 
+/// The names of a section, and all that determines them.
+struct NamedSection {
+    std::uint64_t object = 0;  ///< the serial number
+    geometry::Rotation orientation;
+    double w = 0;  ///< of the hyperplane
+    SectionNamePair names;
+
+    /// Returns whether this is the section of `shown`, rotated by `rotation`, by the hyperplane at `focusW`.
+    bool isOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const;
+};
+
 /// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
 /// geometrically similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the
 /// point, the segment, the regular polygons with up to 20 sides, the Platonic and Archimedean solids, the uniform

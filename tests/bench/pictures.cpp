@@ -189,7 +189,7 @@ class Bench {
         repeat("frame", job_.frames, [&](int i, Samples& whole) {
             whole.add(secondsOf([&] {
                 turn(i);
-                wire::stateMessage(state_, pipeline_.nameFocusSection(picture()), 1, {}, text_);
+                wire::stateMessage(state_, pipeline_.nameFocusSection(picture()).names, 1, {}, text_);
                 pipeline_.drawPng(picture_, text_, png_);
             }));
             compose.add(pipeline_.times().compose);
@@ -200,8 +200,8 @@ class Bench {
             repeat("draft", job_.frames, [&](int i, Samples& whole) {
                 whole.add(secondsOf([&] {
                     turn(i);
-                    wire::stateMessage(state_, pipeline_.nameFocusSection(picture(slicing::Quality::draft)), 1, {},
-                                       text_);
+                    wire::stateMessage(state_, pipeline_.nameFocusSection(picture(slicing::Quality::draft)).names, 1,
+                                       {}, text_);
                     pipeline_.drawPng(picture_, text_, png_);
                 }));
             });

@@ -101,7 +101,8 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
         const scene::PictureRequest picture = session::pictureOf(state, viewport);
-        pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture)), png);
+        pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture).names),
+                         png);
         metrics.observe(pipeline.times());
         held->forceResize(png.capacity());
         return SharedBytes(std::move(png)).keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(*held)));

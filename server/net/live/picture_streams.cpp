@@ -170,8 +170,8 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
     Seconds cost{0};
     for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
     PictureJob next{
-        inProgress_.currentOrNextJobNumber(), session_.current, revision(), draftTiming_.lastChangeTime(), quality,
-        pictures_.find(revision(), quality),  std::move(wanted)};
+        inProgress_.currentOrNextJobNumber(), session_.current,  revision(), draftTiming_.lastChangeTime(), quality,
+        pictures_.find(revision(), quality),  std::move(wanted), section_};
     {
         const std::lock_guard lock(queuedJobMutex_);
         if (!isNew && !queuedJob_) return;
@@ -211,6 +211,7 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
         queuedJob_.reset();
     }
     JobResult result{job.number, job.revision, job.quality, job.snapshot, {}, {}};
+    if (job.section) pipeline.keepFocusSection(*job.section);
     for (const StreamKey& key : job.wanted) {
         try {
             if (!suffices(result.snapshot, key))
@@ -245,7 +246,7 @@ void PictureStreams::onLastPictureDrawn(const PictureJob& job, const StreamKey& 
 void PictureStreams::onJobDone(JobResult result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
-    if (result.snapshot) section_.emplace(result.snapshot->revision, result.snapshot->section);
+    if (result.snapshot && !isSectionNamed()) section_ = result.snapshot->section;
     pictures_.addUnlessOlder(result.snapshot, std::move(result.pictures));
     for (auto& [key, subscriber] : subscribers_) {
         if (subscriber.streamKey.stream == Stream::none || !subscriber.pacing.hasRoom()) continue;
@@ -290,15 +291,17 @@ void PictureStreams::sendStateAndPicture(Subscriber& subscriber, const OutgoingM
 SnapshotPtr PictureStreams::currentState() {
     assertOnStrand();
     if (state_ && state_->revision == revision()) return state_;
-    slicing::SectionNamePair section;
-    if (section_ && section_->first == revision()) {
-        section = section_->second;
-    } else if (pipeline::FocusSectionNamer::isFast(session_.current.object)) {
-        section = pipeline::FocusSectionNamer().names(session::pictureOf(session_.current));
-    } else {
-        return nullptr;
+    if (!isSectionNamed()) {
+        if (!pipeline::FocusSectionNamer::isFast(session_.current.object)) return nullptr;
+        section_ = pipeline::FocusSectionNamer().name(session::pictureOf(session_.current));
     }
-    return state_ = makeStateSnapshot(session_.current, revision(), lastChangeTime(), section);
+    return state_ = makeStateSnapshot(session_.current, revision(), lastChangeTime(), *section_);
+}
+
+/// Returns whether section_ is the section in the focus slice of the current state. Most changes of a look keep it.
+bool PictureStreams::isSectionNamed() const {
+    const session::State& current = session_.current;
+    return section_ && section_->isOf(current.object, current.orientation, current.focusW());
 }
 
 std::function<SnapshotPtr(pipeline::Pipeline&)> PictureStreams::currentStateJob() const {
@@ -311,6 +314,7 @@ bool PictureStreams::keepIfCurrent(const SnapshotPtr& state) {
     assertOnStrand();
     if (state->revision != revision()) return false;
     state_ = state;
+    section_ = state->section;
     return true;
 }
 

@@ -86,6 +86,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// was created, does nothing and returns false.
     bool keepIfCurrent(const SnapshotPtr& state);
 
+    /// Returns the section that was named last, which need not be that of the current state; empty if none was.
+    const std::optional<slicing::NamedSection>& namedSection() const { return section_; }
     /// Returns the snapshot of the current revision, of full quality; null if there is none.
     SnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
 
@@ -109,7 +111,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
         Clock::time_point changed;  // the time at which the session reached this revision
         slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
-        std::vector<StreamKey> wanted;  // the pictures to make
+        std::vector<StreamKey> wanted;                 // the pictures to make
+        std::optional<slicing::NamedSection> section;  // PictureStreams::section_ when the job was created
     };
     // The result of a PictureJob.
     struct JobResult {
@@ -125,6 +128,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
     std::uint64_t revision() const { return session_.revision; }
+    bool isSectionNamed() const;
     void advanceMotion();
     slicing::Quality wantedQuality() const;
     void scheduleRefinement();
@@ -161,8 +165,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
     SnapshotPtr state_;              // what currentState() has returned for the current revision, else null
     bool stateRequested_ = false;    // whether a worker has been asked for a state
-    // The revision of the snapshot that was made last for pictures, and the names of the section in it.
-    std::optional<std::pair<std::uint64_t, slicing::SectionNamePair>> section_;
+    std::optional<slicing::NamedSection> section_;  // a section in the focus slice: the one that was named last
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;
 
     // Shared by the strand and a worker.

@@ -273,7 +273,8 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob
     const StreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
     const SnapshotPtr known = streams_->currentFullSnapshot();
     return [known, state = session_.current, askedRevision = revision(), changed = streams_->lastChangeTime(), key, id,
-            point, &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+            point, section = streams_->namedSection(), &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+        if (section) pipeline.keepFocusSection(*section);
         if (point) {
             const scene::PictureRequest picture = session::pictureOf(state, key.viewport);
             return textMessage(pipeline.describePoint(picture, askedRevision, id, *point));

@@ -17,13 +17,13 @@ using wire::Stream;
 SharedBytes Snapshot::stateTextFor(scene::Scheme scheme) const {
     const std::lock_guard lock(textsMutex_);
     SharedBytes& text = texts_.at(static_cast<std::size_t>(scheme));
-    if (text.size() == 0) text = SharedBytes(wire::stateMessage(state, section, revision, {}, quality, scheme));
+    if (text.size() == 0) text = SharedBytes(wire::stateMessage(state, section.names, revision, {}, quality, scheme));
     return text;
 }
 
 SharedBytes Snapshot::stateTextFor(scene::Scheme scheme, std::optional<double> id) const {
     if (!id) return stateTextFor(scheme);
-    return SharedBytes(wire::stateMessage(state, section, revision, id, quality, scheme));
+    return SharedBytes(wire::stateMessage(state, section.names, revision, id, quality, scheme));
 }
 
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
@@ -35,14 +35,14 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
     made->changed = changed;
     made->quality = quality;
     const scene::PictureRequest picture = session::pictureOf(state, key.viewport, quality);
-    made->section = pipeline.nameFocusSection(picture);
     made->sliced = key.stream != Stream::frames;
     if (made->sliced) pipeline.slice(picture, made->slices);
+    made->section = pipeline.nameFocusSection(picture, made->sliced ? &made->slices : nullptr);
     return made;
 }
 
 SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
-                              std::chrono::steady_clock::time_point changed, const slicing::SectionNamePair& section) {
+                              std::chrono::steady_clock::time_point changed, const slicing::NamedSection& section) {
     auto made = std::make_shared<Snapshot>();
     made->state = state;
     made->revision = revision;
@@ -72,7 +72,7 @@ OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapsh
             session::State state = snapshot.state;
             applyOverrides(state.look);
             stateText = SharedBytes(
-                wire::stateMessage(state, snapshot.section, snapshot.revision, {}, snapshot.quality, key.scheme));
+                wire::stateMessage(state, snapshot.section.names, snapshot.revision, {}, snapshot.quality, key.scheme));
         } else {
             stateText = snapshot.stateTextFor(key.scheme);
         }

@@ -40,7 +40,7 @@ struct Snapshot {
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
     slicing::Quality quality = slicing::Quality::full;  ///< quality of the pictures made from this snapshot
-    slicing::SectionNamePair section;                   ///< the names of the section in the focus slice
+    slicing::NamedSection section;                      ///< the section in the focus slice
     bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;
 
@@ -62,9 +62,9 @@ SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& sta
                          std::chrono::steady_clock::time_point changed, const StreamKey& key, slicing::Quality quality);
 
 /// Makes the snapshot of a revision without slices and in full quality, for clients that are sent only states.
-/// `section`: the names of the section in the focus slice.
+/// `section`: the section in the focus slice.
 SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
-                              std::chrono::steady_clock::time_point changed, const slicing::SectionNamePair& section);
+                              std::chrono::steady_clock::time_point changed, const slicing::NamedSection& section);
 
 /// Returns whether the snapshot contains all that pictures of the kind `key` need. Returns false for a null pointer.
 bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);

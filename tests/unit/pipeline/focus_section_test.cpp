@@ -15,7 +15,8 @@ TEST(FocusSectionNamer, IsFastWhereThereIsLittleToCut) {
     EXPECT_TRUE(FocusSectionNamer::isFast(field));
     scene::PictureRequest picture;
     picture.source = picture.object = field;
-    EXPECT_EQ(FocusSectionNamer().names(picture), slicing::SectionNamePair{}) << "sections of fields have no names";
+    EXPECT_EQ(FocusSectionNamer().name(picture).names, slicing::SectionNamePair{})
+        << "sections of fields have no names";
 }
 
 }  // namespace

@@ -64,6 +64,35 @@ TEST(Pipeline, PointsAtAStateAfterOneWhoseSlicesAreTooLarge) {
     EXPECT_EQ(answersAt(pipeline, small), answers);
 }
 
+TEST(Pipeline, NamesTheFocusSectionOnce) {
+    std::mt19937 random(4);
+    Pipeline pipeline(nullptr, nullptr), other(nullptr, nullptr);
+    scene::PictureRequest picture = pictureOf(support::shared("24-cell"));
+    slicing::NamedSection section = pipeline.nameFocusSection(picture);
+    const slicing::SectionNamePair names = section.names;
+    EXPECT_NE(names.slice, "");
+    slicing::SliceSet slices;
+    pipeline.slice(picture, slices);
+    EXPECT_EQ(other.nameFocusSection(picture, &slices).names, names) << "without cutting the focus slice again";
+    section.names = {"kept", "known"};  // names that would not be found
+    pipeline.keepFocusSection(section);
+    picture.look.orbit.zoom = 2;
+    EXPECT_EQ(pipeline.nameFocusSection(picture).names, section.names);
+    std::string message;
+    pipeline.writeSlices(picture, slices, 1, {}, wire::Encoding::json, message);
+    EXPECT_NE(message.find(R"("section":{"name":"kept","vertices":"known"})"), std::string::npos);
+    const auto expectNamedAnew = [&](const char* what, auto change) {
+        scene::PictureRequest changed = picture;
+        change(changed);
+        pipeline.keepFocusSection(section);
+        EXPECT_NE(pipeline.nameFocusSection(changed).names, section.names) << what;
+        EXPECT_EQ(pipeline.nameFocusSection(picture).names, names) << what;
+    };
+    expectNamedAnew("turned", [&](scene::PictureRequest& p) { p.orientation = support::randomRotation(random); });
+    expectNamedAnew("another focus", [](scene::PictureRequest& p) { p.focus = 1; });
+    expectNamedAnew("another object", [](scene::PictureRequest& p) { p.object = support::shared("16-cell"); });
+}
+
 // A point of a field is found on one ray, without the surfaces of the picture, and contours are kept for the next
 // point.
 TEST(Pipeline, PointsAtAFieldAlongOneRay) {

@@ -14,6 +14,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 
+#include "pipeline/focus_section.hpp"
+#include "session/picture.hpp"
 #include "unit/net/live/recording_peer.hpp"
 #include "unit/net/virtual_server.hpp"
 #include "unit/session/support.hpp"
@@ -224,6 +226,31 @@ TEST_F(PictureStreamsTest, QuickChangesOfAPolytopeHaveNoDrafts) {
     EXPECT_EQ(peer->pictures(), (Revisions{0, 1, 2, 3, 4, 5}));
     for (std::uint64_t revision = 0; revision <= 5; ++revision)
         EXPECT_EQ(peer->drafts(revision), std::vector{false}) << revision;
+}
+
+TEST_F(PictureStreamsTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
+    session::must(value, session::CommandLine{"set polytope=600-cell slices=1"});
+    ASSERT_FALSE(pipeline::FocusSectionNamer::isFast(value.current.object));
+    const auto peer = connect(true);
+    // Applies a command, and returns the state if it is known without a worker.
+    const auto stateAfter = [this](const session::Command& command) {
+        SnapshotPtr state;
+        post([&] {
+            session::must(value, command);
+            state = streams->currentState();
+        });
+        server.runHandlers();
+        return state;
+    };
+    for (const char* look : {"set background=white", "set opacity=0.5", "set labels=off"}) {
+        const SnapshotPtr state = stateAfter(session::CommandLine{look});
+        ASSERT_TRUE(state) << look;
+        EXPECT_EQ(state->revision, value.revision) << look;
+        const scene::PictureRequest picture = session::pictureOf(value.current);
+        EXPECT_EQ(state->section.names, pipeline::FocusSectionNamer().name(picture).names) << look;
+    }
+    EXPECT_FALSE(stateAfter(session::CommandLine{"set focus=1"})) << "another section";
+    EXPECT_FALSE(stateAfter(kRotation)) << "another section";
 }
 
 Options optionsWithOneWaitingJob() {

@@ -29,7 +29,8 @@ SnapshotPictureCache::MessagesByStream pictureOf(const StreamKey& key, const std
 }
 
 TEST(Snapshot, MakesOneTextOfTheStateForEachScheme) {
-    const SnapshotPtr snapshot = makeStateSnapshot(session::initialState(), 7, {}, {"cuboctahedron", "point"});
+    const SnapshotPtr snapshot =
+        makeStateSnapshot(session::initialState(), 7, {}, {0, {}, 0, {"cuboctahedron", "point"}});
     const SharedBytes dark = snapshot->stateTextFor(scene::Scheme::dark);
     const SharedBytes light = snapshot->stateTextFor(scene::Scheme::light);
     EXPECT_NE(dark.view().find("\"revision\":7,"), std::string_view::npos) << dark.view();
