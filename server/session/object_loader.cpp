@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "polytopes/construction/convex_hull.hpp"
+#include "session/time_steps.hpp"
 
 namespace oval4d::session {
 

@@ -1,4 +1,4 @@
-// Time steps that are appended to the field of an array.
+#include "session/time_steps.hpp"
 
 #include <gtest/gtest.h>
 
