@@ -1,7 +1,6 @@
 #include "fields/readers/zarr.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -10,7 +9,7 @@
 #include "fields/readers/axis_mapping.hpp"
 #include "fields/readers/cf_conventions.hpp"
 #include "fields/readers/sample_buffer.hpp"
-#include "fields/readers/zarr_chunk_files.hpp"
+#include "fields/readers/zarr_chunk_reader.hpp"
 #include "fields/readers/zarr_metadata.hpp"
 #include "text/message_text.hpp"
 
@@ -30,144 +29,6 @@ FolderTextReader textsOf(const FolderFileReader& folder) {
         return std::optional(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
     };
 }
-
-// A part of an array: for each dimension, its first index and the number of its indices.
-struct IndexBox {
-    std::vector<std::size_t> first, size;
-};
-
-// Reads the chunks of an array that have numbers of a part of the array.
-class ChunkReader {
-  public:
-    ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array, IndexBox part)
-        : chunks_(folder, array), array_(array), part_(std::move(part)) {}
-
-    // Converts the numbers of the part. `stride` has, for each dimension, the distance in `to` between neighbors along
-    // this dimension; `first` is the place of the part's first number in `to`. `to` must contain only zeros before the
-    // call, because missing chunks whose fill value is 0 are skipped. Calls `afterward` about once per kNumbers
-    // numbers, so that the caller can release memory.
-    template <typename Afterward>
-    Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
-                                const Afterward& afterward) {
-        constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // numbers between two calls
-        const std::size_t rank = array_.shape.size();
-        const auto firstChunk = [this](std::size_t i) { return part_.first[i] / array_.chunk[i]; };
-        std::vector<std::size_t> index(rank);
-        for (std::size_t i = 0; i < rank; ++i) index[i] = firstChunk(i);
-        std::size_t numbers = 0;
-        for (;;) {
-            if (auto chunk = readChunk(index, stride, to + first); !chunk) return chunk;
-            numbers += array_.decompressedChunkBytes() / sizeOf(array_.format.type);
-            if (numbers >= kNumbers) {
-                afterward();
-                numbers = 0;
-            }
-            std::size_t i = rank;
-            while (i > 0 && ++index[i - 1] * array_.chunk[i - 1] >= part_.first[i - 1] + part_.size[i - 1]) {
-                --i;
-                index[i] = firstChunk(i);
-            }
-            if (i == 0) return std::monostate{};
-        }
-    }
-
-  private:
-    Result<std::monostate> readChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
-                                     float* to) {
-        auto file = chunks_.contentsOf(index);
-        if (!file) return file.error();
-        if (!*file) {
-            fill(index, stride, to);
-            return std::monostate{};
-        }
-        std::span<const std::byte> bytes = (*file)->bytes;
-        if (array_.codec) {
-            chunk_.resize(array_.decompressedChunkBytes());
-            if (const auto done = decompress(*array_.codec, bytes, chunk_); !done)
-                return badField(chunks_.nameOf(index) + " cannot be read: " + done.error().message);
-            bytes = chunk_;
-        } else if (bytes.size() != array_.decompressedChunkBytes()) {
-            return badField(chunks_.nameOf(index) + " has " + std::to_string(bytes.size()) + " bytes; it must have " +
-                            std::to_string(array_.decompressedChunkBytes()));
-        }
-        copy(index, stride, bytes.data(), to);
-        if ((*file)->file && (*file)->file->isLost()) return badField(chunks_.nameOf(index) + " was shortened");
-        return std::monostate{};
-    }
-
-    // The indices in a chunk, along one dimension, from `begin` to `end` − 1.
-    struct IndexRange {
-        std::size_t begin, end;
-    };
-
-    // Returns the indices along a dimension that are both in the chunk `index` and in the part.
-    IndexRange rangeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
-        const std::size_t chunk = index[dimension] * array_.chunk[dimension], first = part_.first[dimension];
-        return {std::max(first, chunk) - chunk,
-                std::min(array_.chunk[dimension], first + part_.size[dimension] - chunk)};
-    }
-
-    // Converts the numbers of the chunk `index` that are in the part, row by row. `from` is the decompressed chunk.
-    void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
-              float* to) const {
-        const std::size_t size = sizeOf(array_.format.type);
-        visitRows(index, stride, [&](std::size_t number, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
-            convert(array_.format, from + number * size, {{1, 1, 1, count}, {0, 0, 0, step}}, to + at);
-        });
-    }
-
-    void fill(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, float* to) const {
-        // The fill value is converted like all other stored numbers.
-        NumberFormat format = array_.format;
-        format.type = NumberType::f8;
-        format.bigEndian = std::endian::native == std::endian::big;
-        float value = 0;
-        convert(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
-        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // `to` contains only zeros before read() is called
-        visitRows(index, stride, [&](std::size_t, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
-            for (std::size_t i = 0; i < count; ++i) to[at + static_cast<std::ptrdiff_t>(i) * step] = value;
-        });
-    }
-
-    // Visits the stored rows of a chunk that have numbers of the part. Calls `visit` for each row with four numbers:
-    // the index in the chunk of the row's first number that is in the part; the place of this number in `to`, relative
-    // to the place of the part's first number; how many numbers of the row are in the part; and the distance between
-    // their places in `to`.
-    template <typename Visit>
-    void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
-                   const Visit& visit) const {
-        const std::vector<std::size_t>& order = array_.order;
-        const std::size_t rank = order.size(), fastest = order.back();
-        std::vector<IndexRange> range(rank);
-        std::vector<std::size_t> i(rank);  // indices in the chunk, in the order of storage
-        for (std::size_t d = 0; d < rank; ++d) {
-            range[d] = rangeWithin(index, order[d]);
-            i[d] = range[d].begin;
-        }
-        for (;;) {
-            std::size_t number = 0;
-            std::ptrdiff_t at = 0;
-            for (std::size_t d = 0; d < rank; ++d) {
-                const std::size_t dimension = order[d];
-                number = number * array_.chunk[dimension] + i[d];
-                const std::size_t inPart = index[dimension] * array_.chunk[dimension] + i[d] - part_.first[dimension];
-                at += static_cast<std::ptrdiff_t>(inPart) * stride[dimension];
-            }
-            visit(number, at, range.back().end - range.back().begin, stride[fastest]);
-            std::size_t d = rank - 1;
-            while (d > 0 && ++i[d - 1] == range[d - 1].end) {
-                --d;
-                i[d] = range[d].begin;
-            }
-            if (d == 0) return;
-        }
-    }
-
-    ZarrChunkFiles chunks_;
-    const ZarrArrayMetadata& array_;
-    const IndexBox part_;
-    std::vector<std::byte> chunk_;
-};
 
 // Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
 // dimension's name. Sets `units` and `stated` from the attributes of the array at `path`. Returns an empty optional if
