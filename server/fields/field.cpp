@@ -84,6 +84,19 @@ void setSecondFunction(Field& field, SecondFunction second) {
     field.coloringRange = std::make_shared<const TypicalRangeOnBox>(field.second->function, field.box);
 }
 
+std::shared_ptr<const Field> changedCopy(std::shared_ptr<const Field> original,
+                                         const std::function<void(Field&)>& change) {
+    struct CopyAndOriginal {
+        Field copy;
+        std::shared_ptr<const Field> original;
+    };
+    auto both = std::make_shared<CopyAndOriginal>(CopyAndOriginal{*original, std::move(original)});
+    both->copy.serial = geometry::nextSerial();
+    change(both->copy);
+    const Field* const copy = &both->copy;
+    return {std::move(both), copy};
+}
+
 Field transformedTo(const Field& field, const geometry::ReferenceFrame& frame, std::uint64_t serial) {
     Field image = field;
     image.serial = serial;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -101,6 +102,12 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 
 /// Sets the second function of the field. Both functions use the same coordinates.
 void setSecondFunction(Field& field, SecondFunction second);
+
+/// Returns a copy of a field that `change` has changed, with a serial number of its own. The copy has the same
+/// functions. It keeps the original alive, so that the owner of the original can tell from its use count whether the
+/// functions are in use.
+std::shared_ptr<const Field> changedCopy(std::shared_ptr<const Field> original,
+                                         const std::function<void(Field&)>& change);
 
 /// Returns the field as a 4-D object in the frame of reference `frame`, with the serial number `serial`. The result has
 /// the same functions on the same box as `field`. The map frame.matrix() is applied to the points of the 4-D object, so

@@ -94,10 +94,9 @@ bool isAllowedName(const std::string& name) {
            name.find('\0') == std::string::npos && text::isUtf8(name);
 }
 
-/// Returns a cache key made from everything that determines the result of reading `load`.
+/// Returns a cache key made from everything that determines the result of reading `load`, except the name of the field.
 std::string cacheKeyOf(const session::LoadObject& load, const std::string& version) {
-    std::string key =
-        load.dataName + '\0' + load.name + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
+    std::string key = load.dataName + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
     key += load.secondFormula + '\0' + load.secondVariable + '\0';
     for (const auto& box : {load.box, load.region}) {
         key += box ? '1' : '0';
@@ -220,18 +219,28 @@ std::string DataFolder::currentVersion(const OpenedEntry& opened) {
     return version;
 }
 
-/// Returns a field from the cache, and marks it as the most recently used one. Returns null if the cache does not have
-/// the field, or if the field's file can no longer be read. Requires that mutex_ is held.
-const session::ObjectWithWarnings* DataFolder::find(const std::string& key) {
+/// Returns a field from the cache, called `name`, and marks it as the most recently used one. Returns an empty optional
+/// if the cache does not have the field, or if the field's file can no longer be read. Requires that mutex_ is held.
+std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& key, const std::string& name) {
     const auto found = std::ranges::find(recent_, key, &CachedField::key);
-    if (found == recent_.end()) return nullptr;
-    if (slicing::fieldIn(found->loaded.object)->isLost()) {
+    if (found == recent_.end()) return {};
+    const slicing::FieldPtr field = std::get<slicing::FieldPtr>(found->loaded.object);
+    if (field->isLost()) {
         bytes_ -= found->bytes;
         recent_.erase(found);
-        return nullptr;
+        return {};
     }
     recent_.splice(recent_.begin(), recent_, found);
-    return &recent_.front().loaded;
+    session::ObjectWithWarnings loaded = found->loaded;
+    if (field->name == name) return loaded;
+    std::erase_if(found->renamed, [](const auto& copy) { return copy.second.expired(); });
+    slicing::FieldPtr copy = found->renamed[name].lock();
+    if (!copy) {
+        copy = fields::changedCopy(field, [&](fields::Field& other) { other.name = name; });
+        found->renamed[name] = copy;
+    }
+    loaded.object = std::move(copy);
+    return loaded;
 }
 
 /// Drops the least recently used field that no session uses; if `onDisk` is true, considers only the fields with a file
@@ -279,7 +288,7 @@ Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::O
                      "the fields of the data folder that sessions use leave no room for this one "
                      "(--data-cache); try again later"};
     bytes_ += size;
-    recent_.push_front({std::move(key), loaded, size, onDisk});
+    recent_.push_front({.key = std::move(key), .loaded = loaded, .bytes = size, .onDisk = onDisk});
     return loaded;
 }
 
@@ -291,7 +300,7 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
     {
         std::unique_lock lock(mutex_);
         readEnded_.wait(lock, [&] { return !reading_.contains(key); });
-        if (const auto* known = find(key)) return *known;
+        if (auto known = find(key, load.name)) return *std::move(known);
         reading_.insert(key);
     }
     struct Finally {

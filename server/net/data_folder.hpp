@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <list>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -17,6 +18,7 @@
 
 #include "errors/error.hpp"
 #include "fields/array/mapped_file.hpp"
+#include "fields/field.hpp"
 #include "file_reading/file_reader_pool.hpp"
 #include "net/field_cache_files.hpp"
 #include "session/load.hpp"
@@ -25,9 +27,10 @@ namespace oval4d::net {
 
 /// A folder of arrays. Each entry is a file, a Zarr folder, or a folder that is a series: its files are the time steps
 /// of one array. Clients refer to entries by name; names that begin with a dot or lead outside the folder are refused,
-/// and symbolic links are not followed. Sessions that open the same file in the same way share one copy, until the file
-/// changes. Fields that are larger than session::Limits::maxFieldBytes are mapped into memory: from the file in the
-/// folder or, if its samples must be converted, from a file of the field cache (see FieldCacheFiles). Thread-safe.
+/// and symbolic links are not followed. Sessions that open the same file in the same way, under whatever names, share
+/// one copy, until the file changes. Fields that are larger than session::Limits::maxFieldBytes are mapped into memory:
+/// from the file in the folder or, if its samples must be converted, from a file of the field cache (see
+/// FieldCacheFiles). Thread-safe.
 class DataFolder {
   public:
     /// `folder`: empty if the server offers none. `bytes`: the maximum memory, in bytes, of the fields from the folder,
@@ -75,10 +78,12 @@ class DataFolder {
         // does not make read() fail, because a simulation may be writing other arrays of the folder.
         std::string chunks;
     };
-    // A field in memory.
+    // A field in memory, under the name with which it was read.
     struct CachedField {
         std::string key;
         session::ObjectWithWarnings loaded;
+        // The copies of the field under other names. They keep the field in use (see fields::changedCopy()).
+        std::map<std::string, std::weak_ptr<const fields::Field>, std::less<>> renamed = {};
         std::size_t bytes = 0;
         bool onDisk = false;  // whether the field has a file in the field cache
     };
@@ -91,7 +96,7 @@ class DataFolder {
     Result<FieldCacheFiles::FilePtr> makeCacheFile(std::size_t bytes);
     bool dropOneUnused(bool onDisk);
     Result<session::ObjectWithWarnings> keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
-    const session::ObjectWithWarnings* find(const std::string& key);
+    std::optional<session::ObjectWithWarnings> find(const std::string& key, const std::string& name);
 
     const std::filesystem::path folder_;
     const std::size_t maxBytes_;
