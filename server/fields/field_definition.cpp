@@ -39,7 +39,8 @@ std::optional<Error> faultOf(const FieldArray& array) {
     if (!std::ranges::all_of(array.units, isQuantityText) || !isQuantityText(array.quantity.name) ||
         !isQuantityText(array.quantity.unit))
         return badField("a unit or the name of a quantity is too long or is not printable UTF-8");
-    if (array.imageLevel.level >= std::max(array.imageLevel.levels, 1U))
+    const auto& [level, levels, finer] = array.imageLevel;
+    if (level >= std::max(levels, 1U) || finer > level)
         return badField("an image does not have the level of the array");
     return {};
 }

@@ -104,7 +104,7 @@ void writeBox(JsonWriter& w, std::string_view name, const fields::Box& box) {
 void writePart(JsonWriter& w, const fields::Field& field) {
     if (!field.source) return;
     if (field.source->region) writeBox(w, "region", *field.source->region);
-    const auto [level, levels] = field.imageLevel;
+    const auto [level, levels, finer] = field.imageLevel;
     if (levels == 0) return;
     w.key("resolution");
     w.beginObject();

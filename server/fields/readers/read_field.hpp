@@ -2,6 +2,7 @@
 // The options and the result of the functions that read fields from files.
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -44,6 +45,11 @@ struct ReadOptions {
     /// The part of the array that is read, in the coordinates of its box: the samples that cover this region or, along
     /// an axis where the region has no extent, the sample nearest to it. Only readZarr() reads parts.
     std::optional<Box> region = {};
+    /// The most samples of a level of a multiscale image that readZarr() chooses. Finer levels of at most `maxInMemory`
+    /// samples count as ImageLevel::finer.
+    std::size_t maxInFirstLevel = kMaxSamples;
+    std::optional<std::uint32_t> level = {};  ///< the level of a multiscale image that readZarr() reads; if empty, it
+                                              ///< chooses one
 };
 
 /// A field read from a file. If `samples` refers to the bytes of the file, it keeps these bytes valid.

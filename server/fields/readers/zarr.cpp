@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -170,6 +171,7 @@ struct ArrayPart {
     std::vector<std::size_t> kept;      // see squeeze()
     std::vector<Dimension> dimensions;  // those in `kept`, with the sizes of the part
     FieldArray field;                   // without its shape and its samples
+    std::uint32_t finer = 0;            // see ImageLevel
 };
 
 // Restricts a part, which is the whole array, to the samples that cover `region`. Error: `out_of_range` if the region
@@ -234,22 +236,41 @@ Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& z
     const auto chosen = zarr.chooseArray();
     if (!chosen) return chosen.error();
     const std::vector<std::string> candidates = chosen->areLevels ? chosen->all : std::vector{chosen->path};
+    if (options.level && (!chosen->areLevels || *options.level >= candidates.size()))
+        return Error{ErrorCode::not_found, "the image has no level " + std::to_string(*options.level)};
+    const std::size_t maxInMemory = std::min(options.maxSamples, options.maxInMemory);
+    std::size_t finest = candidates.size();  // the finest level that fits into memory
     for (std::size_t i = 0;; ++i) {
         auto array = zarr.array(candidates[i]);
         if (!array) return array.error();
         if (!*array) return missingArray(zarr, candidates[i]);
         auto part = partOf(folder, zarr, std::move(**array), options, i > 0);
         if (!part) return part.error();
-        const auto fits = AxisMapping::of(part->dimensions, std::min(options.maxSamples, options.maxInMemory));
-        const bool isTooLarge = !fits && fits.error().code == ErrorCode::too_large;
-        if (isTooLarge && i + 1 < candidates.size()) continue;
+        const auto fitsInto = [&](std::size_t maxSamples) -> std::optional<Error> {
+            const auto mapping = AxisMapping::of(part->dimensions, maxSamples);
+            return mapping ? std::nullopt : std::optional(mapping.error());
+        };
+        const auto isTooLargeFor = [&](std::size_t maxSamples) {
+            const auto fault = fitsInto(maxSamples);
+            return fault && fault->code == ErrorCode::too_large;
+        };
+        const bool isTooLarge = isTooLargeFor(maxInMemory);
+        if (!isTooLarge) finest = std::min(finest, i);
+        const bool isLast = i + 1 == candidates.size();
+        if (options.level ? i < *options.level
+                          : !isLast && isTooLargeFor(std::min(maxInMemory, options.maxInFirstLevel)))
+            continue;
+        if (options.level && isTooLarge) return *fitsInto(maxInMemory);
+        if (finest < i) part->finer = static_cast<std::uint32_t>(i - finest);
         std::string warning = "of " + std::to_string(chosen->all.size()) + (i > 0 ? " levels, " : " arrays, ") +
                               text::inQuotes(candidates[i]) + " is shown";
-        if (i > 0) {
+        if (part->finer > 0) {
+            warning += " first; finer ones follow";
+        } else if (i > 0) {
             warning += std::string(isTooLarge ? ", the coarsest one" : ", the finest one that fits into memory") +
                        "; a region of the array is shown in more detail";
-            part->field.isPart = true;
         }
+        if (i > 0) part->field.isPart = true;
         if (chosen->all.size() > 1) part->field.warnings.insert(part->field.warnings.begin(), std::move(warning));
         return part;
     }
@@ -290,6 +311,7 @@ Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& o
     if (field.quantity.name.empty() && !zarr.coordinatesOf(array.path))
         field.quantity.name = quantityText(array.path.substr(array.path.rfind('/') + 1));
     field.imageLevel = levelOf(zarr, array.path);
+    field.imageLevel.finer = std::min(part->finer, field.imageLevel.level);
     return std::move(field);
 }
 

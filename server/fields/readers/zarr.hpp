@@ -22,11 +22,12 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 
 /// Reads an array from a Zarr folder, or the part of it in `options.region`, chunk by chunk; opens only the chunks that
 /// have samples of the part. `options.variable` is the path of the array in the folder. If this option is empty, reads
-/// the folder itself if it is an array. If the folder is a multiscale image (OME-Zarr), reads the finest level of which
-/// the part has at most `options.maxInMemory` samples, or the coarsest level if there is no such level. If the folder
-/// is any other group, the group's consolidated metadata must list its arrays, and the array with the most dimensions
-/// is read. Types: Booleans, integers and floats of either byte order. Chunks may be parts of shards, be compressed by
-/// gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
+/// the folder itself if it is an array. If the folder is a multiscale image (OME-Zarr), reads the level `options.level`
+/// or, without this option, the finest level of which the part has at most `options.maxInMemory` and
+/// `options.maxInFirstLevel` samples, or the coarsest level if there is no such level. If the folder is any other
+/// group, the group's consolidated metadata must list its arrays, and the array with the most dimensions is read.
+/// Types: Booleans, integers and floats of either byte order. Chunks may be parts of shards, be compressed by gzip,
+/// zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
 ///
 /// The axes are those in `options.axes` or, if it is empty, those that the names of the dimensions state (xarray,
 /// OME-Zarr). The box is given by the arrays of coordinates beside the array, or by the scales of a multiscale image.
@@ -34,9 +35,10 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// are left out until 4 remain.
 ///
 /// Errors: `bad_field` if the metadata are not valid, or if a chunk is damaged or does not have the stated size;
-/// `not_found` if there is no array at `options.variable`; `out_of_range` if a group does not list its arrays, if
-/// `options.axes` does not fit the array, or if the region lies beyond the box; `unsupported_format` for other types,
-/// compressors and filters; `too_large`; and those of `folder`.
+/// `not_found` if there is no array at `options.variable`, or no level `options.level`; `out_of_range` if a group does
+/// not list its arrays, if `options.axes` does not fit the array, or if the region lies beyond the box;
+/// `unsupported_format` for other types, compressors and filters; `too_large`, also if `options.level` has more than
+/// `options.maxInMemory` samples; and those of `folder`.
 Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -345,7 +345,7 @@ TEST(ObjectBytes, FieldsKeepTheirUnits) {
     array.samples = fields::SampleStorage(std::vector<float>(16, 1));
     array.units = {"km", "m", "", "hours since 2020-01-01"};
     array.quantity = {"temperature", "K"};
-    array.imageLevel = {1, 3};
+    array.imageLevel = {2, 3, 1};
     fields::Field field = *fields::fieldFromArray("run", array);
     array.quantity = {"pressure", "Pa"};
     ASSERT_FALSE(fields::setSecondArray(field, array, "p"));
@@ -360,7 +360,7 @@ TEST(ObjectBytes, FieldsKeepTheirUnits) {
         EXPECT_EQ(back.units, field.units);
         EXPECT_EQ(back.quantity, field.quantity);
         EXPECT_EQ(back.second->quantity, field.second->quantity);
-        EXPECT_EQ(back.imageLevel, (fields::ImageLevel{1, 3}));
+        EXPECT_EQ(back.imageLevel, (fields::ImageLevel{2, 3, 1}));
     }
     for (const std::string unit : {"km", "hours since 2020-01-01", "temperature", "Pa"}) {
         std::string damaged = parts;

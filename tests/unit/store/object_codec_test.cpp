@@ -226,7 +226,7 @@ std::vector<slicing::Object> objectsOfAllKinds() {
         info->originInFile = {1, 2, 3, 4};
     fields::Field part = fieldWithUnits(true);
     part.isPart = true;
-    part.imageLevel = {1, 3};
+    part.imageLevel = {2, 3, 1};
     const fields::Field formula =
         *fields::fieldFromFormula("formula", "x+w", fields::Box{glm::dvec4(-2), glm::dvec4(3)}, "y");
     return {

@@ -378,9 +378,55 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
     ASSERT_TRUE(named) << named.error().message;
     EXPECT_EQ(named->imageLevel, (ImageLevel{1, 2}));
     EXPECT_TRUE(left.isPart);
+    const FieldArray first =
+        *readFiles(files, ReadOptions{.region = Box{{0, 0, 0, 0}, {3, 3, 0, 0}}, .maxInFirstLevel = 15});
+    EXPECT_EQ(first.imageLevel, (ImageLevel{1, 2, 1}));
+    EXPECT_EQ(first.shape, (Shape{3, 2, 1, 1}));
+    EXPECT_NE(first.warnings.at(0).find("'1' is shown first; finer ones follow"), std::string::npos);
     // A coarser level does not reach the ends of the finest one.
     const FieldArray end = read(2, Box{{7, 0, 0, 0}, {7, 3, 0, 0}});
     EXPECT_EQ(end.box, (Box{{6.5, 0.5, 0, 0}, {6.5, 2.5, 0, 0}}));
+}
+
+// The files of an image of 16, 8, 4 and 2 samples.
+Files imageOfFourLevels() {
+    Files files{{".zgroup", R"({"zarr_format":2})"}};
+    std::string levels;
+    for (int level = 0; level < 4; ++level) {
+        const std::string path = std::to_string(level), size = "[" + std::to_string(16 >> level) + "]";
+        files[path + "/.zarray"] = zarray(size, size);
+        levels += std::string(level == 0 ? "" : ",") + R"({"path":")" + path + "\"}";
+    }
+    files[".zattrs"] = R"({"multiscales":[{"axes":[{"name":"x"}],"datasets":[)" + levels + "]}]}";
+    return files;
+}
+
+TEST(Zarr, ReadsALevelByItsNumberAndSaysHowManyFinerOnesFollow) {
+    const Files files = imageOfFourLevels();
+    struct Case {
+        std::size_t maxInMemory, maxInFirstLevel;
+        std::optional<std::uint32_t> level;
+        ImageLevel expected;
+    };
+    for (const auto& [maxInMemory, maxInFirstLevel, level, expected] :
+         {Case{16, 16, {}, {0, 4, 0}}, Case{16, 4, {}, {2, 4, 2}}, Case{8, 4, {}, {2, 4, 1}},
+          Case{8, 99, {}, {1, 4, 0}}, Case{8, 1, {}, {3, 4, 2}}, Case{1, 1, {}, {3, 4, 0}}, Case{8, 4, 1U, {1, 4, 0}},
+          Case{16, 4, 1U, {1, 4, 1}}, Case{16, 4, 0U, {0, 4, 0}}}) {
+        const auto field = readFiles(
+            files, ReadOptions{.maxInMemory = maxInMemory, .maxInFirstLevel = maxInFirstLevel, .level = level});
+        ASSERT_TRUE(field) << field.error().message;
+        EXPECT_EQ(field->imageLevel, expected) << maxInMemory << ' ' << maxInFirstLevel;
+        EXPECT_EQ(field->shape[0], 16U >> expected.level);
+        EXPECT_EQ(field->isPart, expected.level > 0);
+    }
+    const auto large = readFiles(files, ReadOptions{.maxInMemory = 8, .level = 0U});
+    ASSERT_FALSE(large);
+    EXPECT_EQ(large.error().code, ErrorCode::too_large);
+    const auto missing = readFiles(files, ReadOptions{.level = 4U});
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().code, ErrorCode::not_found);
+    const auto array = readFiles(Files{{".zarray", zarray("[2]", "[2]")}}, ReadOptions{.level = 0U});
+    EXPECT_TRUE(array) << "the folder is an array";
 }
 
 }  // namespace
