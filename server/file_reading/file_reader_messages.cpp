@@ -80,6 +80,7 @@ void encodeReadRequest(const session::LoadObject& load, const session::Limits& l
     ByteWriter archive(out);
     visitReadRequest(archive, load, limits);
     for (const auto& box : {load.box, load.region}) archive(box.has_value()), archive(box.value_or(fields::Box{}));
+    archive(load.finer.has_value()), archive(load.finer.value_or(session::FinerLevel{}).level);
     archive(load.series.size()), archive(load.folder != nullptr), archive(mayMap);
 }
 
@@ -92,6 +93,10 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
         archive(hasBox), archive(box);
         if (hasBox) *to = box;
     }
+    bool isFiner = false;
+    std::uint32_t level = 0;
+    archive(isFiner), archive(level);
+    if (isFiner) out.load.finer = session::FinerLevel{level, 0};
     archive(out.seriesLength), archive(out.isFolder), archive(out.mayMap);
 }
 

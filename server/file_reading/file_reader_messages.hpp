@@ -14,7 +14,8 @@ namespace oval4d::file_reading {
 
 /// What a file reader process must read.
 struct ReadRequest {
-    session::LoadObject load;      ///< sent without its open files and folder, `dataName`, `continues` and `append`
+    session::LoadObject load;  ///< sent without its open files and folder, `dataName`, `continues` and `append`, and
+                               ///< without FinerLevel::initialLevel
     std::size_t seriesLength = 0;  ///< the number of files of a series; further messages carry their descriptors
     bool isFolder = false;         ///< whether a Zarr folder is read; the reader process asks the server for its files
     bool mayMap = false;           ///< whether the samples of large arrays may stay in the file or go to a new one

@@ -102,12 +102,17 @@ std::string cacheKeyOf(const session::LoadObject& load, const std::string& versi
         key += box ? '1' : '0';
         if (box) key.append(reinterpret_cast<const char*>(&*box), sizeof *box);
     }
+    key += load.finer ? '1' : '0';
+    if (load.finer) {
+        key.append(reinterpret_cast<const char*>(&load.finer->level), sizeof load.finer->level);
+        key.append(reinterpret_cast<const char*>(&load.finer->initialLevel), sizeof load.finer->initialLevel);
+    }
     return key + '\0' + version;
 }
 
 /// Returns a copy of the loaded field in which Field::shared is true: its memory does not count against the sessions
-/// that use it, because DataFolder::bytes_ counts it. If the samples are in a mapped file, or are a part of an array,
-/// sets Field::source. Returns an error if the object is not an array.
+/// that use it, because DataFolder::bytes_ counts it. If the samples are in a mapped file, are a part of an array, or
+/// have replaced a coarser level of an image, sets Field::source. Returns an error if the object is not an array.
 Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings loaded,
                                                      const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
@@ -116,7 +121,8 @@ Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings
     copy->shared = true;
     const bool isMapped = field->array->storage().file() ||
                           (field->second && field->second->array && field->second->array->storage().file());
-    if (isMapped || field->isPart) {
+    if (load.finer) copy->initialLevel = load.finer->initialLevel;
+    if (isMapped || field->isPart || load.finer) {
         copy->source = std::make_shared<const fields::FileSource>(
             fields::FileSource{load.dataName, load.format, load.axes, load.variable, load.secondFormula,
                                load.secondVariable, load.box, load.region});

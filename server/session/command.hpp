@@ -54,6 +54,13 @@ struct TurnToward {
 };
 BOOST_DESCRIBE_STRUCT(TurnToward, (), (element, number, immediately))
 
+/// A level of a multiscale image that is to replace a coarser one.
+struct FinerLevel {
+    std::uint32_t level = 0;  ///< see fields::ImageLevel
+    double initialLevel = 0;  ///< of the field with the coarser one, which the field with the finer one gets, too, so
+                              ///< that the levels that are shown are still the initial ones
+    bool operator==(const FinerLevel&) const = default;
+};
 /// Loads an object from a file, or makes a field from a formula, and shows it.
 struct LoadObject {
     static constexpr std::string_view kMessageType = "load";
@@ -82,8 +89,9 @@ struct LoadObject {
     std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
     /// A Zarr folder, instead of `data`.
     std::shared_ptr<const fields::FileHandle> folder = {};
-    std::string dataName = {};        ///< the name of an array in the server's data folder, instead of `data`
-    geometry::Centering center = {};  ///< for a polytope, a surface or points: the point about which they turn
+    std::string dataName = {};             ///< the name of an array in the server's data folder, instead of `data`
+    geometry::Centering center = {};       ///< for a polytope, a surface or points: the point about which they turn
+    std::optional<FinerLevel> finer = {};  ///< for an array in the server's data folder: see loadOfFinerLevel()
 
     /// Returns whether the object is an array in files or in a folder, not in `data`. The format of such an array may
     /// be empty.

@@ -295,6 +295,19 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
     return row == nullptr ? Result<ObjectWithWarnings>(unsupported(load.format)) : row->read(load, limits);
 }
 
+LoadObject loadOf(const std::string& name, const fields::FileSource& source) {
+    LoadObject load{name, source.format, {}};
+    const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
+    load.dataName = dataName;
+    load.axes = axes;
+    load.variable = variable;
+    load.secondFormula = secondFormula;
+    load.secondVariable = secondVariable;
+    load.box = box;
+    load.region = region;
+    return load;
+}
+
 Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
     const fields::Box box = load.box.value_or(fields::kFormulaBox);
     constexpr fields::Shape kAnyNumberOfSamples{2, 2, 2, 2};
@@ -322,6 +335,7 @@ fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limi
     if (newFile) options.maxSamples = fields::kMaxSamples;
     options.newFile = std::move(newFile);
     options.region = load.region;
+    if (load.finer) options.level = load.finer->level;
     return options;
 }
 

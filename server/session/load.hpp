@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "errors/error.hpp"
+#include "fields/field.hpp"
 #include "fields/readers/file_contents.hpp"
 #include "fields/readers/read_field.hpp"
 #include "fields/readers/zarr.hpp"
@@ -42,6 +43,9 @@ struct SecondFunctionSource {
     std::string formula, variable;
 };
 
+/// Returns how to load the field called `name` from its file in the data folder.
+LoadObject loadOf(const std::string& name, const fields::FileSource& source);
+
 /// Reads an array from a file whose format is one of fields::fieldFormats(). Errors: those of fields::readField(),
 /// fields::fieldFromArray(), fields::setSecondArray() and fields::setSecondFormula(); `out_of_range` if the box of the
 /// options has no extent along an axis with several samples, or if the ends of the box along any axis are in the wrong
@@ -51,7 +55,7 @@ Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std
 
 /// Returns the options for reading the array that `load` specifies. The array and its second array together may have at
 /// most Limits::maxFieldBytes. If `newFile` is given, larger arrays are allowed, too: their samples remain in the file
-/// or are written to a new file.
+/// or are written to a new file. Of a multiscale image, selects the level `load.finer` if it is given.
 fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
                                       fields::MappedFileMaker newFile = {});
 

@@ -11,13 +11,13 @@
 #include <tuple>
 #include <utility>
 
-#include <glm/common.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "fields/field.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
 #include "session/command_line.hpp"
+#include "session/field_replacement.hpp"
 #include "session/history.hpp"
 #include "session/keymap.hpp"
 #include "session/object_loader.hpp"
@@ -32,35 +32,6 @@ namespace oval4d::session {
 namespace {
 
 using VoidResult = Result<std::monostate>;
-
-// A field that has been extended by time steps, in several frames of reference (see slicing::transformedTo()). Each
-// value is the extended field in one frame; its key is slicing::identityOf() of the original field in the same frame.
-using ExtendedFieldsByOriginal = std::map<const void*, slicing::Object>;
-
-// If `state` shows the field `before`, replaces it by `after`, the same field with more time steps, and returns true;
-// else returns false. Keeps all settings with these exceptions: spacing and offset keep their ratios to
-// slicing::initialSliceExtent(); spacing, offset and focus point are clamped to their bounds; and if the cell types of
-// the domain change, all its cells become visible. `images` contains the transformed fields that have been made so far,
-// so that states with the same frame of reference share one field.
-bool extendField(State& state, const slicing::Object& before, const slicing::Object& after,
-                 ExtendedFieldsByOriginal& images) {
-    if (state.source != before) return false;
-    const auto [image, isNew] = images.try_emplace(slicing::identityOf(state.object));
-    if (isNew) image->second = slicing::transformedTo(after, state.referenceFrame);
-    slicing::Object object = image->second;
-    const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
-    const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
-    // Spacing and offset grow in proportion to initialSliceExtent(), but their bounds in proportion to the
-    // circumradius. When an array gets its second time step, the ratio of the extent to the circumradius grows, so the
-    // new values may exceed the bounds.
-    state.slices.spacing = std::clamp(state.slices.spacing * ratio, kMinSpacing * radius, kMaxSpacing * radius);
-    state.slices.offset = std::clamp(state.slices.offset * ratio, -reach, reach);
-    state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
-    if (slicing::infoOf(object).cellTypes != slicing::infoOf(state.object).cellTypes) state.look.cellTypes = {};
-    state.source = after;
-    state.object = std::move(object);
-    return true;
-}
 
 // Combines the rotations of an undo step, such as those of a gesture, into one turn from `before` to `next`. The newest
 // rotation is `next.lastTurn`, from `current` to `next`. If the rotations cancel out, returns the last turn of
@@ -291,13 +262,8 @@ class CommandApplier {
     VoidResult append(const LoadObject& command) {
         const auto extended = outcome_.extendedField(command);
         if (!extended) return extended.error();
-        slicing::Object& loaded = session_.loaded.at(command.name);
-        const slicing::Object before = loaded;
-        ExtendedFieldsByOriginal images;
-        for (State& state : session_.undoSteps) extendField(state, before, *extended, images);
-        for (State& state : session_.redoSteps) extendField(state, before, *extended, images);
-        if (extendField(session_.current, before, *extended, images)) ++session_.revision;
-        loaded = *extended;
+        const slicing::Object before = session_.loaded.at(command.name);
+        replaceField(session_, before, *extended, FieldReplacement::longer);
         return std::monostate{};
     }
 

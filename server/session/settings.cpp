@@ -235,13 +235,17 @@ void resetOrientationAndFocus(State& state) {
     setBack(state, ResetOccasion::by_reset_or_another_object, initialState());
 }
 
+bool hasSpanningSpacing(const State& state) {
+    constexpr double kSame = 1e-9;
+    const double spanning = spanningSpacing(state.object, state.slices.count);
+    return std::abs(state.slices.spacing - spanning) <= kSame * spanning;
+}
+
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader) {
     if (frame == state.referenceFrame) return std::monostate{};
     auto image = loader.transformedTo(state.source, frame);
     if (!image) return image.error();
-    constexpr double kSame = 1e-9;
-    const double spanning = spanningSpacing(state.object, state.slices.count);
-    const bool spans = std::abs(state.slices.spacing - spanning) <= kSame * spanning;
+    const bool spans = hasSpanningSpacing(state);
     const double w = state.focusW();
     state.referenceFrame = frame;
     state.object = std::move(*image);

@@ -41,6 +41,9 @@ void returnToInitialOrientation(State& state);
 /// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset_or_another_object.
 void resetOrientationAndFocus(State& state);
 
+/// Returns whether the slices have the spacing spanningSpacing(), apart from rounding.
+bool hasSpanningSpacing(const State& state);
+
 /// Shows the object in another frame of reference; does nothing if the state has this frame already. The caller must
 /// ensure that the members of `frame` are within their bounds (see geometry::ReferenceFrame). If the slices have the
 /// spacing spanningSpacing(), as they do initially, they also have it in the new frame, and the w of the focus slice

@@ -36,6 +36,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     load.center = {geometry::Centering::OriginChoice::point, {1, 2, 3, 4}};
     for (const bool hasBox : {false, true}) {
         if (hasBox) load.region = fields::Box{{1, 1, 2, 3}, {4, 5, 6, 7}};
+        if (hasBox) load.finer = session::FinerLevel{3, 0};
         if (hasBox) load.box = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
         std::string bytes;
         encodeReadRequest(load, limits, true, bytes);
@@ -51,6 +52,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
         EXPECT_EQ(file.load.center, load.center);
         EXPECT_EQ(file.load.box, load.box);
         EXPECT_EQ(file.load.region, load.region);
+        EXPECT_EQ(file.load.finer, load.finer);
         EXPECT_EQ(file.limits.maxVertices, 7U);
         EXPECT_EQ(file.limits.maxHullCells, 8U);
         EXPECT_EQ(file.limits.maxFieldBytes, 9U);
