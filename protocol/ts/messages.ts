@@ -681,7 +681,7 @@ export interface FieldDefinition {
     box: Box;
 }
 /**
- * Present only for a part of a multiscale image in the data folder: a coarser level, or a region.
+ * Present only for a multiscale image in the data folder of which a region or a coarser level is or was shown.
  */
 export interface Resolution {
     /**
@@ -692,6 +692,10 @@ export interface Resolution {
      * How many levels the image has.
      */
     levels: number;
+    /**
+     * Present, and true, if a finer level is to replace this one, as long as a client is connected.
+     */
+    refining?: boolean;
 }
 /**
  * The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent. At most 64 bytes each.

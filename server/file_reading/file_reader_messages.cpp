@@ -71,6 +71,7 @@ void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);
     archive(load.secondFormula), archive(load.secondVariable), archive(load.center.choice), archive(load.center.place);
     archive(limits.maxVertices), archive(limits.maxHullCells), archive(limits.maxFieldBytes);
+    archive(limits.maxFirstLevelBytes);
 }
 
 }  // namespace

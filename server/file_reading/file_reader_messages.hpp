@@ -19,7 +19,7 @@ struct ReadRequest {
     std::size_t seriesLength = 0;  ///< the number of files of a series; further messages carry their descriptors
     bool isFolder = false;         ///< whether a Zarr folder is read; the reader process asks the server for its files
     bool mayMap = false;           ///< whether the samples of large arrays may stay in the file or go to a new one
-    session::Limits limits;        ///< only maxVertices, maxHullCells and maxFieldBytes are sent
+    session::Limits limits;        ///< only maxVertices, maxHullCells, maxFieldBytes and maxFirstLevelBytes are sent
 };
 
 /// Encodes a request to read the file of `load` within `limits`, and writes it to `out`. `mayMap`: see

@@ -179,6 +179,9 @@ void addLimits(CLI::App& app, Options& options) {
     addBytes(app, "--max-upload", options.maxUpload, "Maximum size of an uploaded file; 0 to refuse uploads");
     addBytes(app, "--max-field-bytes", options.session.maxFieldBytes,
              "Maximum size of the samples of a field that is read from a file, four bytes each");
+    addBytes(app, "--first-level-bytes", options.session.maxFirstLevelBytes,
+             "Maximum size of the level of a multiscale image in the data folder that is shown first; finer ones "
+             "follow, up to --max-field-bytes");
     add(app, "--max-depth", options.maxDepth, "Maximum nesting depth of the JSON of a message")->check(atLeastOne);
     addBytes(app, "--max-unsent", options.maxUnsent,
              "Unsent bytes of replies at which the server stops reading from a client");

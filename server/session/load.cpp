@@ -335,6 +335,8 @@ fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limi
     if (newFile) options.maxSamples = fields::kMaxSamples;
     options.newFile = std::move(newFile);
     options.region = load.region;
+    // A second array has one level only.
+    if (load.secondVariable.empty()) options.maxInFirstLevel = limits.maxFirstLevelBytes / sizeof(float);
     if (load.finer) options.level = load.finer->level;
     return options;
 }

@@ -55,7 +55,8 @@ Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std
 
 /// Returns the options for reading the array that `load` specifies. The array and its second array together may have at
 /// most Limits::maxFieldBytes. If `newFile` is given, larger arrays are allowed, too: their samples remain in the file
-/// or are written to a new file. Of a multiscale image, selects the level `load.finer` if it is given.
+/// or are written to a new file. Of a multiscale image, selects the level `load.finer` or, without it, one of at most
+/// Limits::maxFirstLevelBytes.
 fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
                                       fields::MappedFileMaker newFile = {});
 

@@ -141,8 +141,9 @@ struct Limits {
     /// The maximum number of vertices of a loaded polytope, of points in a list or a point cloud, and of vertices of a
     /// polytope that is built from its name, unless it is in the catalogue.
     std::size_t maxVertices = 100'000;
-    std::size_t maxHullCells = 100'000;       ///< cells of the convex hull of a list of points
-    std::size_t maxFieldBytes = 256U << 20U;  ///< bytes of the samples of an array, as 32-bit floats
+    std::size_t maxHullCells = 100'000;           ///< cells of the convex hull of a list of points
+    std::size_t maxFieldBytes = 256U << 20U;      ///< bytes of the samples of an array, as 32-bit floats
+    std::size_t maxFirstLevelBytes = 64U << 20U;  ///< the same, of the level of an image that is shown first
 };
 
 /// A session: the current state, its history, and the loaded objects. Sessions can be copied and compared.

@@ -110,6 +110,7 @@ void writePart(JsonWriter& w, const fields::Field& field) {
     w.beginObject();
     w.member("level", std::uint64_t{level});
     w.member("levels", std::uint64_t{levels});
+    if (finer > 0) w.member("refining", true);
     w.endObject();
 }
 

@@ -21,7 +21,7 @@ POINTS.append([0.5, 0, 0, 0.1])
 # Members of what `set` takes that no state has, one that is sent only of arrays that are too large for a test, and those
 # that are sent only of parts of arrays in a data folder, for which test_zarr.py looks.
 NOT_SENT = {"state": {"/slices/w", "/field/estimated", "/field/region", "/field/resolution", "/field/resolution/level",
-                      "/field/resolution/levels"}}
+                      "/field/resolution/levels", "/field/resolution/refining"}}
 # Members whose own members have names that the schema does not list.
 OPEN = {"welcome": {"/limits"}}
 

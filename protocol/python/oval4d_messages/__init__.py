@@ -398,12 +398,17 @@ Interval = list[float]
 Box = list[Interval]
 
 
-class Resolution(TypedDict):
-    """Present only for a part of a multiscale image in the data folder: a coarser level, or a region."""
+class _Resolution(TypedDict):
     # The level that is shown; 0 is the finest.
     level: int
     # How many levels the image has.
     levels: int
+
+
+class Resolution(_Resolution, total=False):
+    """Present only for a multiscale image in the data folder of which a region or a coarser level is or was shown."""
+    # Present, and true, if a finer level is to replace this one, as long as a client is connected.
+    refining: bool
 
 
 class AxisUnits(TypedDict, total=False):
@@ -460,7 +465,7 @@ class FieldDefinition(_FieldDefinition, total=False):
     # The region of the array that was asked for. Present only for a part of an array in the data folder that was loaded
     # with a region.
     region: Box
-    # Present only for a part of a multiscale image in the data folder: a coarser level, or a region.
+    # Present only for a multiscale image in the data folder of which a region or a coarser level is or was shown.
     resolution: Resolution
     # The units of the coordinates in `box`, as the file of an array states them; those that are not known are absent.
     # At most 64 bytes each.

@@ -39,7 +39,17 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       // The saver shares the ownership of metered_.
       saver_(std::make_shared<SessionSaver>(writeBehind, credentials_.id, fence,
                                             std::shared_ptr<const session::Session>(metered_, &metered_->value),
-                                            services_.clock, strand_)) {
+                                            services_.clock, strand_)),
+      refinement_(std::make_shared<FieldRefinement>(
+          strand_, metered_, [streams = streams_] { return streams->hasClients(); },
+          [loading = loading_](session::LoadObject load, std::stop_token stop) {
+              return loading->readInBackground(std::move(load), std::move(stop));
+          },
+          [streams = streams_, saver = saver_, &clock = services_.clock] {
+              streams->sessionChanged(clock.now());
+              saver->scheduleSave();
+              streams->sendAndRequestPictures();
+          })) {
     streams_->whenMoved([weak = std::weak_ptr(saver_)] {
         if (const auto saver = weak.lock()) saver->scheduleSave();
     });
@@ -62,6 +72,7 @@ void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const ses
     stopSearches(peer);
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
         self->streams_->remove(peer.get());
+        self->refinement_->update();
         if (left(self->session_)) self->saver_->detach();
     });
 }
@@ -94,6 +105,7 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
     streams_->sendAndRequestPictures();
+    refinement_->update();
     co_return;
 }
 
@@ -166,6 +178,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) streams_->sessionChanged(services_.clock.now());
     loading_->searches().stopUnneeded(session_.current);
+    refinement_->update();
     // The first picture of a new field that is larger than memory is a draft, because a picture of full quality takes
     // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);

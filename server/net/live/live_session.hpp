@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "net/live/field_refinement.hpp"
 #include "net/live/metered_session.hpp"
 #include "net/live/object_loading.hpp"
 #include "net/live/peer.hpp"
@@ -26,9 +27,9 @@
 namespace oval4d::net {
 
 /// A session in use: holds the session's value and applies commands. Every command is applied when it arrives;
-/// PictureStreams then sends the changed state and pictures to the clients, and SessionSaver saves the session.
-/// RequestAnswers answers questions. The members of a session are used only on its strand. Public functions may be
-/// called from any thread.
+/// PictureStreams then sends the changed state and pictures to the clients, SessionSaver saves the session, and
+/// FieldRefinement replaces a coarse level of an image by finer ones. RequestAnswers answers questions. The members of
+/// a session are used only on its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = PictureStreams::Strand;
@@ -111,6 +112,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     const std::shared_ptr<ObjectLoading> loading_;
     const std::shared_ptr<RequestAnswers> answers_;
     const std::shared_ptr<SessionSaver> saver_;
+    const std::shared_ptr<FieldRefinement> refinement_;
 };
 
 }  // namespace oval4d::net

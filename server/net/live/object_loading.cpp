@@ -19,7 +19,8 @@ session::ObjectLoader ObjectLoading::makeLoader() const {
 }
 
 asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
-                                                                     session::ObjectLoader& loader) {
+                                                                     session::ObjectLoader& loader,
+                                                                     std::stop_token stop) {
     auto reservation = metered_->client()->byteAccount().reserve(loader.memoryNeeded());
     if (!reservation) co_return kTooManyBytes;
     const parallel::WorkerPool::Seconds cost = loader.estimatedDuration();
@@ -30,7 +31,7 @@ asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAcco
     // The worker shares the ownership of the loader, because it may outlive this coroutine.
     const auto running = std::make_shared<session::ObjectLoader>(std::move(loader));
     if (needsFile) {
-        running->readFilesWith(fileReader(services_));
+        running->readFilesWith(fileReader(services_, std::move(stop)));
         co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(running),
                                            metered_->client()->loadJobQueue(), cost);
     } else if (search) {
@@ -44,6 +45,19 @@ asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAcco
     const std::size_t bytes = loader.loadedObjectMemory();
     if (bytes > reservation->size() && !reservation->growTo(bytes)) co_return kTooManyBytes;
     co_return std::nullopt;
+}
+
+asio::awaitable<Result<slicing::Object>> ObjectLoading::readInBackground(session::LoadObject load,
+                                                                         std::stop_token stop) {
+    session::ObjectLoader loader = makeLoader();
+    Result<session::ObjectWithWarnings> read = loader.objectFrom(load);
+    if (loader.isPending()) {
+        if (auto refused = co_await completePending(metered_->client(), nullptr, loader, std::move(stop)))
+            co_return *refused;
+        read = loader.objectFrom(load);
+    }
+    if (!read) co_return read.error();
+    co_return read->object;
 }
 
 }  // namespace oval4d::net

@@ -4,6 +4,7 @@
 #include <boost/asio/awaitable.hpp>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <utility>
 
 #include "errors/error.hpp"
@@ -33,9 +34,14 @@ class ObjectLoading {
     /// queue the job waits. `peer`: the connection that needs the result; may be null. The caller must keep `loader`
     /// until the result is there. Returns an error if there is no room for the result, else an empty optional. Throws
     /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws. After an exception, the
-    /// caller must not use the loader anymore.
+    /// caller must not use the loader anymore. `stop` ends the reading of a file early, with parallel::Canceled.
     boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
-                                                                 session::ObjectLoader& loader);
+                                                                 session::ObjectLoader& loader,
+                                                                 std::stop_token stop = {});
+
+    /// Reads an array of the data folder, on a worker, for the client that opened the session. Errors and exceptions:
+    /// those of session::ObjectLoader::objectFrom() and of completePending().
+    boost::asio::awaitable<Result<slicing::Object>> readInBackground(session::LoadObject load, std::stop_token stop);
 
     /// Returns the searches that completePending() runs.
     CriticalSearches& searches() { return searches_; }

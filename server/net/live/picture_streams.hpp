@@ -55,6 +55,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     /// Adds a client, or changes its stream if it was added before.
     void add(const std::shared_ptr<Peer>& peer, const StreamKey& key);
     void remove(const Peer* peer) { subscribers_.erase(peer); }
+    bool hasClients() const { return !subscribers_.empty(); }
     /// Returns the stream of a client; null if it was not added. The pointer is valid until the next add() or remove().
     const StreamKey* streamOf(const Peer& peer) const;
     /// Returns the job queues of a client in this session. All connections of a client to a session share these job

@@ -28,6 +28,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     limits.maxVertices = 7;
     limits.maxHullCells = 8;
     limits.maxFieldBytes = 9;
+    limits.maxFirstLevelBytes = 5;
     session::LoadObject load{"mine", "points", std::string("1 2\0 3", 6)};
     load.axes = "xyz";
     load.variable = "a/b";
@@ -56,6 +57,7 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
         EXPECT_EQ(file.limits.maxVertices, 7U);
         EXPECT_EQ(file.limits.maxHullCells, 8U);
         EXPECT_EQ(file.limits.maxFieldBytes, 9U);
+        EXPECT_EQ(file.limits.maxFirstLevelBytes, 5U);
     }
 }
 

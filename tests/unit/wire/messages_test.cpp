@@ -262,6 +262,8 @@ TEST(StateMessage, HasTheRegionAndTheLevelOfAPart) {
     const json overview = fieldIn(field);
     EXPECT_EQ(overview.at("resolution"), json::parse(R"({"level":1,"levels":3})"));
     EXPECT_FALSE(overview.contains("region"));
+    field.imageLevel = {2, 3, 1};
+    EXPECT_EQ(fieldIn(field).at("resolution"), json::parse(R"({"level":2,"levels":3,"refining":true})"));
     source.region = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
     field.source = std::make_shared<const fields::FileSource>(source);
     field.imageLevel = {};
