@@ -26,7 +26,7 @@ const fields::Field& withRoomForTables(const fields::Field& field, const Budget&
 
 }  // namespace
 
-ExactSlicer::ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, Options options,
+ExactSlicer::ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
                          const Budget& budget)
     : budget_(budget), options_(std::move(options)), slicer_(withRoomForTables(field, budget), orientation) {}
 

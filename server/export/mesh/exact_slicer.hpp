@@ -16,9 +16,9 @@ namespace oval4d::exports {
 /// Slices a field exactly: see slicing::ClosedSurfaceSlicer. A formula is sampled on its default lattice.
 class ExactSlicer {
   public:
-    struct Options {
+    struct SurfaceOptions {
         fields::Inside inside = fields::Inside::below;
-        bool pointData = false;  ///< see slicing::ClosedSurfaceSlicer::Options
+        bool pointData = false;  ///< see slicing::ClosedSurfaceSlicer::IsosurfaceOptions
         /// The end of the error message about too many triangles: what the user can do. Empty, or begins with a
         /// semicolon.
         std::string advice = {};
@@ -26,7 +26,7 @@ class ExactSlicer {
 
     /// `field` and `budget` must outlive this object. Throws ExportRefused if the memory limit leaves no room for the
     /// tables of the slicer.
-    ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, Options options,
+    ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
                 const Budget& budget);
 
     /// Slices the body of one level by the hyperplane at `w`. Overwrites `out`. `others` is the number of triangles
@@ -36,7 +36,7 @@ class ExactSlicer {
 
   private:
     const Budget& budget_;
-    const Options options_;
+    const SurfaceOptions options_;
     slicing::ClosedSurfaceSlicer slicer_;
 };
 

@@ -31,7 +31,7 @@ FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::
     if (!exact) return;
     slicer_.emplace(
         field, orientation_,
-        ExactSlicer::Options{
+        ExactSlicer::SurfaceOptions{
             .inside = scene.look.field.inside, .pointData = true, .advice = "; export fewer slices, or without exact"},
         budget);
 }

@@ -19,7 +19,8 @@ struct ClosedSurface {
     /// The index of the first triangle of the caps; the triangles before it form the level set. Caps close the surface
     /// where the body ends at the boundary of the domain, or of a hole in which the function has no value.
     std::size_t firstCap = 0;
-    /// Per point, the value of the interpolated function. Empty unless ClosedSurfaceSlicer::Options::pointData is true.
+    /// Per point, the value of the interpolated function. Empty unless
+    /// ClosedSurfaceSlicer::IsosurfaceOptions::pointData is true.
     std::vector<float> values;
     /// Per point of the level set, a vector in the direction of the gradient of the interpolated function: its
     /// components along x, y, z and w of the rotated object. The gradient at a point is the mean of the gradients in

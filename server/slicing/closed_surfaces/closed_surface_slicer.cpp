@@ -32,7 +32,7 @@ constexpr std::array<CornerPermutation, 6> kWithFirstTwo{
 
 }  // namespace
 
-Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const Options& options, ClosedSurface& out) {
+Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOptions& options, ClosedSurface& out) {
     out.clear();
     out_ = &out;
     options_ = options;

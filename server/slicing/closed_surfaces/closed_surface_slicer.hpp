@@ -47,7 +47,7 @@ class ClosedSurfaceSlicer {
     /// The default number of lattice cells along the longest side of the domain of a formula.
     static constexpr int kFormulaCells = 64;
 
-    struct Options {
+    struct IsosurfaceOptions {
         double level = 0;
         fields::Inside inside = fields::Inside::below;
         std::size_t maxTriangles = 5'000'000;
@@ -64,9 +64,9 @@ class ClosedSurfaceSlicer {
 
     /// Slices the rotated field by the hyperplane at `w`. If the hyperplane contains a facet of the domain, the slice
     /// is the limit of those inside the domain. Overwrites `out`, which is incomplete after an error. Error:
-    /// `too_large` if there are more than Options::maxTriangles triangles, or if `mustStop` returns true. Throws what
-    /// `mustStop` throws.
-    Result<std::monostate> slice(double w, const Options& options, ClosedSurface& out);
+    /// `too_large` if there are more than IsosurfaceOptions::maxTriangles triangles, or if `mustStop` returns true.
+    /// Throws what `mustStop` throws.
+    Result<std::monostate> slice(double w, const IsosurfaceOptions& options, ClosedSurface& out);
 
     /// Returns the lattice on which the field is sampled.
     const FieldLattice& lattice() const { return lattice_; }
@@ -119,7 +119,7 @@ class ClosedSurfaceSlicer {
     FieldLattice lattice_;
     // The state of the current slice. If the body is above the level, values and level are negated, so that the body is
     // always below the level.
-    Options options_;
+    IsosurfaceOptions options_;
     double level_ = 0, sign_ = 1;
     // Per axis and lattice index along this axis: the term that this index adds to the height of a lattice point above
     // the hyperplane.
