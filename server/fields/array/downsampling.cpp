@@ -18,11 +18,13 @@ struct CoarseSampleWeight {
     float weight;
 };
 
-// The weights of the samples along an axis: sample i has the weights items[begin[i]] … items[begin[i + 1] − 1].
-struct AxisWeights {
-    std::vector<std::uint32_t> begin{0};  // size() + 1 entries
+// Along one axis, the coarse samples to which each sample of the array contributes, with the weights: those of sample i
+// are items[begin[i]] … items[begin[i + 1] − 1].
+struct ScatterWeights {
+    std::vector<std::uint32_t> begin{0};  // size() + 1 indices into items
     std::vector<CoarseSampleWeight> items;
 
+    // The number of samples of the array along the axis.
     std::size_t size() const { return begin.size() - 1; }
     std::span<const CoarseSampleWeight> operator[](std::size_t i) const {
         return std::span(items).subspan(begin[i], begin[i + 1] - begin[i]);
@@ -38,8 +40,8 @@ double hatIntegral(double x) {
 
 // Returns the weights for an axis that is downsampled from `fine` to `coarse` samples. For each coarse sample, the sum
 // of the weights of all fine samples is 1.
-AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
-    AxisWeights weights;
+ScatterWeights weightsOf(std::size_t fine, std::size_t coarse) {
+    ScatterWeights weights;
     const double length =
         coarse == fine ? 1 : static_cast<double>(fine - 1) / static_cast<double>(std::max<std::size_t>(coarse, 2) - 1);
     const auto weight = [&](std::size_t i, std::size_t j) {
@@ -64,7 +66,7 @@ AxisWeights weightsOf(std::size_t fine, std::size_t coarse) {
 struct RowSums {
     std::vector<float> values, weights;
 
-    void assign(const float* row, const AxisWeights& weightsOfX) {
+    void assign(const float* row, const ScatterWeights& weightsOfX) {
         std::fill(values.begin(), values.end(), 0.F);
         std::fill(weights.begin(), weights.end(), 0.F);
         for (std::size_t i = 0; i < weightsOfX.size(); ++i) {
@@ -100,7 +102,7 @@ Shape downsampledShape(const Shape& shape) {
 
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples) {
     const Shape size = downsampledShape(shape);
-    std::array<AxisWeights, 4> weights;
+    std::array<ScatterWeights, 4> weights;
     for (std::size_t i = 0; i < 4; ++i) weights[i] = weightsOf(shape[i], size[i]);
     std::vector<float> sums(sampleCount(size)), weightSums(sums.size());
     RowSums row{std::vector<float>(size[0]), std::vector<float>(size[0])};

@@ -43,7 +43,6 @@ class GradientLoops : private ValueLoops<Math> {
 
   private:
     using OperandForm = Instruction::OperandForm;
-    using SizeType = std::size_t;
     using Base::choosesFirst;
     using Base::compute;
     using Base::halfIntegerPower;
@@ -85,12 +84,12 @@ class GradientLoops : private ValueLoops<Math> {
     // operands. `byA` and `byB` say whether `ofA` and `ofB` may differ from 0; a derivative that is always 0 is not
     // read. min and max take the derivative of one operand, even if the other derivative is not finite.
     static void applyChainRule(const Instruction& instruction, const BlockValuesAndPartials& partials, bool byA,
-                               bool byB, float* out, const float* ofA, const float* ofB, SizeType size) {
+                               bool byB, float* out, const float* ofA, const float* ofB, std::size_t size) {
         const NumberOperand zero{0};
         if (instruction.operation == Operation::min || instruction.operation == Operation::max) {
             const auto choose = [&](auto left, auto right) {
 #pragma omp simd
-                for (SizeType i = 0; i < size; ++i) {
+                for (std::size_t i = 0; i < size; ++i) {
                     const float first = left[i], second = right[i];
                     out[i] = partials.byA[i] != 0 ? first : second;
                 }
@@ -102,7 +101,7 @@ class GradientLoops : private ValueLoops<Math> {
         if (!byB) return map(product, out, ArrayOperand{partials.byA}, ArrayOperand{ofA}, size);
         if (!byA) return map(product, out, ArrayOperand{partials.byB}, ArrayOperand{ofB}, size);
 #pragma omp simd
-        for (SizeType i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
+        for (std::size_t i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
     }
 
     // Sets to 0 the derivatives that the last instruction has not written. Then sets each gradient to 0 if one of its
@@ -115,7 +114,7 @@ class GradientLoops : private ValueLoops<Math> {
         float *x = block.gradients[0], *y = block.gradients[1], *z = block.gradients[2], *w = block.gradients[3];
         const float* values = block.values;
 #pragma omp simd
-        for (SizeType i = 0; i < block.size; ++i) {
+        for (std::size_t i = 0; i < block.size; ++i) {
             // 0 · a is 0 if a is finite, otherwise NaN.
             const float zero = (0 * values[i] + 0 * x[i]) + (0 * y[i] + 0 * z[i]) + 0 * w[i];
             const bool isFinite = zero == zero;
@@ -127,9 +126,9 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     template <typename F, typename A, typename B>
-    static void fill(F f, BlockValuesAndPartials& out, A a, B b, SizeType size) {
+    static void fill(F f, BlockValuesAndPartials& out, A a, B b, std::size_t size) {
 #pragma omp simd
-        for (SizeType i = 0; i < size; ++i) {
+        for (std::size_t i = 0; i < size; ++i) {
             const ValueAndPartials partial = f(a[i], b[i]);
             out.value[i] = partial.value;
             out.byA[i] = partial.byA;
@@ -138,7 +137,7 @@ class GradientLoops : private ValueLoops<Math> {
     }
     template <typename F>
     static void fill(F f, const Instruction& instruction, BlockValuesAndPartials& out, const float* a, const float* b,
-                     SizeType size) {
+                     std::size_t size) {
         const NumberOperand number{static_cast<float>(instruction.number)};
         switch (instruction.form) {
             case OperandForm::two_registers:
@@ -151,13 +150,13 @@ class GradientLoops : private ValueLoops<Math> {
     }
     // Sets out.byA to f(operand, out.value) for an operation with one operand.
     template <typename F>
-    static void setPartialByA(F f, BlockValuesAndPartials& out, const float* a, SizeType size) {
+    static void setPartialByA(F f, BlockValuesAndPartials& out, const float* a, std::size_t size) {
 #pragma omp simd
-        for (SizeType i = 0; i < size; ++i) out.byA[i] = f(a[i], out.value[i]);
+        for (std::size_t i = 0; i < size; ++i) out.byA[i] = f(a[i], out.value[i]);
     }
 
     static void computePartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
-                                const float* b, SizeType size) {
+                                const float* b, std::size_t size) {
         switch (instruction.operation) {
             case Operation::add:
                 return fill([](float x, float y) { return ValueAndPartials{x + y, 1, 1}; }, instruction, out, a, b,
@@ -198,7 +197,7 @@ class GradientLoops : private ValueLoops<Math> {
     }
 
     static void arctangent2Partials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
-                                    const float* b, SizeType size) {
+                                    const float* b, std::size_t size) {
         fill(
             [](float y, float x) {
                 const float squares = x * x + y * y;
@@ -210,7 +209,7 @@ class GradientLoops : private ValueLoops<Math> {
 
     // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a. For a = 0 and b > 0, ∂(a^b)/∂b is 0.
     static void powerPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
-                              const float* b, SizeType size) {
+                              const float* b, std::size_t size) {
         if (instruction.axesOfB != 0) {
             fill([](float x, float) { return ValueAndPartials{0, 0, x}; }, instruction, out, a, b, size);
             Math::unary(Operation::log, out.byB, out.byB, size);
@@ -218,7 +217,7 @@ class GradientLoops : private ValueLoops<Math> {
         powerOrAtan2(instruction, out.value, a, b, size);
         if (instruction.axesOfB != 0) {
 #pragma omp simd
-            for (SizeType i = 0; i < size; ++i) out.byB[i] = out.value[i] == 0 ? 0 : out.value[i] * out.byB[i];
+            for (std::size_t i = 0; i < size; ++i) out.byB[i] = out.value[i] == 0 ? 0 : out.value[i] * out.byB[i];
         }
         if (instruction.axesOfA == 0) return;
         const auto number = static_cast<float>(instruction.number);
@@ -228,13 +227,13 @@ class GradientLoops : private ValueLoops<Math> {
             return map([number](float x) { return number * x; }, out.byA, out.byA, size);
         }
         float exponents[kGradientBlockPoints];
-        for (SizeType i = 0; i < size; ++i) exponents[i] = (isConstant ? number : b[i]) - 1;
+        for (std::size_t i = 0; i < size; ++i) exponents[i] = (isConstant ? number : b[i]) - 1;
         Math::powerOrAtan2(Operation::power, out.byA, a, exponents, size);
-        for (SizeType i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
+        for (std::size_t i = 0; i < size; ++i) out.byA[i] *= isConstant ? number : b[i];
     }
 
     static void unaryPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
-                              SizeType size) {
+                              std::size_t size) {
         switch (instruction.operation) {
             case Operation::copy:
                 return setPartialByA([](float, float) { return 1.0F; }, out, a, size);

@@ -25,15 +25,14 @@ class ValueLoops {
 
   protected:
     using OperandForm = Instruction::OperandForm;
-    using SizeType = std::size_t;
 
     struct ArrayOperand {
         const float* data;
-        float operator[](SizeType i) const { return data[i]; }
+        float operator[](std::size_t i) const { return data[i]; }
     };
     struct NumberOperand {
         float value;
-        float operator[](SizeType) const { return value; }
+        float operator[](std::size_t) const { return value; }
     };
 
     static constexpr float kNotANumber = __builtin_nanf("");
@@ -46,17 +45,17 @@ class ValueLoops {
     }
 
     template <typename F>
-    static void map(F f, float* out, const float* a, SizeType size) {
+    static void map(F f, float* out, const float* a, std::size_t size) {
 #pragma omp simd
-        for (SizeType i = 0; i < size; ++i) out[i] = f(a[i]);
+        for (std::size_t i = 0; i < size; ++i) out[i] = f(a[i]);
     }
     template <typename F, typename A, typename B>
-    static void map(F f, float* out, A a, B b, SizeType size) {
+    static void map(F f, float* out, A a, B b, std::size_t size) {
 #pragma omp simd
-        for (SizeType i = 0; i < size; ++i) out[i] = f(a[i], b[i]);
+        for (std::size_t i = 0; i < size; ++i) out[i] = f(a[i], b[i]);
     }
     template <typename F>
-    static void map(F f, const Instruction& instruction, float* out, const float* a, const float* b, SizeType size) {
+    static void map(F f, const Instruction& instruction, float* out, const float* a, const float* b, std::size_t size) {
         const NumberOperand number{static_cast<float>(instruction.number)};
         switch (instruction.form) {
             case OperandForm::two_registers:
@@ -68,7 +67,7 @@ class ValueLoops {
         }
     }
 
-    static void compute(const Instruction& instruction, float* out, const float* a, const float* b, SizeType size) {
+    static void compute(const Instruction& instruction, float* out, const float* a, const float* b, std::size_t size) {
         switch (instruction.operation) {
             case Operation::constant:
                 return map([value = static_cast<float>(instruction.number)](float) { return value; }, out, a, size);
@@ -129,7 +128,7 @@ class ValueLoops {
         return exponent >= 0.5F && exponent <= 8.5F && 2 * exponent == __builtin_floorf(2 * exponent) &&
                exponent != __builtin_floorf(exponent);
     }
-    static void halfIntegerPower(float exponent, float* out, const float* a, SizeType size) {
+    static void halfIntegerPower(float exponent, float* out, const float* a, std::size_t size) {
         float power[kBlockPoints];
         integerPower(static_cast<int>(exponent), power, a, size);
         map([](float x, float y) { return x * __builtin_sqrtf(y); }, out, ArrayOperand{power}, ArrayOperand{a}, size);
@@ -137,19 +136,19 @@ class ValueLoops {
 
     // Computes power or atan2. The result is NaN if an operand is NaN, unlike that of C's pow.
     static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b,
-                             SizeType size) {
+                             std::size_t size) {
         const auto number = static_cast<float>(instruction.number);
         if (instruction.operation == Operation::power && instruction.form == OperandForm::register_and_number &&
             usesHalfIntegerPower(number))
             return halfIntegerPower(number, out, a, size);
         float numbers[kBlockPoints], results[kBlockPoints];
         if (instruction.form != OperandForm::two_registers) {
-            for (SizeType i = 0; i < size; ++i) numbers[i] = number;
+            for (std::size_t i = 0; i < size; ++i) numbers[i] = number;
             (instruction.form == OperandForm::register_and_number ? b : a) = numbers;
         }
         Math::powerOrAtan2(instruction.operation, results, a, b, size);
 #pragma omp simd
-        for (SizeType i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
+        for (std::size_t i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
     }
 
     // Returns aⁿ, computed by repeated squaring.
@@ -164,7 +163,7 @@ class ValueLoops {
             return n % 2 == 0 ? half * half : half * half * a;
         }
     }
-    static void integerPower(int exponent, float* out, const float* a, SizeType size) {
+    static void integerPower(int exponent, float* out, const float* a, std::size_t size) {
         switch (exponent) {
             case 3:
                 return map([](float x) { return integerPower<3>(x); }, out, a, size);

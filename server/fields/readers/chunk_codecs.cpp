@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "fields/readers/gzip.hpp"
 
@@ -20,13 +21,14 @@ constexpr auto kChunkCodecs = std::to_array<std::pair<std::string_view, ChunkCod
 
 const Error kDamaged{ErrorCode::bad_field, "it is damaged, or has another size than the metadata state"};
 
-Result<bool> inflated(GzipReader::StreamFormat format, std::span<const std::byte> chunk, std::span<std::byte> to) {
+Result<std::monostate> inflated(GzipReader::StreamFormat format, std::span<const std::byte> chunk,
+                                std::span<std::byte> to) {
     GzipReader reader(chunk, format);
     if (!reader.fill(to) || !reader.verifyEnd()) return kDamaged;
-    return true;
+    return std::monostate{};
 }
 
-Result<bool> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
+Result<std::monostate> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
     std::size_t size = 0;
     // blosc_decompress_ctx() trusts the sizes in the header of the chunk, so blosc_cbuffer_validate() checks them
     // first.
@@ -35,7 +37,7 @@ Result<bool> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) 
         blosc_decompress_ctx(chunk.data(), to.data(), to.size(), 1) != static_cast<int>(to.size())) {
         return kDamaged;
     }
-    return true;
+    return std::monostate{};
 }
 
 }  // namespace
@@ -46,7 +48,7 @@ std::optional<ChunkCodec> chunkCodecNamed(std::string_view name) {
     return found->second;
 }
 
-Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to) {
+Result<std::monostate> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to) {
     switch (codec) {
         case ChunkCodec::gzip:
             return inflated(GzipReader::StreamFormat::gzip, chunk, to);
@@ -55,7 +57,7 @@ Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std:
         case ChunkCodec::zstd: {
             const std::size_t size = ZSTD_decompress(to.data(), to.size(), chunk.data(), chunk.size());
             if (ZSTD_isError(size) != 0 || size != to.size()) return kDamaged;
-            return true;
+            return std::monostate{};
         }
         case ChunkCodec::blosc:
             return unblosc(chunk, to);

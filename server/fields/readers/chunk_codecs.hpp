@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <variant>
 
 #include "errors/error.hpp"
 
@@ -24,6 +25,6 @@ std::optional<ChunkCodec> chunkCodecNamed(std::string_view name);
 /// Decompresses a chunk into `to`, which must have exactly the size of the decompressed chunk. The size that the chunk
 /// itself states is never used to allocate memory, so a wrong size is harmless. Error: `bad_field` if the chunk is
 /// damaged, too short or too long.
-Result<bool> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to);
+Result<std::monostate> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to);
 
 }  // namespace oval4d::fields
