@@ -33,24 +33,24 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       strand_(asio::make_strand(services.io)),
       metered_(std::make_shared<MeteredSession>(std::move(client), std::move(value))),
       session_(metered_->value),
-      streams_(std::make_shared<PictureStreams>(services, strand_, credentials_.id, metered_)),
-      loading_(std::make_shared<ObjectLoading>(services, metered_, streams_)),
-      answers_(std::make_shared<RequestAnswers>(services, strand_, credentials_.id, metered_, streams_, loading_)),
+      publisher_(std::make_shared<SessionPublisher>(services, strand_, credentials_.id, metered_)),
+      loading_(std::make_shared<ObjectLoading>(services, metered_, publisher_)),
+      answers_(std::make_shared<RequestAnswers>(services, strand_, credentials_.id, metered_, publisher_, loading_)),
       // The saver shares the ownership of metered_.
       saver_(std::make_shared<SessionSaver>(writeBehind, credentials_.id, fence,
                                             std::shared_ptr<const session::Session>(metered_, &metered_->value),
                                             services_.clock, strand_)),
       refinement_(std::make_shared<FieldRefinement>(
-          strand_, metered_, [streams = streams_] { return streams->hasClients(); },
+          strand_, metered_, [streams = publisher_] { return streams->hasClients(); },
           [loading = loading_](session::LoadObject load, std::stop_token stop) {
               return loading->readInBackground(std::move(load), std::move(stop));
           },
-          [streams = streams_, saver = saver_, &clock = services_.clock] {
+          [streams = publisher_, saver = saver_, &clock = services_.clock] {
               streams->sessionChanged(clock.now());
               saver->scheduleSave();
               streams->sendAndRequestPictures();
           })) {
-    streams_->whenMoved([weak = std::weak_ptr(saver_)] {
+    publisher_->whenMoved([weak = std::weak_ptr(saver_)] {
         if (const auto saver = weak.lock()) saver->scheduleSave();
     });
 }
@@ -71,7 +71,7 @@ asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::
 void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left) {
     stopSearches(peer);
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
-        self->streams_->remove(peer.get());
+        self->publisher_->remove(peer.get());
         self->refinement_->update();
         if (left(self->session_)) self->saver_->detach();
     });
@@ -90,7 +90,7 @@ void LiveSession::save(std::shared_ptr<void> completion) {
 void LiveSession::detachAndDisconnectAll() {
     asio::post(strand_, [self = shared_from_this()] {
         self->saver_->detach();
-        self->streams_->closeAll(close_code::kStopping, kTakenOverReason);
+        self->publisher_->closeAll(close_code::kStopping, kTakenOverReason);
     });
 }
 
@@ -101,10 +101,10 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
         peer->close(close_code::kStopping, kTakenOverReason);
         co_return;
     }
-    streams_->add(peer, {hello.stream, hello.encoding, hello.viewport.value_or(scene::Viewport{}), hello.scheme});
+    publisher_->add(peer, {hello.stream, hello.encoding, hello.viewport.value_or(scene::Viewport{}), hello.scheme});
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
-    streams_->sendAndRequestPictures();
+    publisher_->sendAndRequestPictures();
     refinement_->update();
     co_return;
 }
@@ -113,7 +113,7 @@ template <>
 asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::PictureShown shown,
                                                     RequestId id) {
     if (id) peer->send(textAnswer(wire::Done{revision()}, id));
-    streams_->pictureShown(*peer, shown.revision);
+    publisher_->pictureShown(*peer, shown.revision);
     co_return;
 }
 
@@ -127,14 +127,14 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
     }
     if (!applied->owned) co_return;  // this client is being disconnected
     if (id) peer->send(textAnswer(wire::Done{applied->revision, applied->warnings}, id));
-    streams_->sendAndRequestPictures();
+    publisher_->sendAndRequestPictures();
 }
 
 asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::applyOnStrand(
     AddressAccountPtr by, session::Command command) {
     const auto applied = co_await applyCommand(std::move(by), nullptr, command, true);
     if (applied && !applied->owned) co_return Result<CommandResult>(kInternalError);
-    streams_->sendAndRequestPictures();
+    publisher_->sendAndRequestPictures();
     co_return applied;
 }
 
@@ -176,13 +176,13 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     // A command that extends a field that is not shown changes `loaded`, but not State::source.
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
-    if (applied.revision != before) streams_->sessionChanged(services_.clock.now());
+    if (applied.revision != before) publisher_->sessionChanged(services_.clock.now());
     loading_->searches().stopUnneeded(session_.current);
     refinement_->update();
     // The first picture of a new field that is larger than memory is a draft, because a picture of full quality takes
     // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
-    if (session_.current.source != source && field != nullptr && field->source) streams_->beginDrafts();
+    if (session_.current.source != source && field != nullptr && field->source) publisher_->beginDrafts();
     saver_->scheduleSave();
     if (auto write = saver_->writeBeforeAcknowledgment(hasNewObject)) {
         if (awaitStore) {

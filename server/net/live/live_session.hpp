@@ -16,8 +16,8 @@
 #include "net/live/metered_session.hpp"
 #include "net/live/object_loading.hpp"
 #include "net/live/peer.hpp"
-#include "net/live/picture_streams.hpp"
 #include "net/live/request_answers.hpp"
+#include "net/live/session_publisher.hpp"
 #include "net/live/session_saver.hpp"
 #include "net/services.hpp"
 #include "session/session.hpp"
@@ -27,12 +27,12 @@
 namespace oval4d::net {
 
 /// A session in use: holds the session's value and applies commands. Every command is applied when it arrives;
-/// PictureStreams then sends the changed state and pictures to the clients, SessionSaver saves the session, and
+/// SessionPublisher then sends the changed state and pictures to the clients, SessionSaver saves the session, and
 /// FieldRefinement replaces a coarse level of an image by finer ones. RequestAnswers answers questions. The members of
 /// a session are used only on its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
-    using Strand = PictureStreams::Strand;
+    using Strand = SessionPublisher::Strand;
     using RequestId = RequestAnswers::RequestId;
 
     /// `client`: the client that opened the session; the session's memory counts as bytes held for this client
@@ -82,7 +82,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     void detachAndDisconnectAll();
 
   private:
-    using Clock = PictureStreams::Clock;
+    using Clock = SessionPublisher::Clock;
 
     // The following functions run on the strand.
     void assertOnStrand() const {
@@ -108,7 +108,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     // Used only on the strand.
     const std::shared_ptr<MeteredSession> metered_;
     session::Session& session_;  // the value of metered_
-    const std::shared_ptr<PictureStreams> streams_;
+    const std::shared_ptr<SessionPublisher> publisher_;
     const std::shared_ptr<ObjectLoading> loading_;
     const std::shared_ptr<RequestAnswers> answers_;
     const std::shared_ptr<SessionSaver> saver_;

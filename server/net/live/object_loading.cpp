@@ -36,10 +36,10 @@ asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAcco
                                            metered_->client()->loadJobQueue(), cost);
     } else if (search) {
         co_await runOnPool<std::monostate>(services_.exportWorkers, loaderJob(running, search->stopToken()),
-                                           streams_->jobQueuesOf(by).exports, cost);
+                                           publisher_->jobQueuesOf(by).exports, cost);
     } else {
         co_await runOnPool<std::monostate>(services_.pictureWorkers.workers(), loaderJob(running),
-                                           streams_->jobQueuesOf(by).pictures, cost);
+                                           publisher_->jobQueuesOf(by).pictures, cost);
     }
     loader = std::move(*running);
     const std::size_t bytes = loader.loadedObjectMemory();

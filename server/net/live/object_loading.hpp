@@ -12,7 +12,7 @@
 #include "net/live/critical_searches.hpp"
 #include "net/live/metered_session.hpp"
 #include "net/live/peer.hpp"
-#include "net/live/picture_streams.hpp"
+#include "net/live/session_publisher.hpp"
 #include "net/services.hpp"
 #include "session/object_loader.hpp"
 
@@ -22,8 +22,9 @@ namespace oval4d::net {
 /// runs on the session's strand.
 class ObjectLoading {
   public:
-    ObjectLoading(Services services, std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams)
-        : services_(services), metered_(std::move(metered)), streams_(std::move(streams)) {}
+    ObjectLoading(Services services, std::shared_ptr<MeteredSession> metered,
+                  std::shared_ptr<SessionPublisher> publisher)
+        : services_(services), metered_(std::move(metered)), publisher_(std::move(publisher)) {}
 
     /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred). Allocates no memory, because most
     /// commands load nothing.
@@ -49,7 +50,7 @@ class ObjectLoading {
   private:
     const Services services_;
     const std::shared_ptr<MeteredSession> metered_;
-    const std::shared_ptr<PictureStreams> streams_;
+    const std::shared_ptr<SessionPublisher> publisher_;
     CriticalSearches searches_;
 };
 

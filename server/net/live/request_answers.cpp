@@ -35,19 +35,19 @@ struct KeepAnswersAlive {
 
 }  // namespace
 
-RequestAnswers::RequestAnswers(Services services, PictureStreams::Strand strand, std::string sessionId,
-                               std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams,
+RequestAnswers::RequestAnswers(Services services, SessionPublisher::Strand strand, std::string sessionId,
+                               std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
                                std::shared_ptr<ObjectLoading> loading)
     : services_(services),
       strand_(std::move(strand)),
       sessionId_(std::move(sessionId)),
       metered_(std::move(metered)),
       session_(metered_->value),
-      streams_(std::move(streams)),
+      publisher_(std::move(publisher)),
       loading_(std::move(loading)) {}
 
 asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
-    const StreamKey* const stream = streams_->streamOf(*peer);
+    const StreamKey* const stream = publisher_->streamOf(*peer);
     if (stream == nullptr) co_return;
     StreamKey key = *stream;
     if (get.viewport) key.viewport = *get.viewport;
@@ -133,14 +133,14 @@ void RequestAnswers::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id
 }
 
 asio::awaitable<void> RequestAnswers::answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id) {
-    SnapshotPtr state = streams_->currentState();
+    SnapshotPtr state = publisher_->currentState();
     std::optional<Error> failed;
     try {
         if (!state) {
-            state = co_await runOnPool<SnapshotPtr>(services_.pictureWorkers, streams_->currentStateJob(),
-                                                    streams_->jobQueuesOf(peer->client()).pictures,
+            state = co_await runOnPool<SnapshotPtr>(services_.pictureWorkers, publisher_->currentStateJob(),
+                                                    publisher_->jobQueuesOf(peer->client()).pictures,
                                                     pipeline::focusSectionCost(session_.current.object));
-            streams_->keepIfCurrent(state);
+            publisher_->keepIfCurrent(state);
         }
         peer->send({state->stateTextFor(scheme, id), false});
     } catch (const parallel::QueueFull&) {
@@ -170,7 +170,7 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
         const scene::PictureRequest picture = session::pictureOf(session_.current);
         made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, picture, request, peer->client()),
-            streams_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(picture, request));
+            publisher_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(picture, request));
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -225,7 +225,7 @@ asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> pe
                                    : pictureCost(session_.current, key, slicing::Quality::full);
         OutgoingMessage picture =
             co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, requestedJob(key, id, point),
-                                                streams_->jobQueuesOf(peer->client()).pictures, cost);
+                                                publisher_->jobQueuesOf(peer->client()).pictures, cost);
         peer->send(std::move(picture));
         if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
     } catch (const parallel::QueueFull&) {
@@ -245,7 +245,7 @@ asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> pee
     } else {
         try {
             peer->send(co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, sampleJob(point, id),
-                                                           streams_->jobQueuesOf(peer->client()).pictures,
+                                                           publisher_->jobQueuesOf(peer->client()).pictures,
                                                            pipeline::sampleCost(session_.current.object)));
         } catch (const parallel::QueueFull&) {
             failed = kTooManyJobs;
@@ -271,9 +271,10 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::sampleJob(co
 /// point.
 std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob(
     const StreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
-    const SnapshotPtr known = streams_->currentFullSnapshot();
-    return [known, state = session_.current, askedRevision = revision(), changed = streams_->lastChangeTime(), key, id,
-            point, section = streams_->namedSection(), &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+    const SnapshotPtr known = publisher_->currentFullSnapshot();
+    return [known, state = session_.current, askedRevision = revision(), changed = publisher_->lastChangeTime(), key,
+            id, point, section = publisher_->namedSection(),
+            &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
         if (section) pipeline.keepFocusSection(*section);
         if (point) {
             const scene::PictureRequest picture = session::pictureOf(state, key.viewport);

@@ -17,7 +17,7 @@
 #include "net/live/metered_session.hpp"
 #include "net/live/object_loading.hpp"
 #include "net/live/peer.hpp"
-#include "net/live/picture_streams.hpp"
+#include "net/live/session_publisher.hpp"
 #include "net/live/snapshot.hpp"
 #include "net/services.hpp"
 #include "pipeline/pipeline.hpp"
@@ -33,13 +33,13 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
   public:
     using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
 
-    /// `sessionId`: for the log. `streams` and `loading`: those of the session `metered`.
-    RequestAnswers(Services services, PictureStreams::Strand strand, std::string sessionId,
-                   std::shared_ptr<MeteredSession> metered, std::shared_ptr<PictureStreams> streams,
+    /// `sessionId`: for the log. `publisher` and `loading`: those of the session `metered`.
+    RequestAnswers(Services services, SessionPublisher::Strand strand, std::string sessionId,
+                   std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
                    std::shared_ptr<ObjectLoading> loading);
 
     /// Answers a `get`, and returns when it is answered. However, if it asks for critical values of w, returns at once
-    /// and answers later. Does nothing if the client was not added to the streams.
+    /// and answers later. Does nothing if the client was not added to the publisher.
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     void answer(Peer& peer, const wire::Measure& measure, RequestId id);
     void answer(Peer& peer, const wire::Ping& ping, RequestId id);
@@ -61,11 +61,11 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
     std::uint64_t revision() const { return session_.revision; }
 
     const Services services_;
-    const PictureStreams::Strand strand_;
+    const SessionPublisher::Strand strand_;
     const std::string sessionId_;
     const std::shared_ptr<MeteredSession> metered_;
     const session::Session& session_;  // the value of metered_
-    const std::shared_ptr<PictureStreams> streams_;
+    const std::shared_ptr<SessionPublisher> publisher_;
     const std::shared_ptr<ObjectLoading> loading_;
 };
 

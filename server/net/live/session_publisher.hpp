@@ -30,23 +30,25 @@
 
 namespace oval4d::net {
 
-/// Sends states and pictures to the clients of a session. Each client is sent pictures of the newest state as fast as
-/// workers make them and the client shows them. A session has at most one picture job that is queued or being drawn. A
-/// newer state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture
-/// of a revision is made once and shared by all clients with the same StreamKey. While the object or the focus
-/// moves, it makes a step whenever a client can receive the next picture. Every function runs on the session's strand.
-class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
+/// Sends the states of a session, and pictures of them, to all its clients. Each client is sent pictures of the newest
+/// state as fast as workers make them and the client shows them. A session has at most one job for pictures that is
+/// queued or being drawn; the job makes the pictures of one revision for all clients that can receive them. A newer
+/// state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture of a
+/// revision is made once and shared by all clients with the same StreamKey. While the object or the focus moves, the
+/// publisher moves it by one step whenever a client can receive the next picture. Every function runs on the
+/// session's strand.
+class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using Clock = Pacing::Clock;
-    /// A client's job queues in the worker pools for its jobs in this session.
-    struct ClientJobQueues {
+    /// A client, and the job queues, one in each worker pool, in which its jobs for this session wait.
+    struct JobQueuesOfClient {
         AddressAccountPtr client;
         parallel::WorkerPool::JobQueuePtr pictures, exports;
     };
 
     /// `sessionId`: for the log. `metered`: the session, whose owner calls sessionChanged() after each change.
-    PictureStreams(Services services, Strand strand, std::string sessionId, std::shared_ptr<MeteredSession> metered);
+    SessionPublisher(Services services, Strand strand, std::string sessionId, std::shared_ptr<MeteredSession> metered);
 
     /// Sets the function to call after each step of the motion, so that the changed session can be saved. Must be
     /// called before a client is added.
@@ -60,7 +62,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     const StreamKey* streamOf(const Peer& peer) const;
     /// Returns the job queues of a client in this session. All connections of a client to a session share these job
     /// queues, so that a client with several connections gets no larger share of the workers.
-    ClientJobQueues jobQueuesOf(const AddressAccountPtr& own) const;
+    JobQueuesOfClient jobQueuesOf(const AddressAccountPtr& own) const;
     /// Closes the connections of all clients.
     void closeAll(std::uint16_t code, const std::string& reason);
 
@@ -96,7 +98,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     // A connected client of this session, and what it was sent.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
-        ClientJobQueues jobQueues;
+        JobQueuesOfClient jobQueues;
         StreamKey streamKey;
         Pacing pacing;
         slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
@@ -104,8 +106,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     };
     // A picture that could not be made, and the reason.
     using FailedPicture = std::pair<StreamKey, Error>;
-    // A job that makes pictures of one revision.
-    struct PictureJob {
+    // A job that makes the pictures of one revision that clients wait for: one for each StreamKey among them.
+    struct RevisionPicturesJob {
         std::uint64_t number = 0;  // identifies the job within the session; starts at 1
         session::State state;
         std::uint64_t revision = 0;
@@ -115,7 +117,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
         std::vector<StreamKey> wanted;                 // the pictures to make
         std::optional<slicing::NamedSection> section;  // PictureStreams::section_ when the job was created
     };
-    // The result of a PictureJob.
+    // The result of a RevisionPicturesJob.
     struct JobResult {
         std::uint64_t job = 0;  // number of the job
         std::uint64_t revision = 0;
@@ -148,7 +150,7 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
 
     // The following functions run on a worker.
     void runJob(pipeline::Pipeline& pipeline);
-    void onLastPictureDrawn(const PictureJob& job, const StreamKey& key);
+    void onLastPictureDrawn(const RevisionPicturesJob& job, const StreamKey& key);
 
     // Constant after construction.
     const Services services_;  // declared first, because other members are initialized from it
@@ -172,8 +174,8 @@ class PictureStreams : public std::enable_shared_from_this<PictureStreams> {
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;
     // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while the
-    // worker pool has no picture job of this session.
-    std::optional<PictureJob> queuedJob_;
+    // worker pool has no RevisionPicturesJob of this session.
+    std::optional<RevisionPicturesJob> queuedJob_;
 };
 
 }  // namespace oval4d::net

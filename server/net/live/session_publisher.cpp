@@ -1,4 +1,4 @@
-#include "net/live/picture_streams.hpp"
+#include "net/live/session_publisher.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -29,8 +29,8 @@ const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the
 
 }  // namespace
 
-PictureStreams::PictureStreams(Services services, Strand strand, std::string sessionId,
-                               std::shared_ptr<MeteredSession> metered)
+SessionPublisher::SessionPublisher(Services services, Strand strand, std::string sessionId,
+                                   std::shared_ptr<MeteredSession> metered)
     : services_(services),
       strand_(std::move(strand)),
       sessionId_(std::move(sessionId)),
@@ -42,19 +42,19 @@ PictureStreams::PictureStreams(Services services, Strand strand, std::string ses
       retryTimer_(services_.clock, strand_),
       refineTimer_(services_.clock, strand_) {}
 
-void PictureStreams::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
+void SessionPublisher::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
     assertOnStrand();
-    ClientJobQueues jobQueues = jobQueuesOf(peer->client());
+    JobQueuesOfClient jobQueues = jobQueuesOf(peer->client());
     subscribers_[peer.get()] = Subscriber{peer, std::move(jobQueues), key, {}};
 }
 
-const StreamKey* PictureStreams::streamOf(const Peer& peer) const {
+const StreamKey* SessionPublisher::streamOf(const Peer& peer) const {
     assertOnStrand();
     const auto subscriber = subscribers_.find(&peer);
     return subscriber == subscribers_.end() ? nullptr : &subscriber->second.streamKey;
 }
 
-PictureStreams::ClientJobQueues PictureStreams::jobQueuesOf(const AddressAccountPtr& own) const {
+SessionPublisher::JobQueuesOfClient SessionPublisher::jobQueuesOf(const AddressAccountPtr& own) const {
     for (const auto& [key, subscriber] : subscribers_) {
         if (subscriber.jobQueues.client == own) return subscriber.jobQueues;
     }
@@ -62,14 +62,14 @@ PictureStreams::ClientJobQueues PictureStreams::jobQueuesOf(const AddressAccount
             std::make_shared<parallel::WorkerPool::JobQueue>(own->exportFlow())};
 }
 
-void PictureStreams::closeAll(std::uint16_t code, const std::string& reason) {
+void SessionPublisher::closeAll(std::uint16_t code, const std::string& reason) {
     assertOnStrand();
     for (const auto& [key, subscriber] : subscribers_) {
         if (const auto peer = subscriber.peer.lock()) peer->close(code, reason);
     }
 }
 
-void PictureStreams::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
+void SessionPublisher::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
     assertOnStrand();
     const auto subscriber = subscribers_.find(&peer);
     if (subscriber == subscribers_.end()) return;
@@ -77,7 +77,7 @@ void PictureStreams::pictureShown(const Peer& peer, std::uint64_t ofRevision) {
     sendAndRequestPictures();
 }
 
-void PictureStreams::sendAndRequestPictures() {
+void SessionPublisher::sendAndRequestPictures() {
     assertOnStrand();
     advanceMotion();
     if (state_ && state_->revision != revision()) state_.reset();  // it may keep objects that the session has dropped
@@ -111,7 +111,7 @@ void PictureStreams::sendAndRequestPictures() {
 }
 
 /// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
-slicing::Quality PictureStreams::wantedQuality() const {
+slicing::Quality SessionPublisher::wantedQuality() const {
     if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
     return session_.current.isMoving() || draftTiming_.hasQuickChanges() ? slicing::Quality::draft
                                                                          : slicing::Quality::full;
@@ -120,17 +120,17 @@ slicing::Quality PictureStreams::wantedQuality() const {
 /// Schedules pictures of full quality for the time when the period of quick changes ends (DraftTiming::restEnds()).
 /// Until the timer expires, wantedQuality() remains `draft`, so that the draft is made even if the server is too busy
 /// to make it before that time.
-void PictureStreams::scheduleRefinement() {
+void SessionPublisher::scheduleRefinement() {
     if (session_.current.isMoving()) return;
-    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEnds(), [](PictureStreams& streams) {
-        streams.draftTiming_.endIfRested(streams.services_.clock.now());
-        streams.sendAndRequestPictures();
+    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEnds(), [](SessionPublisher& publisher) {
+        publisher.draftTiming_.endIfRested(publisher.services_.clock.now());
+        publisher.sendAndRequestPictures();
     });
 }
 
 /// Continues the motion (see session::advance()), if the next step is due and a client that has the current revision
 /// can receive the next one.
-void PictureStreams::advanceMotion() {
+void SessionPublisher::advanceMotion() {
     assertOnStrand();
     if (!session_.current.isMoving()) {
         motionTiming_.stop();
@@ -142,7 +142,8 @@ void PictureStreams::advanceMotion() {
     const auto now = services_.clock.now();
     const auto passed = motionTiming_.step(now);
     if (!passed) {
-        motionTimer_.startUnlessRunning(weak_from_this(), motionTiming_.due(), &PictureStreams::sendAndRequestPictures);
+        motionTimer_.startUnlessRunning(weak_from_this(), motionTiming_.due(),
+                                        &SessionPublisher::sendAndRequestPictures);
         return;
     }
     const std::uint64_t before = revision();
@@ -152,7 +153,7 @@ void PictureStreams::advanceMotion() {
     moved_();
 }
 
-bool PictureStreams::readyForNext(const Subscriber& subscriber) const {
+bool SessionPublisher::readyForNext(const Subscriber& subscriber) const {
     const bool hasNewest = subscriber.pacing.newestSentOrSkipped() == revision();
     if (!hasNewest && !inProgress_.isEncoding(subscriber.streamKey, revision(), slicing::Quality::draft)) return false;
     return subscriber.streamKey.stream == Stream::none
@@ -162,14 +163,14 @@ bool PictureStreams::readyForNext(const Subscriber& subscriber) const {
 
 /// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
 /// are being drawn, because sendAndRequestPictures() is called again afterward.
-void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
+void SessionPublisher::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
     const bool isNew = !inProgress_.isQueuedOrDrawing();
     const parallel::WorkerPool::JobQueuePtr jobQueue = subscriberToCharge(wanted).jobQueues.pictures;
     Seconds cost{0};
     for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
-    PictureJob next{
+    RevisionPicturesJob next{
         inProgress_.currentOrNextJobNumber(), session_.current,  revision(), draftTiming_.lastChangeTime(), quality,
         pictures_.find(revision(), quality),  std::move(wanted), section_};
     {
@@ -189,7 +190,7 @@ void PictureStreams::requestPictures(std::vector<StreamKey> wanted) {
 
 /// Returns the client in whose job queue a job for the pictures `wanted` must wait. If several clients receive these
 /// pictures, returns another of them for each job, because a job uses up its client's share of the workers.
-const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
+const SessionPublisher::Subscriber& SessionPublisher::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
         if (std::ranges::find(wanted, subscriber.streamKey) != wanted.end()) payers.push_back(&subscriber);
@@ -198,13 +199,13 @@ const PictureStreams::Subscriber& PictureStreams::subscriberToCharge(const std::
 }
 
 /// Schedules another attempt after the pool has rejected a job because its queue is full.
-void PictureStreams::scheduleRetry() {
+void SessionPublisher::scheduleRetry() {
     retryTimer_.startUnlessRunning(weak_from_this(), services_.clock.now() + kRetryInterval,
-                                   &PictureStreams::sendAndRequestPictures);
+                                   &SessionPublisher::sendAndRequestPictures);
 }
 
-void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
-    PictureJob job;
+void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
+    RevisionPicturesJob job;
     {
         const std::lock_guard lock(queuedJobMutex_);
         job = std::move(*queuedJob_);
@@ -232,7 +233,7 @@ void PictureStreams::runJob(pipeline::Pipeline& pipeline) {
 
 /// Called on a worker when the last picture of a job is drawn, but not yet encoded. The next job may be queued as soon
 /// as this function has been called.
-void PictureStreams::onLastPictureDrawn(const PictureJob& job, const StreamKey& key) {
+void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const StreamKey& key) {
     asio::post(strand_, [self = shared_from_this(),
                          drawn = PictureJobs::PictureBeingEncoded{job.number, job.revision, job.quality, key}] {
         self->inProgress_.recordLastPictureDrawn(drawn);
@@ -243,7 +244,7 @@ void PictureStreams::onLastPictureDrawn(const PictureJob& job, const StreamKey& 
 /// Sends the pictures that a worker has made. Sends them even if the session has changed in the meantime, because they
 /// are newer than the pictures that the clients have. So when changes are very frequent, clients still see every
 /// picture that the workers have time to make.
-void PictureStreams::onJobDone(JobResult result) {
+void SessionPublisher::onJobDone(JobResult result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
     if (result.snapshot && !isSectionNamed()) section_ = result.snapshot->section;
@@ -265,7 +266,7 @@ void PictureStreams::onJobDone(JobResult result) {
 }
 
 /// Sends the state of the newest snapshot, followed by `picture`, which was made of this snapshot.
-void PictureStreams::sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture) {
+void SessionPublisher::sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
     const Snapshot& snapshot = *pictures_.snapshot();
@@ -288,7 +289,7 @@ void PictureStreams::sendStateAndPicture(Subscriber& subscriber, const OutgoingM
                });
 }
 
-SnapshotPtr PictureStreams::currentState() {
+SnapshotPtr SessionPublisher::currentState() {
     assertOnStrand();
     if (state_ && state_->revision == revision()) return state_;
     if (!isSectionNamed()) {
@@ -299,18 +300,18 @@ SnapshotPtr PictureStreams::currentState() {
 }
 
 /// Returns whether section_ is the section in the focus slice of the current state. Most changes of a look keep it.
-bool PictureStreams::isSectionNamed() const {
+bool SessionPublisher::isSectionNamed() const {
     const session::State& current = session_.current;
     return section_ && section_->isOf(current.object, current.orientation, current.focusW());
 }
 
-std::function<SnapshotPtr(pipeline::Pipeline&)> PictureStreams::currentStateJob() const {
+std::function<SnapshotPtr(pipeline::Pipeline&)> SessionPublisher::currentStateJob() const {
     return [state = session_.current, ofRevision = revision(), changed = lastChangeTime()](pipeline::Pipeline& worker) {
         return makeStateSnapshot(state, ofRevision, changed, worker.nameFocusSection(session::pictureOf(state)));
     };
 }
 
-bool PictureStreams::keepIfCurrent(const SnapshotPtr& state) {
+bool SessionPublisher::keepIfCurrent(const SnapshotPtr& state) {
     assertOnStrand();
     if (state->revision != revision()) return false;
     state_ = state;
@@ -320,7 +321,7 @@ bool PictureStreams::keepIfCurrent(const SnapshotPtr& state) {
 
 /// Lets a worker make the current state for clients without a stream, unless a worker is already making a state.
 /// `subscriber`: the client in whose job queue the job waits.
-void PictureStreams::requestState(const Subscriber& subscriber) {
+void SessionPublisher::requestState(const Subscriber& subscriber) {
     assertOnStrand();
     if (stateRequested_) return;
     const auto job = [self = shared_from_this(), make = currentStateJob()](pipeline::Pipeline& pipeline) {
@@ -339,7 +340,7 @@ void PictureStreams::requestState(const Subscriber& subscriber) {
 
 /// Sends the state that a worker has made. Like a picture, it is sent even if the session has changed in the meantime,
 /// because it is newer than the state that the clients have. `made`: the state; null if the worker failed to make it.
-void PictureStreams::onStateMade(const SnapshotPtr& made) {
+void SessionPublisher::onStateMade(const SnapshotPtr& made) {
     assertOnStrand();
     stateRequested_ = false;
     if (!made) return scheduleRetry();
@@ -356,7 +357,7 @@ void PictureStreams::onStateMade(const SnapshotPtr& made) {
 
 /// Sends the state of `snapshot` to a client without a stream, one message at a time: if the state changes faster than
 /// the client's socket accepts messages, states in between are skipped.
-void PictureStreams::sendState(Subscriber& subscriber, const Snapshot& snapshot) {
+void SessionPublisher::sendState(Subscriber& subscriber, const Snapshot& snapshot) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
     subscriber.pacing.recordSkipped(snapshot.revision);
@@ -377,22 +378,22 @@ void PictureStreams::sendState(Subscriber& subscriber, const Snapshot& snapshot)
 
 /// Starts a timer that calls assumeOverduePicturesShown(), which marks pictures as shown that clients have not
 /// acknowledged in time.
-void PictureStreams::scheduleShownTimeout() {
+void SessionPublisher::scheduleShownTimeout() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {
         const auto deadline = subscriber.pacing.deadline(shownTimeout());
         if (deadline && (!first || *deadline < *first)) first = deadline;
     }
-    if (first) paceTimer_.startUnlessRunning(weak_from_this(), *first, &PictureStreams::assumeOverduePicturesShown);
+    if (first) paceTimer_.startUnlessRunning(weak_from_this(), *first, &SessionPublisher::assumeOverduePicturesShown);
 }
 
-void PictureStreams::assumeOverduePicturesShown() {
+void SessionPublisher::assumeOverduePicturesShown() {
     for (auto& [key, subscriber] : subscribers_) subscriber.pacing.assumeShown(services_.clock.now(), shownTimeout());
     sendAndRequestPictures();
     scheduleShownTimeout();
 }
 
-PictureStreams::Clock::duration PictureStreams::shownTimeout() const {
+SessionPublisher::Clock::duration SessionPublisher::shownTimeout() const {
     return std::chrono::duration_cast<Clock::duration>(services_.options.shownTimeout);
 }
 

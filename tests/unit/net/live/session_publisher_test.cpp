@@ -1,6 +1,6 @@
 // When pictures are made and sent, in times that the tests choose.
 
-#include "net/live/picture_streams.hpp"
+#include "net/live/session_publisher.hpp"
 
 #include <boost/asio/post.hpp>
 #include <boost/asio/strand.hpp>
@@ -35,10 +35,10 @@ session::Set turning(bool on) {
     return set;
 }
 
-class PictureStreamsTest : public testing::Test {
+class SessionPublisherTest : public testing::Test {
   protected:
-    explicit PictureStreamsTest(const Options& options = {}) : server(options) {
-        streams->whenMoved([this] { ++steps; });
+    explicit SessionPublisherTest(const Options& options = {}) : server(options) {
+        publisher->whenMoved([this] { ++steps; });
     }
 
     /// Calls `work` on the session's strand.
@@ -48,12 +48,12 @@ class PictureStreamsTest : public testing::Test {
         auto peer = std::make_shared<RecordingPeer>(server.account);
         if (acknowledges) {
             peer->whenPictureArrives = [this, raw = peer.get()](std::uint64_t revision) {
-                post([this, raw, revision] { streams->pictureShown(*raw, revision); });
+                post([this, raw, revision] { publisher->pictureShown(*raw, revision); });
             };
         }
         post([this, peer] {
-            streams->add(peer, {wire::Stream::geometry, wire::Encoding::json, {640, 480}});
-            streams->sendAndRequestPictures();
+            publisher->add(peer, {wire::Stream::geometry, wire::Encoding::json, {640, 480}});
+            publisher->sendAndRequestPictures();
         });
         return peer;
     }
@@ -67,8 +67,8 @@ class PictureStreamsTest : public testing::Test {
     void change(const session::Command& command) {
         post([this, command] {
             session::must(value, command);
-            streams->sessionChanged(server.clock.now());
-            streams->sendAndRequestPictures();
+            publisher->sessionChanged(server.clock.now());
+            publisher->sendAndRequestPictures();
         });
         server.settle();
     }
@@ -84,13 +84,13 @@ class PictureStreamsTest : public testing::Test {
     const std::shared_ptr<MeteredSession> metered =
         std::make_shared<MeteredSession>(server.account, session::Session{});
     session::Session& value = metered->value;
-    const PictureStreams::Strand strand = asio::make_strand(server.io);
-    const std::shared_ptr<PictureStreams> streams =
-        std::make_shared<PictureStreams>(server.services, strand, "test", metered);
+    const SessionPublisher::Strand strand = asio::make_strand(server.io);
+    const std::shared_ptr<SessionPublisher> publisher =
+        std::make_shared<SessionPublisher>(server.services, strand, "test", metered);
     int steps = 0;  // the steps of the motion
 };
 
-TEST_F(PictureStreamsTest, UnacknowledgedPicturesCountAsShownAfterATime) {
+TEST_F(SessionPublisherTest, UnacknowledgedPicturesCountAsShownAfterATime) {
     const auto peer = connect(false);
     for (int i = 0; i < 5; ++i) change(kRotation);
     EXPECT_EQ(peer->pictures(), (Revisions{0, 1}));
@@ -105,14 +105,14 @@ TEST_F(PictureStreamsTest, UnacknowledgedPicturesCountAsShownAfterATime) {
     EXPECT_EQ(peer->pictures(), (Revisions{0, 1, 5, 6, 7}));
 }
 
-TEST_F(PictureStreamsTest, AClientThatAcknowledgesWaitsForNobody) {
+TEST_F(SessionPublisherTest, AClientThatAcknowledgesWaitsForNobody) {
     const auto silent = connect(false), quick = connect(true);
     for (int i = 0; i < 5; ++i) change(kRotation);
     EXPECT_EQ(silent->pictures(), (Revisions{0, 1}));
     EXPECT_EQ(quick->pictures(), (Revisions{0, 1, 2, 3, 4, 5}));
 }
 
-TEST_F(PictureStreamsTest, TheObjectTurnsAsFarInASecondAsItsSpeedSays) {
+TEST_F(SessionPublisherTest, TheObjectTurnsAsFarInASecondAsItsSpeedSays) {
     const auto peer = connect(true);
     change(kRotation);
     change(turning(true));
@@ -135,7 +135,7 @@ TEST_F(PictureStreamsTest, TheObjectTurnsAsFarInASecondAsItsSpeedSays) {
     EXPECT_EQ(steps, 61);
 }
 
-TEST_F(PictureStreamsTest, TheFocusPlaysAsFarInASecondAsItsSpeedSays) {
+TEST_F(SessionPublisherTest, TheFocusPlaysAsFarInASecondAsItsSpeedSays) {
     const auto peer = connect(true);
     change(session::CommandLine{"play"});
     EXPECT_EQ(steps, 1);
@@ -149,7 +149,7 @@ TEST_F(PictureStreamsTest, TheFocusPlaysAsFarInASecondAsItsSpeedSays) {
     EXPECT_EQ(steps, 61);
 }
 
-TEST_F(PictureStreamsTest, TheObjectWaitsForAcknowledgmentsAndDoesNotJump) {
+TEST_F(SessionPublisherTest, TheObjectWaitsForAcknowledgmentsAndDoesNotJump) {
     const auto peer = connect(false);
     change(kRotation);
     change(turning(true));
@@ -171,7 +171,7 @@ TEST_F(PictureStreamsTest, TheObjectWaitsForAcknowledgmentsAndDoesNotJump) {
         EXPECT_LE(glm::distance(after[column], before[column]), 1.001 * most) << column;
 }
 
-TEST_F(PictureStreamsTest, ASingleChangeOfAFieldHasNoDraft) {
+TEST_F(SessionPublisherTest, ASingleChangeOfAFieldHasNoDraft) {
     showField();
     const auto peer = connect(true);
     for (int i = 0; i < 3; ++i) {
@@ -182,7 +182,7 @@ TEST_F(PictureStreamsTest, ASingleChangeOfAFieldHasNoDraft) {
     EXPECT_EQ(peer->drafts(value.revision), std::vector{false});
 }
 
-TEST_F(PictureStreamsTest, QuickChangesOfAFieldHaveDraftsUntilItRests) {
+TEST_F(SessionPublisherTest, QuickChangesOfAFieldHaveDraftsUntilItRests) {
     showField();
     const auto peer = connect(true);
     change(kRotation);
@@ -201,7 +201,7 @@ TEST_F(PictureStreamsTest, QuickChangesOfAFieldHaveDraftsUntilItRests) {
     EXPECT_EQ(peer->drafts(value.revision - 1), std::vector{true});
 }
 
-TEST_F(PictureStreamsTest, AFieldThatTurnsHasDraftsUntilItStops) {
+TEST_F(SessionPublisherTest, AFieldThatTurnsHasDraftsUntilItStops) {
     showField();
     const auto peer = connect(true);
     change(kRotation);
@@ -219,7 +219,7 @@ TEST_F(PictureStreamsTest, AFieldThatTurnsHasDraftsUntilItStops) {
     EXPECT_EQ(peer->drafts(value.revision), (std::vector{true, false}));
 }
 
-TEST_F(PictureStreamsTest, QuickChangesOfAPolytopeHaveNoDrafts) {
+TEST_F(SessionPublisherTest, QuickChangesOfAPolytopeHaveNoDrafts) {
     const auto peer = connect(true);
     for (int i = 0; i < 5; ++i) change(kRotation);
     server.advance(1h);
@@ -259,9 +259,9 @@ Options optionsWithOneWaitingJob() {
     return options;
 }
 
-class FullPool : public PictureStreamsTest {
+class FullPool : public SessionPublisherTest {
   protected:
-    FullPool() : PictureStreamsTest(optionsWithOneWaitingJob()) {}
+    FullPool() : SessionPublisherTest(optionsWithOneWaitingJob()) {}
 };
 
 TEST_F(FullPool, APictureThatThePoolRejectsIsTriedAgain) {
