@@ -14,7 +14,7 @@
 #include "net/server.hpp"
 #include "parallel/fork_join.hpp"
 #include "process/child_process.hpp"
-#include "process/heap.hpp"
+#include "process/process_heap.hpp"
 #include "process/sandbox.hpp"
 #include "raster/rasterizer_service.hpp"
 
@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(app, argc, argv);
 
     startLog(options.logLevel);
-    oval4d::process::HeapConfiguration heap;
+    oval4d::process::ProcessHeap heap;
     oval4d::parallel::ForkJoin forkJoin;
     try {
         if (!oval4d::process::forbidNewPrivileges()) spdlog::warn("the system does not support no_new_privs");

@@ -116,7 +116,7 @@ std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& op
 /// The server: owns all services and runs them until a signal stops it.
 class Server {
   public:
-    Server(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap);
+    Server(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
     void run();
 
   private:
@@ -155,7 +155,7 @@ class Server {
     Routes routes_;
 };
 
-Server::Server(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap)
+Server::Server(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
       fieldCacheFiles_(options_.fieldCacheFolder, options_.fieldCache),
@@ -302,7 +302,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 
 }  // namespace
 
-void runServer(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap) {
+void runServer(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap) {
     if (options.open && !options.token.empty())
         throw std::invalid_argument(
             "--open (OVAL4D_OPEN) lets everyone in without a token, so --token (OVAL4D_TOKEN) would protect nothing; "

@@ -7,7 +7,7 @@
 
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline.hpp"
-#include "process/heap.hpp"
+#include "process/process_heap.hpp"
 
 namespace oval4d::pipeline {
 
@@ -29,7 +29,7 @@ class PipelinePool {
 
     /// The pipelines use `forkJoin`. Idle workers free the memory of their pipelines, and return it to the operating
     /// system through `heap`. `forkJoin` and `heap` must outlive the pool.
-    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap);
+    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
 
     /// Queues a job; returns false, and drops the job, if a limit on waiting jobs is reached. See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::JobQueuePtr jobQueue, parallel::WorkerPool::Seconds cost);

@@ -132,7 +132,7 @@ WaitLimit ChildProcess::waitLimit(const std::stop_token& stop) const {
     return {Clock::now() + std::chrono::duration_cast<Clock::duration>(options_.timeout), stop};
 }
 
-void ChildProcess::awaitReady(TransferResult& transfer, const WaitLimit& limit) {
+void ChildProcess::awaitReadyMessage(TransferResult& transfer, const WaitLimit& limit) {
     MessageType type{};
     std::string reason;
     transfer = channel_->receive(type, reason, nullptr, limit, kMaxReason);
@@ -150,7 +150,7 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
         try {
             // If the process hangs while it starts, the conversation is not the cause. Therefore `talked` stays false
             // in this case.
-            if (!ready_) awaitReady(transfer, waitLimit(stop));
+            if (!ready_) awaitReadyMessage(transfer, waitLimit(stop));
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {

@@ -85,7 +85,7 @@ class ChildProcess {
   private:
     std::string endProcess(bool atOnce);
     WaitLimit waitLimit(const std::stop_token& stop) const;
-    void awaitReady(TransferResult& transfer, const WaitLimit& limit);
+    void awaitReadyMessage(TransferResult& transfer, const WaitLimit& limit);
 
     const ChildOptions options_;
     std::unique_ptr<Channel> channel_;  // null while no process is running

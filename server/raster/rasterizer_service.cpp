@@ -67,7 +67,7 @@ class RecentObjects {
 
 class RasterizerService {
   public:
-    RasterizerService(int socket, parallel::ForkJoin& forkJoin, process::HeapConfiguration& heap)
+    RasterizerService(int socket, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap)
         : channel_(socket), rasterizer_(&forkJoin), heap_(heap) {}
 
     void run(const process::Confinement& confinement) {
@@ -145,7 +145,7 @@ class RasterizerService {
 
     Channel channel_;
     LocalRasterizer rasterizer_;
-    process::HeapConfiguration& heap_;
+    process::ProcessHeap& heap_;
     RecentObjects recent_;
     DrawRequest request_;
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
@@ -157,7 +157,7 @@ class RasterizerService {
 }  // namespace
 
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
-                     process::HeapConfiguration& heap) {
+                     process::ProcessHeap& heap) {
     process::initializeChild();
     RasterizerService(socket, forkJoin, heap).run(confinement);
 }

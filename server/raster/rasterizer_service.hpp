@@ -1,7 +1,7 @@
 #pragma once
 
 #include "parallel/fork_join.hpp"
-#include "process/heap.hpp"
+#include "process/process_heap.hpp"
 #include "process/sandbox.hpp"
 
 namespace oval4d::raster {
@@ -14,6 +14,6 @@ inline constexpr const char* kRasterizerCommand = "draw";
 /// sends the reason to the server. If no request comes for a while, frees memory and returns it to the operating system
 /// through `heap`. Throws std::runtime_error if a draw request is damaged or arrives without the memory to draw into.
 void serveRasterizer(int socket, const process::Confinement& confinement, parallel::ForkJoin& forkJoin,
-                     process::HeapConfiguration& heap);
+                     process::ProcessHeap& heap);
 
 }  // namespace oval4d::raster

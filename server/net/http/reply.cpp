@@ -32,14 +32,14 @@ Reply noCacheReply(std::string type, SharedBytes body, unsigned status) {
     return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
 }
 
-Reply textReply(std::string type, std::string body, unsigned status) {
+Reply noCacheTextReply(std::string type, std::string body, unsigned status) {
     return noCacheReply(std::move(type), SharedBytes(std::move(body)), status);
 }
 
-Reply jsonReply(std::string message) { return textReply(kJson, std::move(message)); }
+Reply jsonReply(std::string message) { return noCacheTextReply(kJson, std::move(message)); }
 
 Reply errorReply(const Error& error, unsigned status) {
-    return textReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
+    return noCacheTextReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
 }
 
 Reply refusalReply(unsigned status, std::string text) {

@@ -23,13 +23,13 @@ struct Reply {
 Reply noCacheReply(std::string type, SharedBytes body, unsigned status = 200);
 
 /// Like noCacheReply(), with a text as the body. `type`: the media type of the text.
-Reply textReply(std::string type, std::string body, unsigned status = 200);
+Reply noCacheTextReply(std::string type, std::string body, unsigned status = 200);
 
-/// Like textReply(), with a JSON message of the oval4d protocol as the body.
+/// Like noCacheTextReply(), with a JSON message of the oval4d protocol as the body.
 Reply jsonReply(std::string message);
 
-/// Like textReply(), with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the status is
-/// derived from the error code.
+/// Like noCacheTextReply(), with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the
+/// status is derived from the error code.
 Reply errorReply(const Error& error, unsigned status = 0);
 
 /// Returns a reply with a plain text and empty `headers`, for requests that are refused before a route answers them.

@@ -134,7 +134,7 @@ Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
     if (!range) return reply;
     const std::string size = std::to_string(representation.bytes.size());
     if (!range->satisfiable) {
-        Reply refused = textReply("text/plain", "the file has " + size + " bytes\n", 416);
+        Reply refused = noCacheTextReply("text/plain", "the file has " + size + " bytes\n", 416);
         refused.headers.emplace_back("Content-Range", "bytes */" + size);
         return refused;
     }
@@ -154,7 +154,7 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
         co_return refused;
     }
     const std::string& path = request.target.path;
-    if (path == "/healthz") co_return textReply("text/plain", "ok\n");
+    if (path == "/healthz") co_return noCacheTextReply("text/plain", "ok\n");
     if (path == "/readyz") co_return readiness();
     if (path == "/metrics") co_return metrics();
     if (path == "/api/v1/catalogue") co_return co_await catalogue(request.client);
@@ -249,20 +249,20 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
 }
 
 Reply Routes::readiness() const {
-    if (readiness_.stopping()) return textReply("text/plain", "stopping\n", 503);
+    if (readiness_.stopping()) return noCacheTextReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
         // The server stays ready while the store is unavailable: the other servers could not serve its clients better,
         // because a shared store is then unavailable to them, too.
         const std::string error = sessions_.writeBehind().lastError();
-        return textReply("text/plain", error.empty()
-                                           ? "ready\n"
-                                           : "ready, but the store is unavailable, so sessions are kept in memory "
-                                             "for now: " +
-                                                 error + "\n");
+        return noCacheTextReply("text/plain",
+                                error.empty() ? "ready\n"
+                                              : "ready, but the store is unavailable, so sessions are kept in memory "
+                                                "for now: " +
+                                                    error + "\n");
     }
     const bool broken = readiness_.broken();
-    return textReply("text/plain",
-                     broken ? "not ready: frames cannot be drawn; see the log\n" : "not ready: warming up\n", 503);
+    return noCacheTextReply(
+        "text/plain", broken ? "not ready: frames cannot be drawn; see the log\n" : "not ready: warming up\n", 503);
 }
 
 Reply Routes::metrics() {
@@ -282,7 +282,7 @@ Reply Routes::metrics() {
     shown.dataFields.Set(static_cast<double>(services_.data.bytesInMemory()));
     shown.fieldFiles.Set(static_cast<double>(services_.fieldCacheFiles.diskBytes()));
     shown.critical.Set(static_cast<double>(services_.critical.bytes()));
-    return textReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
+    return noCacheTextReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
 }
 
 }  // namespace oval4d::net

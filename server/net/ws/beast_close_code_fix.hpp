@@ -21,8 +21,9 @@ constexpr bool isSendableCloseCode(std::uint16_t code) {
     return (code >= 1000 && code <= 1003) || (code >= 1007 && code <= 1014) || (code >= 3000 && code <= 4999);
 }
 
-/// The buffer type in which Beast holds the payload of a close frame: at most 125 bytes (RFC 6455, section 5.5).
-using ClosePayload =
+/// The type of the buffer sequence (Asio's ConstBufferSequence) in which Beast holds the payload of a close frame, of
+/// at most 125 bytes (RFC 6455, section 5.5).
+using ClosePayloadBuffers =
     decltype(boost::beast::buffers_prefix(0, std::declval<boost::beast::static_buffer_base&>().data()));
 
 }  // namespace oval4d::net
@@ -30,7 +31,7 @@ using ClosePayload =
 namespace boost::beast::websocket::detail {
 
 template <>  // NOLINTNEXTLINE(readability-inconsistent-declaration-parameter-name): Beast calls them cr, bs and ec
-inline void read_close(close_reason& reason, const oval4d::net::ClosePayload& payload, error_code& fault) {
+inline void read_close(close_reason& reason, const oval4d::net::ClosePayloadBuffers& payload, error_code& fault) {
     std::array<char, 125> bytes{};
     const std::size_t size = net::buffer_copy(net::buffer(bytes), payload);
     reason = close_reason{};

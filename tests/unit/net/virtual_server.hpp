@@ -14,7 +14,7 @@
 #include "hang_limit.hpp"
 #include "net/services.hpp"
 #include "parallel/fork_join.hpp"
-#include "process/heap.hpp"
+#include "process/process_heap.hpp"
 #include "raster/rasterizer.hpp"
 #include "unit/net/virtual_timer_clock.hpp"
 
@@ -25,7 +25,7 @@ namespace oval4d::net {
 class VirtualServer {
     // These members are declared first, because the public ones use them.
     parallel::ForkJoin forkJoin_;
-    process::HeapConfiguration heap_;
+    process::ProcessHeap heap_;
 
   public:
     explicit VirtualServer(Options serverOptions = {}) : options(std::move(serverOptions)) {}

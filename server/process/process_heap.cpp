@@ -1,4 +1,4 @@
-#include "process/heap.hpp"
+#include "process/process_heap.hpp"
 
 #include <malloc.h>
 
@@ -15,7 +15,7 @@ constexpr int kTrimThreshold = 2 * kMapThreshold;
 
 }  // namespace
 
-HeapConfiguration::HeapConfiguration() {
+ProcessHeap::ProcessHeap() {
     mallopt(M_MMAP_THRESHOLD, kMapThreshold);
     mallopt(M_TRIM_THRESHOLD, kTrimThreshold);
     // In a build with a sanitizer, mallopt does not reach glibc's allocator, so the first malloc_trim initializes this
@@ -26,7 +26,7 @@ HeapConfiguration::HeapConfiguration() {
 /// malloc_trim does not return the free memory at the end of a thread's arena. glibc returns this memory only when the
 /// thread frees a large block and there is more free memory than the trim threshold. Therefore this function sets the
 /// threshold to 0 for a moment, and frees a large block.
-void HeapConfiguration::returnFreeMemory() {
+void ProcessHeap::returnFreeMemory() {
     mallopt(M_TRIM_THRESHOLD, 0);
     void* const volatile large = ::operator new(1U << 17U);
     ::operator delete(large);
