@@ -33,8 +33,8 @@ bool needsDepthBuffer(const Object& object) {
 // f of the object if it lies in the hyperplane, the number of cells + f. If every face was cut from a cell, this cell
 // is its source number, and `out` is left empty.
 template <typename Faces, typename SourceOf>
-void findCells(const Object& object, const slicing::Visibilities& visibilities, const Faces& faces, SourceOf sourceOf,
-               std::vector<std::uint32_t>& out) {
+void findCells(const Object& object, const slicing::VisibilityBySource& visibilities, const Faces& faces,
+               SourceOf sourceOf, std::vector<std::uint32_t>& out) {
     const auto cells = static_cast<std::uint32_t>(slicing::elementCounts(object)[3]);
     out.clear();
     if (std::ranges::all_of(faces, [&](const auto& face) { return sourceOf(face) < cells; })) return;
@@ -335,7 +335,8 @@ void Composer::traceContours(const Object& object, const geometry::Rotation& ori
         return;
     }
     const fields::Field& field = *slicing::fieldIn(object);
-    const double side = 2 * MatrixLayout::kReach * out.circumradius, pixels = out.matrix.panel * out.viewport.height;
+    const double side = 2 * SectionMatrixLayout::kReach * out.circumradius,
+                 pixels = out.matrix.panel * out.viewport.height;
     ContourInput input{
         object_, orientation, matrix.point, out.look.field.levels, slicing::contourStep(field, side, pixels, quality),
         quality};

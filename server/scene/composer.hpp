@@ -13,7 +13,7 @@
 #include "geometry/rotation.hpp"
 #include "scene/density_plot.hpp"
 #include "scene/scene.hpp"
-#include "slicing/coordinate_histograms.hpp"
+#include "slicing/coordinate_value_histograms.hpp"
 #include "slicing/object.hpp"
 #include "slicing/planar_contours.hpp"
 #include "slicing/planar_sections.hpp"
@@ -107,7 +107,7 @@ class Composer {
     std::uint64_t object_ = 0;       // the serial number of the object of the last call
     bool objectChanged_ = false;     // whether the object has changed since the last call of compose()
     double relativeBallRadius_ = 0;  // slicing::relativeBallRadius() of the object of the last call
-    slicing::Visibilities visibilities_;
+    slicing::VisibilityBySource visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
     slicing::PlanarContourTracer contourTracer_;
@@ -124,7 +124,7 @@ class Composer {
     std::optional<std::pair<std::size_t, Color>> replacedColor_;
 
     DensityPlot density_;
-    slicing::CoordinateHistograms histogram_;
+    slicing::CoordinateValueHistograms histogram_;
     std::uint64_t densityObject_ = 0;  // the serial number of the object whose density or histogram was measured last
     geometry::Rotation densityTurn_;   // the orientation at that measurement
     std::vector<double> histogramLevels_;  // the levels at that measurement

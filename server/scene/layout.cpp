@@ -184,12 +184,12 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
 // Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
 // `relativeBall`: LayoutObjectInfo::relativeBallRadius. The matrix has no balls and bars, so it ignores
 // Look::thickness.
-MatrixLayout placeMatrix(Rect& room, double relativeBall) {
+SectionMatrixLayout placeMatrix(Rect& room, double relativeBall) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
     const bool wide = width > height;
     const double side = wide ? std::min(height, kShare * width) : std::min(width, kShare * height);
-    MatrixLayout matrix;
+    SectionMatrixLayout matrix;
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
@@ -210,7 +210,7 @@ MatrixLayout placeMatrix(Rect& room, double relativeBall) {
 
 }  // namespace
 
-std::optional<MatrixLayout::Panel> MatrixLayout::panelAt(glm::dvec2 position) const {
+std::optional<SectionMatrixLayout::Panel> SectionMatrixLayout::panelAt(glm::dvec2 position) const {
     if (!shown) return std::nullopt;
     const glm::dvec2 offset = (position - glm::dvec2(left, bottom)) / step, cell = glm::floor(offset);
     const glm::dvec2 inside = (offset - cell) * step;
@@ -236,7 +236,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     const auto [right, below] = partsBeside(boxOf(out.axes), room);
     const AvailableSpace sliceRoom{sizeOf(room), {sizeOf(right), sizeOf(below)}, projected};
     const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect, sliceRoom);
-    out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : MatrixLayout{};
+    out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : SectionMatrixLayout{};
     out.sliceRadius = arrangement.sliceRadius;
     out.ballRadius = relativeBall * out.sliceRadius;
     out.barRadius = kBarPerBall * out.ballRadius;

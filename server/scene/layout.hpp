@@ -84,11 +84,11 @@ struct ProjectionPlacement {
     bool operator==(const ProjectionPlacement&) const = default;
 };
 
-/// The layout of the matrix of planar sections. The panel in row i and column j, from the upper left, shows the section
-/// by the plane of the axes i and j (0 … 3 for x, y, z, w), with axis j to the right and axis i upward. The panels on
-/// the diagonal show the names of the axes. All lengths are fractions of the viewport's height; positions are measured
-/// from the viewport's lower left corner.
-struct MatrixLayout {
+/// The layout in the picture of the matrix of planar sections. The panel in row i and column j, from the upper left,
+/// shows the section by the plane of the axes i and j (0 … 3 for x, y, z, w), with axis j to the right and axis i
+/// upward. The panels on the diagonal show the names of the axes. All lengths are fractions of the viewport's height;
+/// positions are measured from the viewport's lower left corner.
+struct SectionMatrixLayout {
     bool shown = false;
     double left = 0, bottom = 0;            ///< the lower left corner of the matrix
     double panel = 0;                       ///< the side of a panel
@@ -112,7 +112,7 @@ struct MatrixLayout {
     /// Returns the panel at a position; an empty optional outside the panels, on the diagonal, and if the matrix is not
     /// shown.
     std::optional<Panel> panelAt(glm::dvec2 position) const;
-    bool operator==(const MatrixLayout&) const = default;
+    bool operator==(const SectionMatrixLayout&) const = default;
 };
 
 /// The layout of a whole picture.
@@ -124,7 +124,7 @@ struct Layout {
     ProjectionPlacement projectionPlacement;
     CoordinatesLayout coordinates;
     AxesSymbolLayout axes;
-    MatrixLayout matrix;
+    SectionMatrixLayout matrix;
 };
 
 /// The properties of an object that determine the layout.

@@ -108,7 +108,7 @@ struct Scene : Layout {
     /// For each face of `slices`, the cell that determines the face's color. Empty if the list would be equal to
     /// SliceSet::faceSource.
     std::vector<std::uint32_t> faceCells;
-    slicing::Visibilities visibilities;
+    slicing::VisibilityBySource visibilities;
     slicing::PartsShowingElement highlight;    ///< the vertices and edges of slices that show the highlighted element
     slicing::SectionNamePair sectionNames;     ///< of the section in the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown
@@ -124,7 +124,7 @@ struct Scene : Layout {
     FogTable fog;                          ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines its color
     /// If showsDensity(), the tones of the density plot (DensityPlot::tones()); if showsHistogram(), those of the
-    /// histograms of a field (slicing::CoordinateHistograms::tones()); otherwise without meaning.
+    /// histograms of a field (slicing::CoordinateValueHistograms::tones()); otherwise without meaning.
     std::vector<std::uint8_t> plotTones;
     HistogramAxes histogram;         ///< valid if showsHistogram()
     fields::PictureUnits axisUnits;  ///< of a field; unknown for all other objects

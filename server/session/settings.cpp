@@ -385,7 +385,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
 Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind, bool forward) {
     if (auto valid = checkElement(state.object, {kind, 0}); !valid) return valid;
     const std::size_t count = slicing::elementCount(state.object, kind);
-    slicing::Visibilities visibilities;
+    slicing::VisibilityBySource visibilities;
     slicing::findVisibilities(state.object, state.look.cellTypes.hidden, state.look.cellTypes.faded, visibilities);
     const auto isVisible = [&](std::size_t index) {
         return slicing::visibilityOf(state.object, visibilities, {kind, index}) != slicing::Visibility::hidden;

@@ -15,7 +15,7 @@ void cutEachHyperplane(const geometry::Hyperplanes& planes, SliceSet& out, Cut c
     out.clearSlices();
     for (const double w : planes.listed) {
         cut(geometry::Hyperplanes{0, 1, planes.spacing, w}, one);
-        out.append(one);
+        out.appendSlices(one);
     }
     out.rotatedVertices.swap(one.rotatedVertices);
 }

@@ -108,12 +108,12 @@ bool PlanarContourTracer::findSides(const fields::Field& field, const glm::dmat4
     return true;
 }
 
-bool PlanarContourTracer::contains(const glm::dvec2& p) const {
+bool PlanarContourTracer::isInDomain(const glm::dvec2& p) const {
     return std::ranges::all_of(sides_, [&](const HalfPlane& side) { return side.depthOf(p) >= 0; });
 }
 
 // Cuts polygon_, which is convex, by all sides (I. E. Sutherland and G. W. Hodgman, "Reentrant polygon clipping",
-// 1974). It becomes empty if nothing of it is in the domain.
+// 1974). What remains is its part in the domain, which may be empty.
 void PlanarContourTracer::cutBySides() {
     for (const HalfPlane& side : sides_) {
         cutPolygon_.clear();
@@ -146,7 +146,7 @@ void PlanarContourTracer::layOutLattice(double step) {
     for (std::size_t row = 0; row < rows; ++row) {
         for (std::size_t column = 0; column < columns; ++column) {
             const glm::dvec2 p = placeOf(column, row);
-            const bool isInside = contains(p);
+            const bool isInside = isInDomain(p);
             latticePoints_.push_back(isInside ? static_cast<std::uint32_t>(points_.size()) : geometry::kNone);
             if (isInside) points_.emplace_back(p, 0);
         }

@@ -94,7 +94,7 @@ class PlanarContourTracer {
                     const glm::dvec4& point);
     bool findSides(const fields::Field& field, const glm::dmat4& toFunction);
     void cutBySides();
-    bool contains(const glm::dvec2& p) const;
+    bool isInDomain(const glm::dvec2& p) const;
     void layOutLattice(double step);
     void addCell(const std::array<glm::dvec2, 4>& corners, const std::array<std::uint32_t, 4>& indices);
     void addSegments(std::span<const std::uint32_t> corners, double level);

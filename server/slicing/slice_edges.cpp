@@ -17,16 +17,16 @@ namespace oval4d::slicing {
 
 namespace {
 
-// How many hyperplanes lie below a vertex (`below`), and how many lie below it or contain it (`upTo`).
-struct PlanesAtVertex {
+// For a vertex: the number of hyperplanes below the vertex (`below`), and of those below or through it (`upTo`).
+struct HyperplaneCounts {
     std::size_t below, upTo;
 };
 
 // Counts the hyperplanes below a vertex with this w, and those below or through it. `sorted` has the values of
 // planes.listed in ascending order. A vertex at a distance of at most `tolerance` from a hyperplane lies in it, as in
 // CellComplexSlicer.
-PlanesAtVertex planesAt(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
-                        double w) {
+HyperplaneCounts countHyperplanes(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
+                                  double w) {
     if (!sorted.empty()) {
         return {static_cast<std::size_t>(std::ranges::lower_bound(sorted, w - tolerance) - sorted.begin()),
                 static_cast<std::size_t>(std::ranges::upper_bound(sorted, w + tolerance) - sorted.begin())};
@@ -42,11 +42,11 @@ std::size_t countInComplex(const geometry::CellComplex& complex, const geometry:
     std::vector<double> sorted = planes.listed;
     std::ranges::sort(sorted);
     const glm::dmat4 turned = orientation.matrix();
-    std::vector<PlanesAtVertex> at;
-    at.reserve(complex.vertices.size());
+    std::vector<HyperplaneCounts> counts;  // per vertex
+    counts.reserve(complex.vertices.size());
     const double tolerance = kOnPlaneTolerance * complex.circumradius;
     for (const glm::dvec4& vertex : complex.vertices)
-        at.push_back(planesAt(planes, sorted, tolerance, (turned * vertex).w));
+        counts.push_back(countHyperplanes(planes, sorted, tolerance, (turned * vertex).w));
     // The number of times that sides of 2-faces cross hyperplanes. A side that several 2-faces share counts for each of
     // them, so that each slice edge has two crossings as its ends.
     std::size_t crossings = 0;
@@ -54,7 +54,7 @@ std::size_t countInComplex(const geometry::CellComplex& complex, const geometry:
         const auto loop = complex.faces[f];
         std::uint32_t previous = loop.back();
         for (const std::uint32_t v : loop) {
-            const auto [low, high] = std::minmax(at[previous], at[v], [](const auto& a, const auto& b) {
+            const auto [low, high] = std::minmax(counts[previous], counts[v], [](const auto& a, const auto& b) {
                 return std::pair(a.below, a.upTo) < std::pair(b.below, b.upTo);
             });
             crossings += high.upTo - low.below;

@@ -32,7 +32,7 @@ void SliceSet::clearSlices() {
     edges.clear();
 }
 
-void SliceSet::append(const SliceSet& more) {
+void SliceSet::appendSlices(const SliceSet& more) {
     const auto addBegins = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from) {
         const std::uint32_t end = to.back();
         for (std::size_t i = 1; i < from.size(); ++i) to.push_back(end + from[i]);

@@ -76,11 +76,11 @@ struct SliceSet {
     }
     /// Records that the last slice ends at `at`, and truncates the arrays there.
     void finishSlices(SliceCounts at);
-    /// Removes all slices with their vertices, edges and faces, so that append() can add slices. Keeps the planes,
+    /// Removes all slices with their vertices, edges and faces, so that appendSlices() can add some. Keeps the planes,
     /// surfaces and fogs.
     void clearSlices();
     /// Adds the vertices, edges and faces of all slices of `more`, as further slices. Does not add surfaces and fogs.
-    void append(const SliceSet& more);
+    void appendSlices(const SliceSet& more);
 };
 
 /// A set without slices.

@@ -12,7 +12,7 @@ namespace {
 using geometry::CellComplex;
 using geometry::PointCloud;
 
-void findVisibilities(const CellComplex& p, std::span<const Visibility> ofType, Visibilities& out) {
+void findVisibilities(const CellComplex& p, std::span<const Visibility> ofType, VisibilityBySource& out) {
     const std::size_t cells = p.cells.size(), faces = p.faces.size(), edges = p.edges.size();
     // From cells down to vertices, each element passes its visibility to the elements on its boundary. All indices in
     // `out` are source numbers (see SliceSet).
@@ -34,7 +34,7 @@ void findVisibilities(const CellComplex& p, std::span<const Visibility> ofType, 
     }
 }
 
-std::uint32_t coloringCell(const CellComplex& p, const Visibilities& visibilities, std::uint32_t source) {
+std::uint32_t coloringCell(const CellComplex& p, const VisibilityBySource& visibilities, std::uint32_t source) {
     const auto cells = static_cast<std::uint32_t>(p.cells.size());
     if (source < cells) return source;
     const auto& [first, second] = p.faceCells[source - cells];
@@ -43,7 +43,7 @@ std::uint32_t coloringCell(const CellComplex& p, const Visibilities& visibilitie
 
 }  // namespace
 
-void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out) {
+void findVisibilities(const Object& object, std::span<const Visibility> ofType, VisibilityBySource& out) {
     out = {};
     if (std::ranges::all_of(ofType, [](Visibility visibility) { return visibility == Visibility::full; })) return;
     visitElements(Overloaded{[&](const CellComplex& complex) { findVisibilities(complex, ofType, out); },
@@ -52,7 +52,7 @@ void findVisibilities(const Object& object, std::span<const Visibility> ofType, 
 }
 
 void findVisibilities(const Object& object, std::span<const std::uint32_t> hidden, std::span<const std::uint32_t> faded,
-                      Visibilities& out) {
+                      VisibilityBySource& out) {
     std::vector<Visibility> ofType(infoOf(object).cellTypes.size(), Visibility::full);
     const auto set = [&](std::span<const std::uint32_t> types, Visibility visibility) {
         for (const std::uint32_t type : types) {
@@ -64,7 +64,7 @@ void findVisibilities(const Object& object, std::span<const std::uint32_t> hidde
     findVisibilities(object, ofType, out);
 }
 
-Visibility visibilityOf(const Object& object, const Visibilities& visibilities, const Element& element) {
+Visibility visibilityOf(const Object& object, const VisibilityBySource& visibilities, const Element& element) {
     const auto index = static_cast<std::uint32_t>(element.index);
     switch (element.kind) {
         case ElementKind::vertex:
@@ -79,7 +79,7 @@ Visibility visibilityOf(const Object& object, const Visibilities& visibilities, 
     return visibilities.face(index);
 }
 
-std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source) {
+std::uint32_t coloringCell(const Object& object, const VisibilityBySource& visibilities, std::uint32_t source) {
     return visitElements(
         Overloaded{[&](const CellComplex& complex) { return coloringCell(complex, visibilities, source); },
                    [&](const PointCloud& /*cloud*/) { return source; }},

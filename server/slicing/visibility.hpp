@@ -22,7 +22,7 @@ constexpr double opacityOf(Visibility visibility) {
 /// says from which polytope element it was cut (see SliceSet). The element of the slice has the visibility of this
 /// polytope element. A cell has the visibility of its type, and any other polytope element the greatest visibility of
 /// the cells that contain it. The lists are empty if everything is fully visible.
-struct Visibilities {
+struct VisibilityBySource {
     std::vector<Visibility> vertices, edges, faces;
 
     /// Returns whether everything is fully visible.
@@ -34,21 +34,21 @@ struct Visibilities {
 
 /// Finds the visibilities of all elements. `ofType` has the visibility of each cell type, in the order of
 /// ObjectInfo::cellTypes. Overwrites `out`.
-void findVisibilities(const Object& object, std::span<const Visibility> ofType, Visibilities& out);
+void findVisibilities(const Object& object, std::span<const Visibility> ofType, VisibilityBySource& out);
 
 /// Finds the visibilities of all elements if the cell types in `hidden` are hidden, those in `faded` are faded, and all
 /// others are fully visible. Both lists have indices into ObjectInfo::cellTypes; an index that is too large is ignored,
 /// and a cell type that is in both lists is hidden. Overwrites `out`.
 void findVisibilities(const Object& object, std::span<const std::uint32_t> hidden, std::span<const std::uint32_t> faded,
-                      Visibilities& out);
+                      VisibilityBySource& out);
 
 /// Returns the visibility of an element of `object`, for which findVisibilities() has found `visibilities`. Requires
 /// element.index < elementCount(object, element.kind).
-Visibility visibilityOf(const Object& object, const Visibilities& visibilities, const Element& element);
+Visibility visibilityOf(const Object& object, const VisibilityBySource& visibilities, const Element& element);
 
 /// Returns the cell that determines the color of a slice face. `source` is the entry of SliceSet::faceSource for this
 /// face. If the face was cut from a cell, the result is that cell. If the slice face is a 2-face that lies in the
 /// hyperplane, the result is the first cell of this 2-face or, if the first one is hidden, the second.
-std::uint32_t coloringCell(const Object& object, const Visibilities& visibilities, std::uint32_t source);
+std::uint32_t coloringCell(const Object& object, const VisibilityBySource& visibilities, std::uint32_t source);
 
 }  // namespace oval4d::slicing

@@ -58,7 +58,7 @@ void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32
 
 // Writes the visibility of each element, unless all elements are fully visible.
 template <typename W>
-void writeVisibilities(W& w, const slicing::Visibilities& visibilities, const ElementSources& of) {
+void writeVisibilities(W& w, const slicing::VisibilityBySource& visibilities, const ElementSources& of) {
     if (visibilities.allVisible()) return;
     const auto write = [&](std::string_view name, NumberSpan elements, const std::vector<slicing::Visibility>& by) {
         std::vector<std::uint32_t> list;
@@ -99,7 +99,7 @@ struct FillTriangles {
 // Adds the triangles of one slice or part, except those of hidden faces. `colorCells` has the cell that determines the
 // color of each face.
 void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>& colorCells,
-             const slicing::Visibilities& visibilities, std::size_t slice, FillTriangles& fill) {
+             const slicing::VisibilityBySource& visibilities, std::size_t slice, FillTriangles& fill) {
     const std::size_t begin = fill.points.size();
     for (std::uint32_t f = from.faceBegin[slice]; f < from.faceBegin[slice + 1]; ++f) {
         const slicing::Visibility visibility = visibilities.face(from.faces[f].source);
@@ -118,7 +118,7 @@ void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>&
 }
 
 template <typename W>
-void writeTriangles(W& w, const FillTriangles& fill, const slicing::Visibilities& visibilities) {
+void writeTriangles(W& w, const FillTriangles& fill, const slicing::VisibilityBySource& visibilities) {
     w.key("points");
     w.vectors(std::span<const glm::dvec3>(fill.points));
     w.key("triangles");
@@ -133,7 +133,7 @@ void writeTriangles(W& w, const FillTriangles& fill, const slicing::Visibilities
 
 // Writes the triangles of one slice or part, unless it has no filled faces.
 void writeFill(JsonWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
-               const slicing::Visibilities& visibilities, std::size_t i) {
+               const slicing::VisibilityBySource& visibilities, std::size_t i) {
     if (faces.empty() || faces.faceBegin[i] == faces.faceBegin[i + 1]) return;
     FillTriangles fill;
     addFill(faces, colorCells, visibilities, i, fill);
@@ -160,7 +160,7 @@ void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
 
 // Writes the elements of one slice, or of one part of a projection.
 void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
-                   const slicing::Visibilities& visibilities, std::size_t i) {
+                   const slicing::VisibilityBySource& visibilities, std::size_t i) {
     const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
     const ElementSources of = sourcesOf(slices, i, i + 1);
     w.key("vertices");
@@ -255,7 +255,7 @@ void SliceListWriter::writeRangeLengths(BinaryWriter& w, std::string_view name, 
 
 void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
                                     const std::vector<std::uint32_t>& faceCells,
-                                    const slicing::Visibilities& visibilities) {
+                                    const slicing::VisibilityBySource& visibilities) {
     const std::size_t count = slices.vertexBegin.size() - 1;
     const ElementSources of = sourcesOf(slices, 0, count);
     w.key("counts");
@@ -279,7 +279,7 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
 
 void SliceListWriter::writeFills(BinaryWriter& w, const slicing::FilledFaces& faces,
                                  const std::vector<std::uint32_t>& colorCells,
-                                 const slicing::Visibilities& visibilities) {
+                                 const slicing::VisibilityBySource& visibilities) {
     if (faces.empty()) return;
     FillTriangles fill;
     std::vector<std::uint32_t> points{0}, triangles{0};

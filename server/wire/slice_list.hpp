@@ -50,10 +50,10 @@ class SliceListWriter {
     void writeAllSlices(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
     // Writes the elements of all slices, or of all parts of a projection.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
-                       const slicing::Visibilities& visibilities);
+                       const slicing::VisibilityBySource& visibilities);
     // Writes the triangles of the faces of all slices, or of all parts of a projection.
     void writeFills(BinaryWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
-                    const slicing::Visibilities& visibilities);
+                    const slicing::VisibilityBySource& visibilities);
     // Writes the lengths of consecutive ranges as an array with this name. `begin`: the start of each range, and then
     // the end of the last range.
     void writeRangeLengths(BinaryWriter& w, std::string_view name, std::span<const std::uint32_t> begin);

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "scene/density_plot.hpp"
-#include "slicing/coordinate_histograms.hpp"
+#include "slicing/coordinate_value_histograms.hpp"
 #include "text/choice.hpp"
 #include "wire/encoding.hpp"
 #include "wire/fog_writer.hpp"
@@ -97,7 +97,7 @@ void writeContours(W& w, const slicing::PlanarContours& contours) {
 
 // Returns the number of columns of the plot in Scene::plotTones; 0 if there is no plot.
 int columnsOf(const scene::CoordinatesLayout& layout) {
-    if (layout.panel > 0) return slicing::CoordinateHistograms::kColumns;
+    if (layout.panel > 0) return slicing::CoordinateValueHistograms::kColumns;
     return layout.isDensityStrip ? scene::DensityPlot::kColumns : 0;
 }
 
@@ -269,7 +269,7 @@ void SlicesMessageWriter::writeProjection(W& w, const Scene& scene) {
 
 template <typename W>
 void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
-    const scene::MatrixLayout& layout = scene.matrix;
+    const scene::SectionMatrixLayout& layout = scene.matrix;
     const scene::SectionMatrix& matrix = scene.sectionMatrix;
     w.key("matrix");
     w.beginObject();
@@ -279,7 +279,7 @@ void SlicesMessageWriter::writeMatrix(W& w, const Scene& scene) {
     w.member("step", layout.step);
     w.member("line_width", layout.lineWidth);
     w.member("ball", layout.pointRadius);
-    w.member("reach", scene::MatrixLayout::kReach * scene.circumradius);
+    w.member("reach", scene::SectionMatrixLayout::kReach * scene.circumradius);
     writeNumbers(w, "point", {matrix.point.x, matrix.point.y, matrix.point.z, matrix.point.w});
     w.key("sections");
     w.beginArray();

@@ -14,7 +14,7 @@
 #include "export/drawing/ascii_text.hpp"
 #include "scene/density_plot.hpp"
 #include "scene/density_strip_lines.hpp"
-#include "slicing/coordinate_histograms.hpp"
+#include "slicing/coordinate_value_histograms.hpp"
 
 namespace oval4d::exports {
 
@@ -105,10 +105,10 @@ ShapeGroup highlightBands(const scene::Scene& scene, const VertexColumnLayout& c
 }
 
 Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation) {
-    using slicing::CoordinateHistograms;
+    using slicing::CoordinateValueHistograms;
     constexpr double kGap = 12;  // the gap between two panels
     const slicing::FieldSettings& settings = scene.look.field;
-    CoordinateHistograms histogram;
+    CoordinateValueHistograms histogram;
     histogram.measure(field, orientation, settings.levels);
     const auto [least, greatest] = histogram.range();
     const double width = (kDrawingWidth - 2 * kDrawingMargin - 3 * kGap) / 4, bottom = kDrawingMargin + 2 * kAmplitude;
@@ -118,10 +118,10 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
         const double left = kDrawingMargin + k * (width + kGap), right = left + width;
         const scene::Color color = scene.style().axes[static_cast<std::size_t>(k)];
         const std::string name(1, "xyzw"[k]);
-        OpacityImage panel{{left, kDrawingMargin}, {right, bottom}, {}, CoordinateHistograms::kPanel, {color}};
-        for (int row = 0; row < CoordinateHistograms::kRows; ++row) {
-            const auto first =
-                histogram.tones().subspan(CoordinateHistograms::index(row, k, 0), CoordinateHistograms::kPanel);
+        OpacityImage panel{{left, kDrawingMargin}, {right, bottom}, {}, CoordinateValueHistograms::kPanel, {color}};
+        for (int row = 0; row < CoordinateValueHistograms::kRows; ++row) {
+            const auto first = histogram.tones().subspan(CoordinateValueHistograms::index(row, k, 0),
+                                                         CoordinateValueHistograms::kPanel);
             panel.alphas.insert(panel.alphas.end(), first.begin(), first.end());
         }
         drawing.groups.push_back({"histogram-" + name, {std::move(panel)}});

@@ -57,9 +57,9 @@ struct TextLine {
     std::string text;
 };
 /// A raster image of a density strip (see scene::DensityPlot) or of a panel of a histogram (see
-/// slicing::CoordinateHistograms), in the rectangle from `topLeft` to `bottomRight`. The centers of the first and the
-/// last column lie on the left and right edges of the rectangle, and the centers of the first and the last row on its
-/// upper and lower edges.
+/// slicing::CoordinateValueHistograms), in the rectangle from `topLeft` to `bottomRight`. The centers of the first and
+/// the last column lie on the left and right edges of the rectangle, and the centers of the first and the last row on
+/// its upper and lower edges.
 struct OpacityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top
@@ -73,7 +73,7 @@ struct OpacityImage {
                       static_cast<std::size_t>(column)];
     }
     /// Returns the color of a column of pixels, interpolated between those of `colors`.
-    scene::Color colorOfColumn(int column) const {
+    scene::Color colorOfPixelColumn(int column) const {
         const std::size_t last = colors.size() - 1;
         const double at = static_cast<double>(column) * static_cast<double>(last) / (columns - 1);
         const auto first = std::min(static_cast<std::size_t>(at), last);

@@ -45,7 +45,7 @@ class SectionDrawer {
     SectionDrawer(const scene::Scene& scene, const glm::dvec4& origin)
         : scene_(scene),
           origin_(origin),
-          reach_(scene::MatrixLayout::kReach * scene.circumradius),
+          reach_(scene::SectionMatrixLayout::kReach * scene.circumradius),
           step_(tickSpacing(reach_)),
           scale_(kPanel / 2 / reach_) {}
 

@@ -81,14 +81,14 @@ class PageWriter {
         HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
         HPDF_Page_EndText(page_);
     }
-    // Draws a density image: an image with the colors of OpacityImage::colorOfColumn(), and OpacityImage::alphas as its
-    // soft mask, which determines the opacity of each pixel.
+    // Draws a density image: an image with the colors of OpacityImage::colorOfPixelColumn(), and OpacityImage::alphas
+    // as its soft mask, which determines the opacity of each pixel.
     void operator()(const OpacityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
         for (int row = 0; row < density.rows(); ++row) {
             for (int column = 0; column < density.columns; ++column) {
-                const scene::Color color = density.colorOfColumn(column);
+                const scene::Color color = density.colorOfPixelColumn(column);
                 for (const int shift : {16, 8, 0}) colors.push_back(static_cast<HPDF_BYTE>(color >> shift & 255U));
             }
         }

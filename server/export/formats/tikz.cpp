@@ -104,7 +104,7 @@ class CommandWriter {
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const glm::dvec2 pixel(size.x / (density.columns - 1), size.y / (density.rows() - 1));
         for (int column = 0; column < density.columns; ++column) {
-            const std::string color = use(density.colorOfColumn(column));
+            const std::string color = use(density.colorOfPixelColumn(column));
             for (int row = 0, end = 0; row < density.rows(); row = end) {
                 const std::uint8_t alpha = density.alpha(row, column);
                 while (end < density.rows() && density.alpha(end, column) == alpha) ++end;

@@ -5,7 +5,7 @@
 
 #include "render/color.hpp"
 #include "scene/density_plot.hpp"
-#include "slicing/coordinate_histograms.hpp"
+#include "slicing/coordinate_value_histograms.hpp"
 
 namespace oval4d::render {
 
@@ -50,10 +50,10 @@ CoordinatesPlot::CoordinatesPlot()
 CoordinatesPlot::~CoordinatesPlot() { glDeleteTextures(1, &texture_); }
 
 void CoordinatesPlot::draw(const scene::Scene& scene) {
-    using scene::DensityPlot, slicing::CoordinateHistograms;
+    using scene::DensityPlot, slicing::CoordinateValueHistograms;
     const bool showsHistogram = scene.showsHistogram();
     if (!showsHistogram && !scene.showsDensity()) return;
-    uploadTones(scene.plotTones, showsHistogram ? CoordinateHistograms::kColumns : DensityPlot::kColumns);
+    uploadTones(scene.plotTones, showsHistogram ? CoordinateValueHistograms::kColumns : DensityPlot::kColumns);
     corners_.clear();
     indices_.clear();
     const scene::CoordinatesLayout& layout = scene.coordinates;
@@ -61,9 +61,9 @@ void CoordinatesPlot::draw(const scene::Scene& scene) {
         const scene::Color color = scene.style().axes[static_cast<std::size_t>(k)];
         const double x = layout.left + k * layout.lineStep;
         if (showsHistogram) {
-            const int column = k * CoordinateHistograms::kPanel;
+            const int column = k * CoordinateValueHistograms::kPanel;
             addVerticalSide(scene, x, column, color);
-            addVerticalSide(scene, x + layout.panel, column + CoordinateHistograms::kPanel - 1, color);
+            addVerticalSide(scene, x + layout.panel, column + CoordinateValueHistograms::kPanel - 1, color);
             addQuadBetweenLastSides();
         } else {
             addVerticalSide(scene, x + layout.lineWidth / 2, k * DensityPlot::kGap, color);

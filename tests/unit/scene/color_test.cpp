@@ -163,7 +163,7 @@ TEST(Colors, OfALightGroundHoldOnWhite) {
             << "the scale becomes lighter";
 }
 
-TEST(Visibilities, FollowTheLook) {
+TEST(VisibilityBySource, FollowsTheLook) {
     const auto polytope = support::rectifiedFiveCell();
     scene::Composer composer;
     scene::Scene s;

@@ -13,7 +13,7 @@
 namespace {
 
 using namespace oval4d;
-using slicing::CoordinateHistograms;
+using slicing::CoordinateValueHistograms;
 
 slicing::Object radialField() {
     auto field = fields::fieldFromFormula("formula", "x^2+y^2+z^2+w^2", {glm::dvec4(-1), glm::dvec4(1)});
@@ -49,7 +49,8 @@ TEST(Histogram, IsShownOfFieldsUnlessItIsHidden) {
     EXPECT_TRUE(shown.look.parts.coordinates);
     EXPECT_TRUE(shown.showsHistogram());
     EXPECT_FALSE(shown.showsDensity());
-    EXPECT_EQ(shown.plotTones.size(), std::size_t{CoordinateHistograms::kRows} * CoordinateHistograms::kColumns);
+    EXPECT_EQ(shown.plotTones.size(),
+              std::size_t{CoordinateValueHistograms::kRows} * CoordinateValueHistograms::kColumns);
     const double eye = shown.camera.shiftY;
     look.parts.coordinates = false;
     EXPECT_FALSE(pictures.composed(look).showsHistogram());

@@ -183,7 +183,7 @@ TEST(Matrix, standsBesideTheFocusSlice) {
                 if (whole) look.projection.kind = scene::ProjectionKind::orthogonal;
                 const Scene s = composed("24-cell", 21, viewport, look);
                 SCOPED_TRACE(testing::Message() << viewport.width << " x " << viewport.height << ", " << whole);
-                const scene::MatrixLayout& m = s.matrix;
+                const scene::SectionMatrixLayout& m = s.matrix;
                 ASSERT_TRUE(m.shown);
                 EXPECT_GT(m.panel * viewport.height, 0.09 * std::min(viewport.width, viewport.height));
                 const double height = viewport.height, left = m.left * height, right = left + 4 * m.step * height;

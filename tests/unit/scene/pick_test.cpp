@@ -82,10 +82,10 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
     look.focusPoint = {0.05, -0.1, 0.15};
     for (const char* name : {"5-cell", "24-cell", "grand antiprism"}) {
         Picture picture(name, look, support::randomRotation(random));
-        const MatrixLayout& layout = picture.scene.matrix;
+        const SectionMatrixLayout& layout = picture.scene.matrix;
         const SectionMatrix& matrix = picture.scene.sectionMatrix;
         const auto counts = slicing::elementCounts(picture.object);
-        const double scale = layout.panel / 2 / MatrixLayout::kReach / picture.scene.circumradius;
+        const double scale = layout.panel / 2 / SectionMatrixLayout::kReach / picture.scene.circumradius;
         for (const slicing::PlanarSection& section : matrix.sections) {
             for (const bool transposed : {false, true}) {
                 const int row = section.axes[transposed ? 0 : 1], column = section.axes[transposed ? 1 : 0];
@@ -133,7 +133,7 @@ TEST(Pick, FindsPointsOfACloudInTheMatrixAsFarAsTheyAreDrawn) {
     const auto cloud = std::make_shared<const geometry::PointCloud>(
         geometry::makePointCloud("dots", {{0, 0, 0, 0}, {1, 0, 0, 0}, {-1, 0, 0, 0}}, {0.5, 0, 0}));
     Picture picture(cloud, look, {}, 1);
-    const MatrixLayout& layout = picture.scene.matrix;
+    const SectionMatrixLayout& layout = picture.scene.matrix;
     ASSERT_EQ(picture.scene.sectionMatrix.sections[0].ballScale.size(), 3U);
     const double radius = layout.pointRadius * picture.scene.sectionMatrix.sections[0].ballScale[0];
     ASSERT_GT(radius * 720, 6) << "larger than what is found in any case";

@@ -135,7 +135,7 @@ TEST(FaceFiller, IsRoughIfThereAreTooFewSteps) {
 
 TEST(FaceFiller, FillsTheFirstSlicesAndReturnsTheStepsThatAreLeft) {
     SliceSet slices = flat({starPolygon(5, 2)}, {1, 0, 0}, {0, 1, 0});
-    slices.append(flat({starPolygon(7, 3)}, {1, 0, 0}, {0, 1, 0}));
+    slices.appendSlices(flat({starPolygon(7, 3)}, {1, 0, 0}, {0, 1, 0}));
     FilledFaces one, both;
     const std::size_t steps = 10'000;
     const std::size_t afterOne = FaceFiller().fill(slices, 1, one, steps, 1);

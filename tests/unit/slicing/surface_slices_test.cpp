@@ -307,7 +307,7 @@ TEST(Surface, HasElementsThatCanBeMeasuredAndTurnedTo) {
     }
     EXPECT_NEAR(measureElement(torus, {ElementKind::face, 5}).area.value(), 1, 1e-12);
     EXPECT_NEAR(measureElement(torus, {ElementKind::edge, 5}).length.value(), 1, 1e-12);
-    Visibilities visibilities;
+    VisibilityBySource visibilities;
     findVisibilities(torus, {}, visibilities);
     EXPECT_TRUE(visibilities.allVisible());
     EXPECT_GE(relativeBallRadius(cliffordTorus(100, 100)), 0.016);

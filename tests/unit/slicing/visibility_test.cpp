@@ -12,14 +12,14 @@
 namespace oval4d::slicing {
 namespace {
 
-TEST(Visibilities, AreThoseOfTheMostVisibleCell) {
+TEST(VisibilityBySource, IsThatOfTheMostVisibleCell) {
     const auto polytope = support::rectifiedFiveCell();
     const Object object = support::objectOf(polytope);
     constexpr auto kHidden = Visibility::hidden, kFaded = Visibility::faded, kFull = Visibility::full;
     using OfType = std::array<Visibility, 2>;
     for (const OfType& ofType :
          {OfType{kHidden, kFull}, {kFull, kHidden}, {kFaded, kFull}, {kFaded, kHidden}, {kHidden, kHidden}}) {
-        Visibilities found;
+        VisibilityBySource found;
         findVisibilities(object, ofType, found);
         // The expected values come from a search through all cells for each element.
         const auto greatest = [&](auto&& holds) {
@@ -62,11 +62,11 @@ TEST(Visibilities, AreThoseOfTheMostVisibleCell) {
     }
 }
 
-TEST(Visibilities, AreFoundFromTheHiddenAndTheFadedTypes) {
+TEST(VisibilityBySource, IsFoundFromTheHiddenAndTheFadedTypes) {
     const auto polytope = support::rectifiedFiveCell();
     const Object object = support::objectOf(polytope);
     const std::vector<std::uint32_t> first{0}, second{1}, beyond{0, 2};
-    Visibilities found;
+    VisibilityBySource found;
     const auto cellOfType = [&](std::uint32_t type) {
         const auto at = std::ranges::find(polytope.typeOfCell, type);
         return visibilityOf(object, found,
@@ -83,9 +83,9 @@ TEST(Visibilities, AreFoundFromTheHiddenAndTheFadedTypes) {
     EXPECT_EQ(cellOfType(0), Visibility::full);
 }
 
-TEST(Visibilities, AreEmptyIfEverythingIsFullyVisible) {
+TEST(VisibilityBySource, IsEmptyIfEverythingIsFullyVisible) {
     const auto polytope = support::rectifiedFiveCell();
-    Visibilities found;
+    VisibilityBySource found;
     found.faces.resize(3);
     findVisibilities(support::objectOf(polytope), std::array{Visibility::full, Visibility::full}, found);
     EXPECT_TRUE(found.allVisible());

@@ -135,12 +135,12 @@ TEST(SlicesMessage, HasTheHistogramOfAField) {
     const json message = fitting(messageOf(picture, Encoding::json));
     EXPECT_FALSE(message.contains("coordinates"));
     const json& layout = message.at("scene").at("coordinates");
-    EXPECT_EQ(layout.at("columns"), slicing::CoordinateHistograms::kColumns);
+    EXPECT_EQ(layout.at("columns"), slicing::CoordinateValueHistograms::kColumns);
     EXPECT_EQ(layout.at("panel"), picture.scene.coordinates.panel);
     EXPECT_GT(layout.at("panel"), 0);
     std::vector<std::uint8_t> tones;
     for (const json& row : message.at("density")) {
-        ASSERT_EQ(row.size(), std::size_t{slicing::CoordinateHistograms::kColumns});
+        ASSERT_EQ(row.size(), std::size_t{slicing::CoordinateValueHistograms::kColumns});
         for (const json& tone : row) tones.push_back(tone.get<std::uint8_t>());
     }
     EXPECT_EQ(tones, picture.scene.plotTones);

@@ -1,4 +1,4 @@
-#include "slicing/coordinate_histograms.hpp"
+#include "slicing/coordinate_value_histograms.hpp"
 
 #include <cmath>
 #include <limits>
@@ -16,22 +16,22 @@
 namespace oval4d::slicing {
 namespace {
 
-constexpr int kRows = CoordinateHistograms::kRows, kPanel = CoordinateHistograms::kPanel;
+constexpr int kRows = CoordinateValueHistograms::kRows, kPanel = CoordinateValueHistograms::kPanel;
 const fields::Box kCube{glm::dvec4(-1), glm::dvec4(1)};
 
-CoordinateHistograms histogramOf(const fields::Field& field, const geometry::Rotation& orientation = {},
-                                 const std::vector<double>& levels = {}) {
-    CoordinateHistograms histogram;
+CoordinateValueHistograms histogramOf(const fields::Field& field, const geometry::Rotation& orientation = {},
+                                      const std::vector<double>& levels = {}) {
+    CoordinateValueHistograms histogram;
     histogram.measure(field, orientation, levels);
     return histogram;
 }
 
-double weightAt(const CoordinateHistograms& histogram, int row, int axis, int column) {
-    return histogram.weights()[CoordinateHistograms::index(row, axis, column)];
+double weightAt(const CoordinateValueHistograms& histogram, int row, int axis, int column) {
+    return histogram.weights()[CoordinateValueHistograms::index(row, axis, column)];
 }
 
 /// Returns the sum of each row of a panel.
-std::vector<double> valuesAlong(const CoordinateHistograms& histogram, int axis) {
+std::vector<double> valuesAlong(const CoordinateValueHistograms& histogram, int axis) {
     std::vector<double> sums(kRows, 0.0);
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < kPanel; ++column)
@@ -40,17 +40,17 @@ std::vector<double> valuesAlong(const CoordinateHistograms& histogram, int axis)
 }
 
 /// Returns the value in the middle of a row.
-double valueOf(const CoordinateHistograms& histogram, int row) {
+double valueOf(const CoordinateValueHistograms& histogram, int row) {
     const auto [least, greatest] = histogram.range();
     return greatest - row * (greatest - least) / (kRows - 1);
 }
 
 /// Returns the coordinate in the middle of a column.
-double coordinateOf(const CoordinateHistograms& histogram, int axis, int column) {
+double coordinateOf(const CoordinateValueHistograms& histogram, int axis, int column) {
     return histogram.reach()[static_cast<std::size_t>(axis)] * (2.0 * column / (kPanel - 1) - 1);
 }
 
-void expectRidge(const CoordinateHistograms& histogram, int axis) {
+void expectRidge(const CoordinateValueHistograms& histogram, int axis) {
     for (int column = 0; column < kPanel; ++column) {
         double inside = 0;
         for (int row = 0; row < kRows; ++row) {
@@ -65,15 +65,15 @@ void expectRidge(const CoordinateHistograms& histogram, int axis) {
     }
 }
 
-TEST(CoordinateHistograms, OfACoordinateIsADiagonalAndUniformAlongTheOthers) {
+TEST(CoordinateValueHistograms, OfACoordinateIsADiagonalAndUniformAlongTheOthers) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.x; }, 1, kCube);
-    const CoordinateHistograms histogram = histogramOf(field);
+    const CoordinateValueHistograms histogram = histogramOf(field);
     EXPECT_NEAR(histogram.range().least, -1, 1e-3);
     EXPECT_NEAR(histogram.range().greatest, 1, 1e-3);
-    EXPECT_EQ(histogram.countedPoints(), CoordinateHistograms::kMaxPoints);
+    EXPECT_EQ(histogram.countedPoints(), CoordinateValueHistograms::kMaxPoints);
     expectRidge(histogram, 0);
-    const double mean = double(CoordinateHistograms::kPointWeight) * static_cast<double>(histogram.countedPoints()) /
-                        ((kRows - 1) * (kPanel - 1));
+    const double mean = double(CoordinateValueHistograms::kPointWeight) *
+                        static_cast<double>(histogram.countedPoints()) / ((kRows - 1) * (kPanel - 1));
     for (int axis = 1; axis < 4; ++axis) {
         for (int row = 1; row < kRows - 1; ++row)
             for (int column = 1; column < kPanel - 1; ++column)
@@ -82,23 +82,23 @@ TEST(CoordinateHistograms, OfACoordinateIsADiagonalAndUniformAlongTheOthers) {
     }
 }
 
-TEST(CoordinateHistograms, TurnsWithTheField) {
+TEST(CoordinateValueHistograms, TurnsWithTheField) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.x; }, 1, kCube);
     const geometry::Rotation quarter(geometry::Turn{geometry::Plane::xw, std::numbers::pi / 2, {}});
     expectRidge(histogramOf(field, quarter), 3);
     // Half of a quarter turn shows the cube from an edge.
     const geometry::Rotation eighth(geometry::Turn{geometry::Plane::xy, std::numbers::pi / 4, {}});
-    const CoordinateHistograms turned = histogramOf(field, eighth);
+    const CoordinateValueHistograms turned = histogramOf(field, eighth);
     EXPECT_NEAR(turned.reach()[0], std::numbers::sqrt2, 1e-12);
     EXPECT_NEAR(turned.reach()[2], 1, 1e-12);
 }
 
 // The ball of radius r has the volume π² r⁴ / 2. No point at the distance r has a coordinate beyond r.
-TEST(CoordinateHistograms, OfTheDistanceCountsTheVolumesOfBalls) {
+TEST(CoordinateValueHistograms, OfTheDistanceCountsTheVolumesOfBalls) {
     const fields::Field field = testField([](const glm::dvec4& p) { return glm::length(p); }, 1, kCube);
     std::mt19937 random(31);
     for (const geometry::Rotation& orientation : {geometry::Rotation(), support::randomRotation(random)}) {
-        const CoordinateHistograms histogram = histogramOf(field, orientation);
+        const CoordinateValueHistograms histogram = histogramOf(field, orientation);
         for (int axis = 0; axis < 4; ++axis) {
             const std::vector<double> sums = valuesAlong(histogram, axis);
             const double all = std::accumulate(sums.begin(), sums.end(), 0.0);
@@ -120,15 +120,15 @@ TEST(CoordinateHistograms, OfTheDistanceCountsTheVolumesOfBalls) {
     }
 }
 
-TEST(CoordinateHistograms, KeepsItsTotalsUnderRotation) {
+TEST(CoordinateValueHistograms, KeepsItsTotalsUnderRotation) {
     const fields::Field field = testField([](const glm::dvec4& p) { return std::sin(3 * p.x) * p.y + p.z * p.w; }, 4,
                                           {glm::dvec4(-1, 0, 2, -3), glm::dvec4(1, 0.5, 5, 1)});
-    const CoordinateHistograms straight = histogramOf(field);
+    const CoordinateValueHistograms straight = histogramOf(field);
     const std::vector<double> values = valuesAlong(straight, 0);
     EXPECT_EQ(std::accumulate(values.begin(), values.end(), 0.0),
-              double(CoordinateHistograms::kPointWeight) * static_cast<double>(straight.countedPoints()));
+              double(CoordinateValueHistograms::kPointWeight) * static_cast<double>(straight.countedPoints()));
     std::mt19937 random(32);
-    CoordinateHistograms histogram;  // measured again and again
+    CoordinateValueHistograms histogram;  // measured again and again
     for (int trial = 0; trial < 5; ++trial) {
         histogram.measure(field, support::randomRotation(random), {});
         EXPECT_EQ(histogram.range(), straight.range());
@@ -138,14 +138,14 @@ TEST(CoordinateHistograms, KeepsItsTotalsUnderRotation) {
 
 // In a frame of reference in which a unit of time is worth two units of space, the domain is twice as long along w, and
 // has the same values.
-TEST(CoordinateHistograms, ShowsTheDomainInAFrameOfReference) {
+TEST(CoordinateValueHistograms, ShowsTheDomainInAFrameOfReference) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.w; }, 1, kCube);
-    const CoordinateHistograms longer = histogramOf(fields::transformedTo(field, {.pace = 2}, 71));
+    const CoordinateValueHistograms longer = histogramOf(fields::transformedTo(field, {.pace = 2}, 71));
     EXPECT_NEAR(longer.reach()[3], 2, 1e-12);
     EXPECT_NEAR(longer.reach()[0], 1, 1e-12);
     EXPECT_EQ(valuesAlong(longer, 3), valuesAlong(histogramOf(field), 3));
     // x' = x − w / 2 reaches from −1.5 to 1.5, and differs from −w / 2 by at most 1.
-    const CoordinateHistograms sheared = histogramOf(fields::transformedTo(field, {.follow = {0.5, 0, 0}}, 72));
+    const CoordinateValueHistograms sheared = histogramOf(fields::transformedTo(field, {.follow = {0.5, 0, 0}}, 72));
     EXPECT_NEAR(sheared.reach()[0], 1.5, 1e-12);
     for (int column = 0; column < kPanel; ++column) {
         for (int row = 0; row < kRows; ++row) {
@@ -155,29 +155,29 @@ TEST(CoordinateHistograms, ShowsTheDomainInAFrameOfReference) {
     }
 }
 
-TEST(CoordinateHistograms, LeavesOutWhatIsNearAPoleUnlessALevelIsThere) {
+TEST(CoordinateValueHistograms, LeavesOutWhatIsNearAPoleUnlessALevelIsThere) {
     const fields::Field field = testField([](const glm::dvec4& p) { return 1 / p.x; }, NAN, kCube);
-    const CoordinateHistograms usual = histogramOf(field);
+    const CoordinateValueHistograms usual = histogramOf(field);
     EXPECT_LT(usual.range().greatest, 150);
-    EXPECT_LT(usual.countedPoints(), CoordinateHistograms::kMaxPoints);
-    EXPECT_GT(usual.countedPoints(), 0.95 * CoordinateHistograms::kMaxPoints);
+    EXPECT_LT(usual.countedPoints(), CoordinateValueHistograms::kMaxPoints);
+    EXPECT_GT(usual.countedPoints(), 0.95 * CoordinateValueHistograms::kMaxPoints);
     EXPECT_EQ(histogramOf(field, {}, {1000}).range().greatest, 1000);
     EXPECT_EQ(histogramOf(field, {}, {1e30}).range(), usual.range()) << "no value is so large";
 }
 
-TEST(CoordinateHistograms, ShowsConstantsAndNothing) {
-    const CoordinateHistograms constant = histogramOf(testField([](const glm::dvec4&) { return 5; }, 0, kCube));
+TEST(CoordinateValueHistograms, ShowsConstantsAndNothing) {
+    const CoordinateValueHistograms constant = histogramOf(testField([](const glm::dvec4&) { return 5; }, 0, kCube));
     EXPECT_LT(constant.range().least, 5);
-    EXPECT_EQ(valuesAlong(constant, 2)[kRows / 2],
-              double(CoordinateHistograms::kPointWeight) * static_cast<double>(CoordinateHistograms::kMaxPoints));
-    const CoordinateHistograms nothing =
+    EXPECT_EQ(valuesAlong(constant, 2)[kRows / 2], double(CoordinateValueHistograms::kPointWeight) *
+                                                       static_cast<double>(CoordinateValueHistograms::kMaxPoints));
+    const CoordinateValueHistograms nothing =
         histogramOf(testField([](const glm::dvec4&) { return std::numeric_limits<double>::quiet_NaN(); }, NAN, kCube));
     EXPECT_EQ(nothing.countedPoints(), 0U);
     for (const std::uint8_t tone : nothing.tones()) ASSERT_EQ(tone, 0);
 }
 
-TEST(CoordinateHistograms, HasTonesThatGrowWithTheWeights) {
-    const CoordinateHistograms histogram =
+TEST(CoordinateValueHistograms, HasTonesThatGrowWithTheWeights) {
+    const CoordinateValueHistograms histogram =
         histogramOf(testField([](const glm::dvec4& p) { return p.x * p.y; }, 2, kCube));
     const auto most = *std::ranges::max_element(histogram.weights());
     for (std::size_t i = 0; i < histogram.tones().size(); ++i) {

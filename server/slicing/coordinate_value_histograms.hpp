@@ -28,7 +28,7 @@ namespace oval4d::slicing {
 ///
 /// The domain is sampled at quasirandom points (see fields::writeQuasirandomPoints()). The function is not evaluated
 /// again while only the rotation or the levels change. Reuses its memory between measurements.
-class CoordinateHistograms {
+class CoordinateValueHistograms {
   public:
     static constexpr int kPanel = 64;  ///< the number of columns for each axis
     static constexpr int kColumns = 4 * kPanel;

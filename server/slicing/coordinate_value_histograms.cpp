@@ -1,4 +1,4 @@
-#include "slicing/coordinate_histograms.hpp"
+#include "slicing/coordinate_value_histograms.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,23 +17,23 @@ using fields::UnitCubePoints;
 using fields::writeQuasirandomPoints;
 
 constexpr std::size_t kHistogramBatch = fields::kUnitPoints;
-static_assert(CoordinateHistograms::kMinPoints % kHistogramBatch == 0);
+static_assert(CoordinateValueHistograms::kMinPoints % kHistogramBatch == 0);
 constexpr std::uint8_t kNoRow = 255;
-static_assert(CoordinateHistograms::kRows < kNoRow);
+static_assert(CoordinateValueHistograms::kRows < kNoRow);
 
 // Returns the number of points: fewer for a slower function, so that the evaluation always takes about the same time.
 std::size_t pointCount(const fields::ScalarFunction& function) {
     constexpr double kTime = 2e7;  // nanoseconds
     const double count = kTime / std::max(function.cost().value, 1.0);
-    constexpr auto kLeast = static_cast<double>(CoordinateHistograms::kMinPoints);
-    constexpr auto kMost = static_cast<double>(CoordinateHistograms::kMaxPoints);
+    constexpr auto kLeast = static_cast<double>(CoordinateValueHistograms::kMinPoints);
+    constexpr auto kMost = static_cast<double>(CoordinateValueHistograms::kMaxPoints);
     return static_cast<std::size_t>(std::clamp(count, kLeast, kMost)) / kHistogramBatch * kHistogramBatch;
 }
 
 }  // namespace
 
-void CoordinateHistograms::measure(const fields::Field& field, const geometry::Rotation& orientation,
-                                   std::span<const double> levels) {
+void CoordinateValueHistograms::measure(const fields::Field& field, const geometry::Rotation& orientation,
+                                        std::span<const double> levels) {
     if (function_.lock() != field.function || !(box_ == field.box)) sample(field);
     chooseRange(levels);
     count(field, orientation);
@@ -41,7 +41,7 @@ void CoordinateHistograms::measure(const fields::Field& field, const geometry::R
 }
 
 // Evaluates the function, and sets fullRange_ and typicalRange_.
-void CoordinateHistograms::sample(const fields::Field& field) {
+void CoordinateValueHistograms::sample(const fields::Field& field) {
     constexpr double kResolution = 128;  // how many steps long each side of the domain is: see versionForSteps()
     const glm::dvec4 size = field.box.max - field.box.min;
     std::array<glm::dvec4, 4> steps{};
@@ -66,7 +66,7 @@ void CoordinateHistograms::sample(const fields::Field& field) {
     typicalRange_ = ranges.typical;
 }
 
-void CoordinateHistograms::chooseRange(std::span<const double> levels) {
+void CoordinateValueHistograms::chooseRange(std::span<const double> levels) {
     Range range = typicalRange_;
     for (const double level : levels) {
         if (level < fullRange_.least || level > fullRange_.greatest) continue;
@@ -83,7 +83,7 @@ void CoordinateHistograms::chooseRange(std::span<const double> levels) {
     assignRows();
 }
 
-void CoordinateHistograms::assignRows() {
+void CoordinateValueHistograms::assignRows() {
     const double scale = (kRows - 1) / (range_.greatest - range_.least);
     rowOf_.resize(values_.size());
     countedPoints_ = 0;
@@ -95,7 +95,7 @@ void CoordinateHistograms::assignRows() {
     }
 }
 
-void CoordinateHistograms::count(const fields::Field& field, const geometry::Rotation& orientation) {
+void CoordinateValueHistograms::count(const fields::Field& field, const geometry::Rotation& orientation) {
     // After the next two loops, toSteps maps the unit cube, centered at the origin, to the rotated domain. The unit
     // along each axis is then 1 / kPointWeight of a column, so that the domain extends from −kReach to +kReach.
     constexpr float kReach = (kPanel - 1) * kPointWeight / 2.0F;
@@ -132,7 +132,7 @@ void CoordinateHistograms::count(const fields::Field& field, const geometry::Rot
     }
 }
 
-void CoordinateHistograms::findTones() {
+void CoordinateValueHistograms::findTones() {
     tones_.resize(weights_.size());
     const std::uint32_t most = *std::ranges::max_element(weights_);
     const float unit = most > 0 ? 255.0F / std::cbrt(static_cast<float>(most)) : 0;
