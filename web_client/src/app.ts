@@ -39,7 +39,7 @@ import { readInitialView, rememberSession } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
-import { markFullScreen, markMode, markScheme, markTilt, pageSections } from "./page_tools";
+import { pageSections, showFullScreenPressed, showModePressed, showSchemePressed, showTiltPressed } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { PhoneDialog } from "./phone_dialog";
 import { PolytopePicker } from "./picker";
@@ -140,7 +140,7 @@ export class App {
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
     private readonly tilt: Tilt = new Tilt(
         this.rotation,
-        () => markTilt(this.tilt.ball),
+        () => showTiltPressed(this.tilt.ball),
         (error) => this.notice.show(error.message),
     );
     private readonly measurements: ElementMeasurements = new ElementMeasurements(
@@ -246,7 +246,7 @@ export class App {
     private readonly colorControls = new ColorControls((change) => void this.send({ type: "set", ...change }));
     private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
     private state: State | undefined;
-    private objectSince = 0; // the revision of the first state in which the object of `state` was shown without a break
+    private objectSince = 0; // the revision of the state with which the object of `state` appeared
     private resizing: ReturnType<typeof setTimeout> | undefined;
     private hadTools = true; // whether the tools were open before full screen
 
@@ -358,8 +358,9 @@ export class App {
     }
 
     /**
-     * Says hello with a change; if the server refuses it, shows why. Without a connection, shows nothing: the client
-     * says hello with the change when it connects again, and `onRefused` then handles a refusal.
+     * Sends a message `hello` with a change of its members. If the server refuses the message, shows the reason. Without
+     * a connection, shows nothing: the client sends the changed `hello` when it is connected again, and if the server
+     * then refuses this message, `onRefused` is called.
      */
     private helloShowingRefusal(change: Parameters<Client["hello"]>[0]): void {
         this.client.hello(change).catch((error: Error) => {
@@ -369,7 +370,8 @@ export class App {
 
     private update(state: State): void {
         const before = this.state;
-        // The revisions of another session may start again, with the same object.
+        // After a change to another session, whose revisions begin anew, the object may be the same, but the revision
+        // may be less.
         const isContinued = before && before.object_serial === state.object_serial && before.revision <= state.revision;
         if (!isContinued) this.objectSince = state.revision;
         this.state = state;
@@ -410,14 +412,14 @@ export class App {
 
     private modeChanged(mode: Mode): void {
         this.framePointing.reset();
-        markMode(mode);
+        showModePressed(mode);
         this.updateStreamAndConnection();
         if (this.state) this.frameMatrixCache.update(this.state);
     }
 
     private chooseScheme(choice: SchemeChoice): void {
         this.colorScheme.choice = choice;
-        markScheme(choice);
+        showSchemePressed(choice);
     }
 
     /** Asks for pictures in the new color scheme of the page. */
@@ -434,7 +436,7 @@ export class App {
         if (isOn) this.hadTools = !document.body.hasAttribute("data-tools-hidden");
         this.setToolsOpen(!isOn && this.hadTools);
         if (document.activeElement === document.body) this.drawing.focus(); // the button with the focus may be hidden
-        markFullScreen(isOn);
+        showFullScreenPressed(isOn);
         this.stage.scheduleRedraw();
     }
 

@@ -10,7 +10,10 @@ import { originInFile } from "./origin";
 export type Point4 = State["point"];
 
 export interface FocusPointEvents {
-    /** Called when a gesture begins. The gesture may move the focus slice. */
+    /**
+     * Called when a drag, or another gesture that moves the focus point, begins. The w of the focus point is that of the
+     * focus slice, so that the gesture may move this slice, too.
+     */
     began(): void;
     failed(error: Error): void;
 }

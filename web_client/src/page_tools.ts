@@ -107,28 +107,28 @@ export function pageSections(actions: PageActions): ToolSection[] {
 }
 
 /** Marks the button of the active mode as pressed. */
-export function markMode(mode: Mode): void {
+export function showModePressed(mode: Mode): void {
     for (const name of ["geometry", "frames"]) {
         document.querySelector(`[data-page-tool="${name}"]`)?.setAttribute("aria-pressed", String(name === mode));
     }
 }
 
 /** Marks the button of the chosen color scheme as pressed. */
-export function markScheme(choice: SchemeChoice): void {
+export function showSchemePressed(choice: SchemeChoice): void {
     for (const name of kSchemeChoices) {
         document.querySelector(`[data-page-tool="scheme_${name}"]`)?.setAttribute("aria-pressed", String(name === choice));
     }
 }
 
 /** Marks the button of the ball that the device's orientation rolls as pressed. */
-export function markTilt(ball: BallKind | undefined): void {
+export function showTiltPressed(ball: BallKind | undefined): void {
     for (const kind of kTilts.keys()) {
         document.querySelector(`[data-page-tool="tilt_${kind}"]`)?.setAttribute("aria-pressed", String(kind === ball));
     }
 }
 
 /** Marks the button Full screen as pressed while the page fills the screen. */
-export function markFullScreen(isOn: boolean): void {
+export function showFullScreenPressed(isOn: boolean): void {
     document.querySelector('[data-page-tool="full_screen"]')?.setAttribute("aria-pressed", String(isOn));
 }
 

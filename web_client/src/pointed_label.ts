@@ -21,7 +21,7 @@ export interface ElementDescription extends PolytopeElement {
      * coordinates in the box, which the server tells.
      */
     coordinates?: readonly number[] | undefined;
-    /** Of an edge: its length in the picture, if it is known. */
+    /** Of an edge: the distance between its ends in 4-D space, in the units of the object, if it is known. */
     length?: number | undefined;
     /** The w of the slice in which the pointer is on the element; undefined if the pointer is on no slice. */
     sliceW?: number | undefined;

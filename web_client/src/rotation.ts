@@ -8,7 +8,8 @@ import type { AnglesByPlane } from "./rolling_ball";
 
 type Rotation = Extract<Request, { type: "rotate" }>;
 
-interface RotationGesture {
+/** The turns of a gesture that the server does not know yet. */
+interface PendingRotation {
     /**
      * Whether the server has executed a rotation of the gesture. If so, later rotations of the gesture belong to the
      * same undo step.
@@ -19,7 +20,8 @@ interface RotationGesture {
 }
 
 export class RotationControl {
-    private gestures: RotationGesture[] = []; // the last one is the current gesture; the others still have angles to send
+    // The last one is that of the current gesture; the others, of earlier gestures, still have angles to send.
+    private pending: PendingRotation[] = [];
     private sending = false;
     private scheduled = false;
 
@@ -28,13 +30,13 @@ export class RotationControl {
 
     /** Begins a gesture. */
     begin(): void {
-        this.gestures = this.gestures.filter(({ unsent }) => unsent.size > 0);
-        this.gestures.push({ hasStep: false, unsent: new Map() });
+        this.pending = this.pending.filter(({ unsent }) => unsent.size > 0);
+        this.pending.push({ hasStep: false, unsent: new Map() });
     }
 
     /** Adds turns to the current gesture; begin() must have been called before. */
     turn(turns: AnglesByPlane): void {
-        const { unsent } = this.gestures.at(-1)!;
+        const { unsent } = this.pending.at(-1)!;
         for (const [plane, angle] of Object.entries(turns) as [Plane, number][]) {
             const sum = (unsent.get(plane) ?? 0) + angle;
             if (sum === 0) unsent.delete(plane);
@@ -51,17 +53,17 @@ export class RotationControl {
 
     private async send(): Promise<void> {
         this.scheduled = false;
-        const gesture = this.gestures[0]!;
-        const planes = [...gesture.unsent.keys()];
-        const angles = [...gesture.unsent.values()];
-        gesture.unsent.clear();
-        if (this.gestures.length > 1) this.gestures.shift();
+        const first = this.pending[0]!;
+        const planes = [...first.unsent.keys()];
+        const angles = [...first.unsent.values()];
+        first.unsent.clear();
+        if (this.pending.length > 1) this.pending.shift();
         this.sending = true;
         if (planes.length > 0) {
-            const continues = gesture.hasStep && { continues: true };
-            gesture.hasStep = (await this.rotate({ type: "rotate", planes, angles, ...continues })) || gesture.hasStep;
+            const continues = first.hasStep && { continues: true };
+            first.hasStep = (await this.rotate({ type: "rotate", planes, angles, ...continues })) || first.hasStep;
         }
         this.sending = false;
-        if (this.gestures[0]!.unsent.size > 0) this.schedule();
+        if (this.pending[0]!.unsent.size > 0) this.schedule();
     }
 }

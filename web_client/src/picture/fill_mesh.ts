@@ -47,7 +47,7 @@ export class FillMesh {
         return slices.some((slice) => slice.fill);
     }
 
-    /** Writes the colors, as SliceMesh.writeColorsToBuffers() does. */
+    /** Writes the colors, as SlicesMesh.writeColorsToBuffers() does. */
     writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { colors, opacity, faded } = scene;
         const [before, after] = change?.cells ?? [];

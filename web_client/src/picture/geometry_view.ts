@@ -20,7 +20,7 @@ import { onWhite } from "./on_white";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
 import { fragmentShader, vertexShader } from "./shaders";
-import { SliceMesh } from "./slice_mesh";
+import { SlicesMesh } from "./slices_mesh";
 import { SurfacePainter } from "./surface_painter";
 import { ViewCamera } from "./view_camera";
 
@@ -32,7 +32,7 @@ export class GeometryView {
     private readonly scene = new Scene(); // the slices
     private readonly projectionScene = new Scene();
     private readonly camera = new Camera();
-    private readonly sliceMesh = new SliceMesh();
+    private readonly slicesMesh = new SlicesMesh();
     private readonly fillMesh = new FillMesh();
     private readonly drawing: Drawing<BufferGeometry, RawShaderMaterial>;
     private readonly fillDrawing: Drawing<BufferGeometry, RawShaderMaterial>;
@@ -83,7 +83,7 @@ export class GeometryView {
         });
         this.pen = overlay.getContext("2d")!;
         const drawings = [
-            new Drawing(this.sliceMesh.geometry, this.paintedMaterial),
+            new Drawing(this.slicesMesh.geometry, this.paintedMaterial),
             new Drawing(this.fillMesh.geometry, this.makeMaterial("painted")),
         ] as const;
         const scenes = [[this.scene, drawings], [this.projectionScene, this.projectionDrawings]] as const;
@@ -129,7 +129,7 @@ export class GeometryView {
         const filled = this.fillMesh.update(picture, highlighted);
         const isField = this.surfacePainter.update(picture) || picture.scene.fog !== undefined;
         this.fogPainter.update(picture);
-        this.sliceMesh.update(picture, !filled && !isField, highlighted);
+        this.slicesMesh.update(picture, !filled && !isField, highlighted);
         this.fillDrawing.visible = filled;
         const needsDepths = filled || isField || picture.scene.opacity === 1; // see `opacity` in protocol/README.md
         this.drawing.material = needsDepths ? this.solidMaterial : this.paintedMaterial;
@@ -150,7 +150,7 @@ export class GeometryView {
         if (!picture || !before) return;
         const highlighted = (this.highlighted = keptAndPointedElements(picture, pointed));
         const change = changeBetween(before, highlighted);
-        for (const mesh of [this.sliceMesh, this.fillMesh, this.projectionMesh]) {
+        for (const mesh of [this.slicesMesh, this.fillMesh, this.projectionMesh]) {
             mesh.writeColorsToBuffers(picture, highlighted, change);
         }
     }
@@ -169,7 +169,7 @@ export class GeometryView {
         this.viewCamera.set(scene.camera, size, this.pictureOrbit, orbit);
         const { azimuth, elevation } = orbit;
         if (azimuth !== this.sortedOrbit?.azimuth || elevation !== this.sortedOrbit.elevation) {
-            this.sliceMesh.sortForCamera(this.viewCamera);
+            this.slicesMesh.sortForCamera(this.viewCamera);
             this.fillMesh.sortForCamera(this.viewCamera);
             if (this.picture.projection) this.projectionMesh.sortForCamera(this.viewCamera);
         }
@@ -248,7 +248,7 @@ export class GeometryView {
     }
 
     dispose(): void {
-        this.sliceMesh.geometry.dispose();
+        this.slicesMesh.geometry.dispose();
         this.fillMesh.geometry.dispose();
         this.projectionMesh.dispose();
         this.surfacePainter.dispose();

@@ -1,4 +1,4 @@
-// The painter's algorithm for the mesh of slice_mesh.ts. The slices are painted from far to near; of each slice, first
+// The painter's algorithm for the mesh of slices_mesh.ts. The slices are painted from far to near; of each slice, first
 // the back faces, then the balls and bars on the back, then the front faces, then the other balls and bars. Balls are
 // painted from far to near, and each ball is followed by its bars to nearer balls. Therefore a bar covers the farther
 // of its two balls, and the nearer ball covers the bar. This order is exact for convex slices that do not overlap.

@@ -113,7 +113,7 @@ export class ProjectionMesh {
         return true;
     }
 
-    /** Writes the colors, as SliceMesh.writeColorsToBuffers() does, in the order in which update() adds the shapes. */
+    /** Writes the colors, as SlicesMesh.writeColorsToBuffers() does, in the order in which update() adds the shapes. */
     writeColorsToBuffers(picture: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { projection, scene } = picture;
         if (!projection) return;

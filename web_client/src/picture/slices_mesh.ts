@@ -14,7 +14,7 @@ import { kBall, kBar, kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 import type { ViewCamera } from "./view_camera";
 
-export class SliceMesh {
+export class SlicesMesh {
     readonly geometry = new BufferGeometry();
 
     private readonly elements = new SliceElements();
