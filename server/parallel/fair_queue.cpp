@@ -40,9 +40,9 @@ Seconds FairQueue::correctedCost(const JobQueue& jobQueue, Seconds estimate) con
 }
 
 /// Returns the cost of a job for `scheduler_`, whose flows are the two classes (all short jobs, and all long ones):
-/// `cost` divided by the weight of the class `length`. The weight of a class is its number of active clients.
-Seconds FairQueue::costChargedToClass(JobLength length, Seconds cost) const {
-    return cost / std::max<std::size_t>(1, classes_[length].clients.activeFlows());
+/// `cost` divided by the weight of `jobClass`. The weight of a class is its number of active clients.
+Seconds FairQueue::costChargedToClass(JobClass jobClass, Seconds cost) const {
+    return cost / std::max<std::size_t>(1, classes_[jobClass].clients.activeFlows());
 }
 
 bool FairQueue::push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clock::time_point now) {
@@ -52,93 +52,93 @@ bool FairQueue::push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clo
     ++client.waiting_;
     estimate = std::max(kMinCost, estimate);
     const Seconds cost = correctedCost(*jobQueue, estimate);
-    const JobLength length =
+    const JobClass jobClass =
         cost > kLongJobThreshold * std::clamp(correction_.correctionFactor(1), 1.0, 2.0) ? long_job : short_job;
-    jobQueue->jobs_.push_back({std::move(job), estimate, cost, length});
-    updateRecentShortQueues(jobQueue, length, now);
-    if (jobQueue->jobs_.size() == 1) scheduleJobQueue(jobQueue);
+    jobQueue->jobs_.push_back({std::move(job), estimate, cost, jobClass});
+    updateRecentShortQueues(jobQueue, jobClass, now);
+    if (jobQueue->jobs_.size() == 1) updateJobQueueEntry(jobQueue);
     return true;
 }
 
 std::optional<FairQueue::DueJob> FairQueue::popStartableJob(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
-    const JobLength length = longJobsMustWait(now) ? short_job : scheduler_.next();
-    ClassScheduler& jobClass = classes_[length];
-    if (jobClass.clients.empty()) return std::nullopt;
-    const ClientFlowPtr client = jobClass.clients.next();
-    const JobQueuePtr jobQueue = client->jobQueues_[length].next();
+    const JobClass jobClass = longJobsMustWait(now) ? short_job : scheduler_.next();
+    ClassScheduler& ofClass = classes_[jobClass];
+    if (ofClass.clients.empty()) return std::nullopt;
+    const ClientFlowPtr client = ofClass.clients.next();
+    const JobQueuePtr jobQueue = client->jobQueues_[jobClass].next();
     QueuedJob first = std::move(jobQueue->jobs_.front());
     jobQueue->jobs_.pop_front();
     --waiting_;
     --client->waiting_;
-    if (length == long_job) ++longRunning_;
-    scheduler_.recordStart(jobClass.state, costChargedToClass(length, first.cost));
-    jobClass.clients.recordStart(client->states_[length], first.cost);
-    client->jobQueues_[length].recordStart(jobQueue->states_[length], first.cost);
-    client->jobQueues_[length].remove(jobQueue->states_[length]);
-    scheduleClient(client, length);
-    if (!jobQueue->jobs_.empty()) scheduleJobQueue(jobQueue);
-    return DueJob{std::move(first.job), jobQueue, first.estimate, first.cost, length};
+    if (jobClass == long_job) ++longRunning_;
+    scheduler_.recordStart(ofClass.state, costChargedToClass(jobClass, first.cost));
+    ofClass.clients.recordStart(client->states_[jobClass], first.cost);
+    client->jobQueues_[jobClass].recordStart(jobQueue->states_[jobClass], first.cost);
+    client->jobQueues_[jobClass].remove(jobQueue->states_[jobClass]);
+    updateClientEntry(client, jobClass);
+    if (!jobQueue->jobs_.empty()) updateJobQueueEntry(jobQueue);
+    return DueJob{std::move(first.job), jobQueue, first.estimate, first.cost, jobClass};
 }
 
 void FairQueue::recordJobEnd(const DueJob& started, Seconds took) {
     JobQueue& jobQueue = *started.jobQueue;
     ClientFlow& client = *jobQueue.client_;
-    const JobLength length = started.length;
-    if (length == long_job) --longRunning_;
+    const JobClass jobClass = started.jobClass;
+    if (jobClass == long_job) --longRunning_;
     for (EstimateCorrection* each : {&jobQueue.correction_, &client.correction_, &correction_})
         each->learn(started.estimate, std::min(took, kMaxOverrun * started.cost));
     const Seconds more = took - started.cost;
-    scheduler_.recordEnd(classes_[length].state, costChargedToClass(length, more));
-    classes_[length].clients.recordEnd(client.states_[length], more);
-    client.jobQueues_[length].recordEnd(jobQueue.states_[length], more);
-    if (jobQueue.states_[length].entry) {
-        scheduleJobQueue(started.jobQueue);
+    scheduler_.recordEnd(classes_[jobClass].state, costChargedToClass(jobClass, more));
+    classes_[jobClass].clients.recordEnd(client.states_[jobClass], more);
+    client.jobQueues_[jobClass].recordEnd(jobQueue.states_[jobClass], more);
+    if (jobQueue.states_[jobClass].entry) {
+        updateJobQueueEntry(started.jobQueue);
     } else {
-        scheduleClient(jobQueue.client_, length);
+        updateClientEntry(jobQueue.client_, jobClass);
     }
 }
 
-Seconds FairQueue::nextCost(const ClientFlow& client, JobLength length) {
-    return client.jobQueues_[length].next()->jobs_.front().cost;
+Seconds FairQueue::nextCost(const ClientFlow& client, JobClass jobClass) {
+    return client.jobQueues_[jobClass].next()->jobs_.front().cost;
 }
 
-/// Updates the position of a job queue among the job queues of its client, for the length of its first job. Then
-/// updates the positions of the client and of the class of this length: see scheduleClient(). Must be called when the
+/// Updates the position of a job queue among the job queues of its client, for the class of its first job. Then
+/// updates the positions of the client and of this class: see updateClientEntry(). Must be called when the
 /// job queue's first job or virtual finish time has changed. The job queue must not be empty.
-void FairQueue::scheduleJobQueue(const JobQueuePtr& jobQueue) {
+void FairQueue::updateJobQueueEntry(const JobQueuePtr& jobQueue) {
     const QueuedJob& first = jobQueue->jobs_.front();
-    jobQueue->client_->jobQueues_[first.length].enqueueOrUpdateFlow(jobQueue->states_[first.length], jobQueue,
-                                                                    first.cost);
-    scheduleClient(jobQueue->client_, first.length);
+    jobQueue->client_->jobQueues_[first.jobClass].enqueueOrUpdateFlow(jobQueue->states_[first.jobClass], jobQueue,
+                                                                      first.cost);
+    updateClientEntry(jobQueue->client_, first.jobClass);
 }
 
-/// Updates the position of a client among the clients of the class `length` (all short jobs, or all long ones); removes
-/// the client from them if it has no waiting job of this length. Then updates the position of the class in `scheduler_`
-/// in the same way. Must be called when the client's next job of this length, or the client's virtual finish time, has
+/// Updates the position of a client among the clients of `jobClass` (all short jobs, or all long ones); removes
+/// the client from them if it has no waiting job of this class. Then updates the position of the class in `scheduler_`
+/// in the same way. Must be called when the client's next job of this class, or the client's virtual finish time, has
 /// changed.
-void FairQueue::scheduleClient(const ClientFlowPtr& client, JobLength length) {
-    ClassScheduler& jobClass = classes_[length];
-    if (client->jobQueues_[length].empty()) {
-        jobClass.clients.remove(client->states_[length]);
+void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobClass jobClass) {
+    ClassScheduler& ofClass = classes_[jobClass];
+    if (client->jobQueues_[jobClass].empty()) {
+        ofClass.clients.remove(client->states_[jobClass]);
     } else {
-        jobClass.clients.enqueueOrUpdateFlow(client->states_[length], client, nextCost(*client, length));
+        ofClass.clients.enqueueOrUpdateFlow(client->states_[jobClass], client, nextCost(*client, jobClass));
     }
-    if (jobClass.clients.empty()) {
-        scheduler_.remove(jobClass.state);
+    if (ofClass.clients.empty()) {
+        scheduler_.remove(ofClass.state);
     } else {
-        scheduler_.enqueueOrUpdateFlow(jobClass.state, length,
-                                       costChargedToClass(length, nextCost(*jobClass.clients.next(), length)));
+        scheduler_.enqueueOrUpdateFlow(ofClass.state, jobClass,
+                                       costChargedToClass(jobClass, nextCost(*ofClass.clients.next(), jobClass)));
     }
 }
 
-/// Records that a job of this length is queued in `jobQueue`. Puts the job queue at the end of `recentShortJobQueues_`,
+/// Records that a job of this class is queued in `jobQueue`. Puts the job queue at the end of `recentShortJobQueues_`,
 /// unless a long job was queued in it within the last kActivePeriod. While `recentShortJobQueues_` is not empty, no
 /// long job starts on a reserved thread, so that these threads stay free for the short jobs of the job queues in
 /// `recentShortJobQueues_`.
-void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobLength length, Clock::time_point now) {
+void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobClass jobClass, Clock::time_point now) {
     pruneRecentShortJobQueues(now);
-    if (length == long_job) jobQueue->lastLong_ = now;
+    if (jobClass == long_job) jobQueue->lastLong_ = now;
     if (jobQueue->lastLong_ && now - *jobQueue->lastLong_ <= kActivePeriod) return;
     if (const auto before = std::exchange(jobQueue->activity_,
                                           recentShortJobQueues_.emplace(recentShortJobQueues_.end(), now, jobQueue))) {
@@ -172,15 +172,15 @@ bool FairQueue::hasStartableJob(Clock::time_point now) {
 std::deque<FairQueue::Job> FairQueue::clear() {
     std::deque<Job> dropped;
     while (!scheduler_.empty()) {
-        const JobLength length = scheduler_.next();
-        const ClientFlowPtr client = classes_[length].clients.next();
-        const JobQueuePtr jobQueue = client->jobQueues_[length].next();
+        const JobClass jobClass = scheduler_.next();
+        const ClientFlowPtr client = classes_[jobClass].clients.next();
+        const JobQueuePtr jobQueue = client->jobQueues_[jobClass].next();
         client->waiting_ -= jobQueue->jobs_.size();
         waiting_ -= jobQueue->jobs_.size();
         for (QueuedJob& each : jobQueue->jobs_) dropped.push_back(std::move(each.job));
         jobQueue->jobs_.clear();
-        client->jobQueues_[length].remove(jobQueue->states_[length]);
-        scheduleClient(client, length);
+        client->jobQueues_[jobClass].remove(jobQueue->states_[jobClass]);
+        updateClientEntry(client, jobClass);
     }
     return dropped;
 }

@@ -16,19 +16,26 @@
 namespace oval4d::parallel {
 
 /// Decides by weighted fair queueing (A. Demers, S. Keshav, S. Shenker, 1989) which flow is served next. A flow is a
-/// sequence of jobs, such as those of one client. The cost of a job is its running time. To give a flow a larger
-/// weight, the caller divides the costs of its jobs by that weight. A flow is active while it has waiting or running
-/// jobs. The virtual time V is the service that each active flow would have received if all were served simultaneously.
-/// The next job of a flow has a virtual start time S and a virtual finish time F = S + cost; the flow with the smallest
-/// F is served next. S is the greater of two values: F of the flow's previous job, and V at the time when the flow was
-/// queued. When a job starts, V is set to S if V is less (J. Bennett, H. Zhang, 1996), and then advances by cost /
-/// number of active flows.
-/// - A flow that is new or was idle starts at V, so it gains no credit for idle time. Among flows that start at V, only
-///   the costs of their jobs decide which one is served first.
-/// - V advances while a flow waits. Therefore each other flow gets ahead of the waiting flow by at most the cost of the
-///   waiting flow's next job.
-/// - If a flow is queued while no other flow is waiting, V is set to the largest F. This resets all flows: none is
-///   ahead of another.
+/// sequence of jobs, such as those of one client; it is active while it has waiting or running jobs. The cost of a job
+/// is its running time, in seconds. To give a flow a larger weight, the caller divides the costs of its jobs by that
+/// weight. The scheduler keeps three quantities, also in seconds:
+/// - V, the virtual time: the service that each active flow would have received if all were served simultaneously. When
+///   a job starts, V is raised to the job's S (J. Bennett, H. Zhang, 1996), and then grows by cost / number of active
+///   flows.
+/// - S, the virtual start time of the next job of a flow: the greater of F of the flow's previous job and V at the time
+///   when the flow was queued.
+/// - F = S + cost, the virtual finish time of this job. The queued flow with the smallest F is served next. When the
+/// job
+///   starts, F is raised to at least V − cost. When the job ends, F changes by the error of the cost: by the measured
+///   running time minus the cost.
+///
+/// So the flows are served fairly:
+/// - A flow that is new or was idle has an S of at least V: it gains no credit for idle time. Among flows whose S is V,
+///   the one whose next job costs least is served first.
+/// - While a flow waits, its S and F are constant, and jobs of other flows start before its next job only if their F is
+///   smaller. So the F of no other flow gets ahead of the S of the waiting flow by more than the cost of this next job.
+/// - If a flow is queued while no flow is waiting, V is set to the largest F of all flows. The S of each flow that is
+///   queued then is V, so none is ahead of another.
 template <typename Flow>
 class FairScheduler {
   public:
@@ -61,7 +68,7 @@ class FairScheduler {
         }
         state.entry = queue_.emplace(state.finish + nextCost, std::move(flow));
     }
-    /// Removes a flow from the queue, if it is queued.
+    /// Removes a flow from the queue, if the flow is queued.
     void remove(FlowState& state) {
         const auto entry = std::exchange(state.entry, std::nullopt);
         if (!entry) return;
@@ -72,8 +79,7 @@ class FairScheduler {
     /// has another waiting job, else remove().
     void recordStart(FlowState& state, Seconds cost) {
         virtualTime_ = std::max(virtualTime_, state.finish) + cost / activeFlows_;
-        // Even if estimates were wrong, the finish time of the flow may fall behind the virtual time by at most the
-        // cost of the job.
+        // Even if the costs of earlier jobs were wrong, F is less than V by at most the cost of this job.
         state.finish = std::max(state.finish + cost, virtualTime_ - cost);
         maxFinish_ = std::max(maxFinish_, state.finish);
         ++state.running;
@@ -90,7 +96,7 @@ class FairScheduler {
   private:
     Queue queue_;
     std::size_t activeFlows_ = 0;
-    Seconds virtualTime_{0}, maxFinish_{0};  // V, and the largest F of all flows (see FairScheduler)
+    Seconds virtualTime_{0}, maxFinish_{0};  // V, and the largest F of all flows
 };
 
 /// Schedules jobs by hierarchical weighted fair queueing. Each job is in a job queue, for example that of a session,
@@ -117,9 +123,10 @@ class FairQueue {
     using Clock = std::chrono::steady_clock;
     class ClientFlow;
     class JobQueue;
-    enum JobLength : std::size_t { short_job, long_job };
+    /// The class of a job, by its cost (see kLongJobThreshold).
+    enum JobClass : std::size_t { short_job, long_job };
     template <typename T>
-    using PerClass = std::array<T, 2>;  // indexed by JobLength
+    using PerClass = std::array<T, 2>;  // indexed by JobClass
     using ClientFlowPtr = std::shared_ptr<ClientFlow>;
     using JobQueuePtr = std::shared_ptr<JobQueue>;
 
@@ -144,7 +151,7 @@ class FairQueue {
         Job job;
         JobQueuePtr jobQueue;
         Seconds estimate, cost;  ///< the estimate given to push(), and the corrected estimate
-        JobLength length;
+        JobClass jobClass;
     };
 
     /// `threads`: the number of threads that run the jobs, at least 1.
@@ -189,24 +196,24 @@ class FairQueue {
     struct QueuedJob {
         Job job;
         Seconds estimate, cost;  // as in DueJob
-        JobLength length;
+        JobClass jobClass;
     };
 
     // A class: all short jobs, or all long jobs. Each class has a scheduler of its clients. In `scheduler_`, which
     // chooses between the classes, the class is a flow with the state `state`.
     struct ClassScheduler {
         FairScheduler<ClientFlowPtr> clients;
-        FairScheduler<JobLength>::FlowState state;
+        FairScheduler<JobClass>::FlowState state;
     };
 
     using RecentJobQueues = std::list<std::pair<Clock::time_point, std::weak_ptr<JobQueue>>>;
 
     Seconds correctedCost(const JobQueue& jobQueue, Seconds estimate) const;
-    Seconds costChargedToClass(JobLength length, Seconds cost) const;
-    static Seconds nextCost(const ClientFlow& client, JobLength length);
-    void scheduleJobQueue(const JobQueuePtr& jobQueue);
-    void scheduleClient(const ClientFlowPtr& client, JobLength length);
-    void updateRecentShortQueues(const JobQueuePtr& jobQueue, JobLength length, Clock::time_point now);
+    Seconds costChargedToClass(JobClass jobClass, Seconds cost) const;
+    static Seconds nextCost(const ClientFlow& client, JobClass jobClass);
+    void updateJobQueueEntry(const JobQueuePtr& jobQueue);
+    void updateClientEntry(const ClientFlowPtr& client, JobClass jobClass);
+    void updateRecentShortQueues(const JobQueuePtr& jobQueue, JobClass jobClass, Clock::time_point now);
     bool longJobsMustWait(Clock::time_point now);
     void pruneRecentShortJobQueues(Clock::time_point now);
 
@@ -214,8 +221,8 @@ class FairQueue {
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
     PerClass<ClassScheduler> classes_;
-    FairScheduler<JobLength> scheduler_;  // decides which class is served next
-    EstimateCorrection correction_;       // learned from the jobs of all clients
+    FairScheduler<JobClass> scheduler_;  // decides which class is served next
+    EstimateCorrection correction_;      // learned from the jobs of all clients
     RecentJobQueues
         recentShortJobQueues_;  // active job queues, each with the time of its last short job; earliest first
 };
