@@ -28,10 +28,10 @@ constexpr double kRowFocusDrop = 1.4;  // the label of the focus slice is this f
 // In a column, the label of the focus slice is this far to the right of the others, in heights of text, because the
 // plate behind this label is wider.
 constexpr double kColumnFocusDrop = 0.8;
-// In a grid, the step from a slice to the slice below it leaves this much room between them, in heights of text: for
-// the label, with gaps above and below it.
+// In a grid, the gap between a slice and the slice below it, which contains the label of the upper one, as a multiple
+// of the text height.
 constexpr double kGridLabelRoom = 2.3;
-constexpr double kGridFocusRoom = 2.1;    // additional room below the focus slice, in heights of text
+constexpr double kGridFocusRoom = 2.1;    // by how much the gap below the focus slice is larger, likewise
 constexpr double kGridLabelWidth = 0.94;  // the greatest width of the other labels, as a fraction of the column step
 // The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
 // farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.

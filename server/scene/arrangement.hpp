@@ -84,10 +84,11 @@ struct Arrangement {
     }
     /// Returns an upper bound of the distance from the focus slice to any other slice.
     double maxDistanceFromFocus() const { return depth + halfWidth + halfHeight; }
-    /// Returns the radius, relative to the circumradius, of the circle within which the slice with the parameter u is
-    /// assumed to lie. In a grid, a row, a column or a single place, this radius is 1. On a parabola, it is the radius
-    /// of the slice of the circumscribed sphere, on the assumption that the hyperplanes of the first and the last slice
-    /// only touch this sphere; the parabola has just enough room for such slices.
+    /// Returns the radius, as a fraction of the circumradius, of a sphere that is assumed to contain the slice with the
+    /// parameter u. In a grid, a row, a column or a single place, the sphere has the circumradius: the result is 1. On
+    /// a parabola, the sphere is the section of the object's circumscribed sphere, as if the hyperplanes of the first
+    /// and the last slice (u = ±1) just touched the circumscribed sphere; the parabola has just enough room for such
+    /// slices.
     double relativeSliceRadiusAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 

@@ -58,8 +58,10 @@ std::size_t bytesOfFilter(const State& state) {
     return sizeof(std::uint32_t) * (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size());
 }
 
-/// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
-/// of objects that neither the current state nor `loaded` contains, and of the lists of hidden and faded cell types.
+/// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory is the
+/// sum of two parts: the lists of hidden and faded cell types of all undo steps, and the objects of undo steps that are
+/// neither in the current state nor in Session::loaded. Each such object counts once, with unsharedMemory(), which is 0
+/// for what all sessions share. Redo steps are not considered.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     std::map<const void*, std::size_t> steps;  // by slicing::identityOf(): how often undo steps contain the object
     std::size_t bytes = 0;

@@ -19,11 +19,12 @@ namespace oval4d::slicing {
 
 /// Slices a convex polytope with a sweep: a hyperplane w = const rises through the polytope, and active lists hold the
 /// elements that it currently cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut
-/// cell a face. The slice edge in a 2-face runs from the polytope edge on which the vertex loop of the 2-face rises
-/// through the hyperplane to the polytope edge on which the loop descends. The boundary of the slice face in a cell
-/// crosses polytope edges. At each of them, it passes from one 2-face of the cell that contains the edge to the other.
-/// This combinatorial structure changes only when the hyperplane passes a vertex; between two vertices, only the
-/// coordinates of the slice change. Reuses its memory between calls.
+/// cell a face. The vertex loop of a cut 2-face crosses the hyperplane on two polytope edges: on one the loop rises
+/// through the hyperplane, on the other it descends. The slice edge in this 2-face runs from the first to the second.
+/// In a cell, exactly two 2-faces meet at each polytope edge. So the boundary of the slice face in the cell is found by
+/// walking along the slice edges: where a slice edge ends, on a polytope edge, the walk goes on in the other 2-face of
+/// the cell at this polytope edge. Which elements are cut, and how they are joined, changes only when the hyperplane
+/// passes a vertex; between two vertices, only the coordinates of the slice change. Reuses its memory between calls.
 class Sweep {
   public:
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts.

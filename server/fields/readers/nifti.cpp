@@ -45,7 +45,7 @@ class HeaderReader {
     bool bigEndian_;
 };
 
-// The content of a header of either version.
+// What the reader needs of a NIfTI-1 or a NIfTI-2 header.
 struct NiftiHeader {
     bool bigEndian = false;
     std::int64_t dimensions = 0;

@@ -81,7 +81,8 @@ std::vector<CatalogueEntry> allEntries() {
     entries.push_back(entryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
     entries.push_back(entryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
-        // The prism over the cube is the 8-cell; prisms over stars are not in the catalogue.
+        // `prism` is empty for the cube, whose prism is the 8-cell, and for the Kepler–Poinsot solids, whose prisms are
+        // not in the catalogue.
         if (base.prism.empty()) continue;
         entries.push_back(
             entryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));

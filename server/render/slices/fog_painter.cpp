@@ -194,7 +194,7 @@ void FogPainter::uploadLattice(const slicing::SliceFog& fog) {
                  texels_.data());
 }
 
-// Writes to the 3-D texture that is bound, for each block of a lattice, whether there is fog in it.
+// Writes to the 3-D texture that is bound one byte for each block of a lattice: 255 if the block contains fog, else 0.
 void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table) {
     const glm::ivec3 size = scene::findFogBlocks(fog, table, blockTexels_);
     glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, size.x, size.y, size.z, 0, GL_RED, GL_UNSIGNED_BYTE, blockTexels_.data());

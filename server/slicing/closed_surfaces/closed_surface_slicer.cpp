@@ -106,9 +106,10 @@ void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     cutRange(upper);
 }
 
-// Returns whether some lattice points of the range lie below the hyperplane, and others in or above it. Compares 0 with
-// bounds of the heights of the points above the hyperplane. A height and its bounds are sums of four terms, added in
-// the same order. Rounded sums are monotone in each term, so no height is outside the bounds.
+// Returns whether at least one lattice point of the range lies below the hyperplane, and at least one in or above it.
+// The height of a lattice point above the hyperplane is the sum of four terms, one for each axis. So the sum of the
+// four least terms in the range is the least height, and the sum of the four greatest terms is the greatest one. All
+// these sums are added in the same order, because rounded sums, too, are then monotone in each term.
 bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -268,9 +269,10 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
     }
 }
 
-// Adds the gradient of the function in the pentatope to the gradients of the corners of the triangles in this
-// pentatope. These triangles are the last ones, from the index `first` on. The weight of a triangle is its area, but at
-// least kLeastWeight, so that points whose triangles all have the area 0 have a gradient, too.
+// In the pentatope, the interpolated function is linear, so its gradient is constant. Adds this gradient, for each
+// triangle in the pentatope, to the weighted sums of gradients at the three corners of the triangle. The weight is the
+// area of the triangle, but at least kLeastWeight, so that the sum is not 0 at a point whose triangles all have the
+// area 0. The triangles in the pentatope are those with the index `first` and greater ones.
 void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t first) {
     constexpr double kLeastWeight = 1e-100;
     std::array<double, 4> rises{};  // along each axis of the lattice, per cell

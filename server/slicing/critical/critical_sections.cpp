@@ -297,9 +297,10 @@ class CriticalSearch {
         return result;
     }
 
-    // `surface` is the section at `w`. Searches for critical points near the points of `surface` at which it is most
-    // nearly tangent to the hyperplane. Sets `best` to the w of the critical point that is nearest to the middle of the
-    // interval of the change, unless `best` is already nearer.
+    // `surface` is the section at `w`. Searches for critical points near those points of `surface` at which the level
+    // set is most nearly tangent to the hyperplane. Ignores critical points whose w is outside the interval of the
+    // change by more than the resolution. Of the others, the one whose w is nearest to the middle of the interval
+    // replaces `best`, unless `best` is at least as near.
     void searchNearTangentPoints(const TopologyChange& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;
