@@ -248,7 +248,7 @@ class Exporter {
         return std::string(text::nameOf(slicing::kElementKinds, element_->kind)) + ' ' +
                std::to_string(element_->index);
     }
-    slicing::KindProperties kind() const { return slicing::propertiesOf(object_); }
+    slicing::ObjectKindProperties kind() const { return slicing::propertiesOf(object_); }
     bool hasCells() const { return slicing::elementCount(object_, slicing::ElementKind::cell) > 0; }
     const glm::dvec4& origin() const { return slicing::infoOf(object_).originInFile; }
 

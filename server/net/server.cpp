@@ -145,7 +145,7 @@ class Server {
     file_reading::FileReaderPool readers_;
     polytopes::PolytopeCache polytopes_;
     DataFolder data_;
-    slicing::CriticalCache critical_;
+    slicing::CriticalSectionsCache critical_;
     pipeline::PipelinePool pictureWorkers_;
     parallel::WorkerPool exportWorkers_, loadWorkers_;
     Services services_;

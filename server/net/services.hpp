@@ -14,7 +14,7 @@
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline_pool.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
-#include "slicing/critical/critical_cache.hpp"
+#include "slicing/critical/critical_sections_cache.hpp"
 
 namespace oval4d::net {
 
@@ -44,12 +44,12 @@ struct Services {
     /// Threads for work that waits for files: reading uploads, reading and listing arrays of the data folder, and
     /// decoding stored sessions that refer to such arrays.
     parallel::WorkerPool& loadWorkers;
-    file_reading::FileReaderPool& readers;   ///< the file reader processes
-    polytopes::PolytopeCache& polytopes;     ///< polytopes that were built from their names
-    DataFolder& data;                        ///< the arrays that the server offers
-    const FieldCacheFiles& fieldCacheFiles;  ///< files with the converted samples of large arrays in `data`
-    slicing::CriticalCache& critical;        ///< cached results of searches for critical values of w
-    const TimerClock& clock;                 ///< the clock of pictures, saves, deadlines and rate limits
+    file_reading::FileReaderPool& readers;     ///< the file reader processes
+    polytopes::PolytopeCache& polytopes;       ///< polytopes that were built from their names
+    DataFolder& data;                          ///< the arrays that the server offers
+    const FieldCacheFiles& fieldCacheFiles;    ///< files with the converted samples of large arrays in `data`
+    slicing::CriticalSectionsCache& critical;  ///< cached results of searches for critical values of w
+    const TimerClock& clock;                   ///< the clock of pictures, saves, deadlines and rate limits
 };
 
 }  // namespace oval4d::net

@@ -87,7 +87,7 @@ void assignByCell(const slicing::Object& object, Scheme scheme, std::vector<Colo
 
 void assignByType(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     const std::size_t types = slicing::infoOf(object).cellTypes.size();
-    const auto typeOfCell = slicing::typeOfCells(object);
+    const auto typeOfCell = slicing::typesOfCells(object);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types, scheme);
 }
 

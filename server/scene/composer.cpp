@@ -48,7 +48,7 @@ void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, 
     slicing::FilledFaces& fill = out.fill;
     const std::uint32_t firstLoop = slices.faceBegin[slice], newFirstLoop = out.elements.faceBegin[part];
     for (std::uint32_t f = from.faceBegin[slice]; f < from.faceBegin[slice + 1]; ++f) {
-        slicing::FilledFaces::Face face = from.faces[f];
+        slicing::FilledFaces::FilledFace face = from.faces[f];
         face.offset *= magnification;
         face.firstLoop = face.firstLoop - firstLoop + newFirstLoop;
         face.endLoop = face.endLoop - firstLoop + newFirstLoop;
@@ -154,7 +154,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     if (draws && out.needsDepthBuffer && !isField && look.parts.faces)
         fillSteps = filler_.fill(slices, info.circumradius, out.fill, fillSteps);
     out.fillCells.clear();
-    for (const slicing::FilledFaces::Face& face : out.fill.faces)
+    for (const slicing::FilledFaces::FilledFace& face : out.fill.faces)
         out.fillCells.push_back(slicing::coloringCell(object, out.visibilities, face.source));
     if (out.projectionPlacement.shown) projectObject(object, orientation, focus, fillSteps, out);
     if (out.matrix.shown) {
@@ -243,11 +243,11 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const int focusSlice = focus - slices.planes.first;
     const bool isField = slicing::fieldIn(object) != nullptr;
     const bool all = look.parts.allSections;
-    const slicing::Projector::Options options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
-                                              .cells = look.parts.projectionFaces,
-                                              .culled = !look.parts.back,
-                                              .firstSlice = all ? 0 : focusSlice,
-                                              .endSlice = all ? slices.planes.count : focusSlice + 1};
+    const slicing::Projector::ProjectionOptions options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
+                                                        .cells = look.parts.projectionFaces,
+                                                        .culled = !look.parts.back,
+                                                        .firstSlice = all ? 0 : focusSlice,
+                                                        .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
@@ -269,7 +269,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         addFillOfSection(out.fill, slices, focusSlice, magnification, part, projection);
     }
     projection.fillCells.clear();
-    for (const slicing::FilledFaces::Face& face : projection.fill.faces)
+    for (const slicing::FilledFaces::FilledFace& face : projection.fill.faces)
         projection.fillCells.push_back(projection.faceCells[face.firstLoop]);
 
     projection.scale = out.projectionPlacement.objectRadius / out.circumradius;

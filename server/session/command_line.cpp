@@ -192,7 +192,7 @@ Result<Command> boostLine(std::string_view rest, const Words& words, const State
 Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state) {
     const auto& lit = state.look.highlight;
     if (rest.empty() && lit && lit->kind == slicing::ElementKind::cell)
-        return CellTypeList{slicing::typeOfCells(state.object)[lit->index]};
+        return CellTypeList{slicing::typesOfCells(state.object)[lit->index]};
     return findCellTypes(rest, slicing::infoOf(state.object));
 }
 

@@ -98,7 +98,8 @@ Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& sourc
     return kLater;
 }
 
-Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalSearchArguments& arguments, std::stop_token stop) {
+Result<slicing::CriticalSectionsPtr> ObjectLoader::search(const CriticalSearchArguments& arguments,
+                                                          std::stop_token stop) {
     const auto& [object, orientation, settings] = arguments;
     if (search_.cache != nullptr) {
         // Another search may have found the critical sections while this search waited for a worker.
@@ -108,17 +109,17 @@ Result<slicing::CriticalPtr> ObjectLoader::search(const CriticalSearchArguments&
     if (!found) return found.error();
     auto shared = std::make_shared<const slicing::CriticalSections>(std::move(*found));
     if (search_.cache != nullptr) search_.cache->add(object, orientation, settings, shared);
-    return slicing::CriticalPtr(std::move(shared));
+    return slicing::CriticalSectionsPtr(std::move(shared));
 }
 
-Result<slicing::CriticalPtr> ObjectLoader::criticalSections(const State& state) {
+Result<slicing::CriticalSectionsPtr> ObjectLoader::criticalSections(const State& state) {
     if (critical_ && searched_ == state.object) return *critical_;
     CriticalSearchArguments arguments = criticalSearchArguments(state);
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     if (search_.cache != nullptr) {
         if (auto known = search_.cache->find(arguments.object, arguments.orientation, arguments.settings)) {
             if (mode_ == Mode::immediate) return known;
-            critical_ = Result<slicing::CriticalPtr>(std::move(known));
+            critical_ = Result<slicing::CriticalSectionsPtr>(std::move(known));
             searched_ = state.object;
             return *critical_;
         }

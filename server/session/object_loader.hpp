@@ -19,8 +19,8 @@
 #include "session/command.hpp"
 #include "session/load.hpp"
 #include "session/session.hpp"
-#include "slicing/critical/critical_cache.hpp"
 #include "slicing/critical/critical_sections.hpp"
+#include "slicing/critical/critical_sections_cache.hpp"
 
 namespace oval4d::session {
 
@@ -29,9 +29,9 @@ using FileReader = std::function<Result<ObjectWithWarnings>(const LoadObject& lo
 
 /// How a loader searches for critical values of w: those at which the type of the section changes.
 struct CriticalSearchOptions {
-    slicing::CriticalCache* cache = nullptr;  ///< may be null; must outlive the loader
-    /// The maximum search time: see CriticalOptions::time.
-    std::chrono::duration<double> time = slicing::CriticalOptions{}.time;
+    slicing::CriticalSectionsCache* cache = nullptr;  ///< may be null; must outlive the loader
+    /// The maximum search time: see CriticalSearchLimits::time.
+    std::chrono::duration<double> time = slicing::CriticalSearchLimits{}.time;
 };
 
 /// What the critical values of w of an object depend on.
@@ -79,7 +79,7 @@ class ObjectLoader {
     /// the search was deferred, the result is for the state at the time of the first call, even if the object has
     /// turned since. The search is never deferred for an object with few elements, unless it is a field. Error:
     /// `canceled` if the search was stopped.
-    Result<slicing::CriticalPtr> criticalSections(const State& state);
+    Result<slicing::CriticalSectionsPtr> criticalSections(const State& state);
 
     /// Returns whether an object or a search is pending: a function failed only because its result is not available
     /// yet.
@@ -114,7 +114,7 @@ class ObjectLoader {
         slicing::Object object = {};  // `source` in `frame`; null while it is pending
     };
 
-    Result<slicing::CriticalPtr> search(const CriticalSearchArguments& arguments, std::stop_token stop);
+    Result<slicing::CriticalSectionsPtr> search(const CriticalSearchArguments& arguments, std::stop_token stop);
     Result<slicing::Object> build(const polytopes::Design& design);
 
     Limits limits_;
@@ -136,7 +136,7 @@ class ObjectLoader {
     slicing::Object extendedFrom_;  // the array to which time steps were added to make `extended_`
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
-    std::optional<Result<slicing::CriticalPtr>> critical_;
+    std::optional<Result<slicing::CriticalSectionsPtr>> critical_;
     // The transformed objects: at most one in the frame before the command and one in the frame after it, because a
     // command may change both the object and the frame; more only if the session changes in the meantime.
     std::vector<ObjectInReferenceFrame> objectsInFrames_;

@@ -18,7 +18,8 @@ namespace oval4d::slicing {
 /// take longer than the work that the branch avoids.
 class ActiveList {
   public:
-    struct Entry {
+    /// An element that hyperplanes cut.
+    struct CutElement {
         std::uint32_t number;  ///< the index of the edge, 2-face or cell in the polytope
         std::int32_t to;       ///< the end of the range [from, to) of the hyperplanes that cut the element
     };
@@ -45,15 +46,15 @@ class ActiveList {
     /// Makes the hyperplane with the index `step` the current one. Must be called for each index that was passed to
     /// sortByFirstHyperplane(), in ascending order. Returns the elements that become active: those whose first
     /// hyperplane is `step`.
-    std::span<const Entry> activateAt(int step);
+    std::span<const CutElement> activateAt(int step);
     /// Returns the elements that the current hyperplane cuts.
-    std::span<const Entry> active() const { return {active_.data(), activeCount_}; }
+    std::span<const CutElement> active() const { return {active_.data(), activeCount_}; }
     /// Returns the number of active elements.
     std::uint32_t size() const { return activeCount_; }
 
   private:
-    struct UnsortedEntry {
-        Entry entry;
+    struct UnsortedElement {
+        CutElement element;
         std::int32_t from;
     };
 
@@ -61,8 +62,8 @@ class ActiveList {
     // not cut them.
     void removeEnded(int step);
 
-    std::vector<UnsortedEntry> unsorted_;
-    std::vector<Entry> sorted_, active_;
+    std::vector<UnsortedElement> unsorted_;
+    std::vector<CutElement> sorted_, active_;
     // Per hyperplane: before sortByFirstHyperplane(), the number of elements whose range begins at this hyperplane;
     // afterward, the index in sorted_ at which these elements end.
     std::vector<std::uint32_t> end_;
@@ -77,26 +78,26 @@ inline void ActiveList::sortByFirstHyperplane(std::span<const int> steps) {
     std::uint32_t* end = end_.data();
     std::uint32_t total = 0;
     for (const int step : steps) total += std::exchange(end[step], total);
-    for (const UnsortedEntry& unsorted : std::span(unsorted_.data(), count_))
-        sorted_[end[unsorted.from]++] = unsorted.entry;
+    for (const UnsortedElement& unsorted : std::span(unsorted_.data(), count_))
+        sorted_[end[unsorted.from]++] = unsorted.element;
 }
 
 inline void ActiveList::removeEnded(int step) {
-    Entry* kept = active_.data();
-    for (const Entry& entry : active()) {
-        const std::int32_t to = entry.to;
-        *kept = entry;
+    CutElement* kept = active_.data();
+    for (const CutElement& element : active()) {
+        const std::int32_t to = element.to;
+        *kept = element;
         kept += to > step ? 1 : 0;
     }
     activeCount_ = static_cast<std::uint32_t>(kept - active_.data());
 }
 
-inline std::span<const ActiveList::Entry> ActiveList::activateAt(int step) {
+inline std::span<const ActiveList::CutElement> ActiveList::activateAt(int step) {
     removeEnded(step);
     const std::span begun(sorted_.data() + begun_, end_[step] - begun_);
     begun_ = end_[step];
-    Entry* added = active_.data() + activeCount_;
-    for (const Entry& entry : begun) *added++ = entry;
+    CutElement* added = active_.data() + activeCount_;
+    for (const CutElement& element : begun) *added++ = element;
     activeCount_ += static_cast<std::uint32_t>(begun.size());
     return begun;
 }

@@ -65,7 +65,7 @@ class CellComplexSlicer {
     // A point where the vertex loop of a 2-face crosses a hyperplane.
     struct LoopCrossing {
         std::uint32_t slot;
-        double along;  // its position on the line where the hyperplane cuts the 2-face's plane, in arbitrary units
+        double along;  // position on the line in which the hyperplane cuts the 2-face's plane, in arbitrary units
     };
 
     // Rotates the vertices and counts the hyperplanes below each vertex.
@@ -96,11 +96,10 @@ class CellComplexSlicer {
                below_[edge[1]] < upTo_[edge[1]];
     }
     void cutCells(const geometry::CellComplex& complex, SliceSet& out);
-    // Returns true if none of the slicing hyperplanes contains the cell's lowest vertices. Otherwise, just above the
-    // hyperplane that does, the cell's 2-faces are cut in segments. Returns true if each of these segments, moved down
-    // into the hyperplane, becomes an edge of the complex or a point: the cell then only touches the hyperplane.
-    // Returns false if a segment stays inside a 2-face: the cell then nearly lies in the hyperplane, and is cut there,
-    // too.
+    // Returns true if none of the slicing hyperplanes contains the cell's lowest vertices. Otherwise, let H be the
+    // hyperplane that contains them. Just above H, the cell's 2-faces are cut in segments, which are then moved down
+    // into H. Returns true if each of them becomes an edge of the complex or a point: the cell then only touches H.
+    // Returns false if a segment stays inside a 2-face: the cell then nearly lies in H, and is cut in H, too.
     bool lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
     void addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out);
     void addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward);

@@ -90,8 +90,8 @@ struct PartsShowingElement {
     bool operator==(const PartsShowingElement&) const = default;
 
   private:
-    // A binary search without branches: it is done for each vertex and edge of all slices, and the processor could not
-    // predict them.
+    // A binary search without branches. It is done for each vertex and edge of all slices, and the processor could not
+    // predict the branches.
     static bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t source) {
         if (sorted.empty()) return false;
         const std::uint32_t* first = sorted.data();

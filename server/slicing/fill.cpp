@@ -39,7 +39,7 @@ std::size_t FaceFiller::fill(const SliceSet& slices, double circumradius, Filled
 
 void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                           FilledFaces& out) {
-    FilledFaces::Face face{{}, 0, slices.faceSource[begin], begin, end, 0};
+    FilledFaces::FilledFace face{{}, 0, slices.faceSource[begin], begin, end, 0};
     if (!findPlane(slices, slice, begin, end, face)) return;
     if (end - begin == 1 && !isFlat(face)) {
         fillRoughly(slices, begin, end, out);
@@ -82,7 +82,7 @@ void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uin
 
 // Returns whether points_, the corners of `face`, lie in its plane. The tolerance is far above rounding errors, and far
 // below what can be seen.
-bool FaceFiller::isFlat(const FilledFaces::Face& face) const {
+bool FaceFiller::isFlat(const FilledFaces::FilledFace& face) const {
     double size = 0, distance = 0;
     for (const glm::dvec3& p : points_) {
         size = std::max(size, glm::distance(p, plane_.origin));
@@ -116,7 +116,7 @@ void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::u
 // Sets points_ to the corners of the loops. Finds the plane of the loops from three corners that are far apart, and
 // sets plane_ and the normal and offset of `out`. Returns false if all corners are collinear.
 bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                           FilledFaces::Face& out) {
+                           FilledFaces::FilledFace& out) {
     points_.clear();
     glm::dvec3 area(0);  // twice the sum of the area vectors of the loops
     const glm::dvec3* vertices = &slices.vertices[slices.vertexBegin[slice]];

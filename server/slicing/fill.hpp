@@ -25,7 +25,7 @@ namespace oval4d::slicing {
 /// outside, a piece is counterclockwise if the winding number inside it is positive, and clockwise if the winding
 /// number is negative.
 struct FilledFaces {
-    struct Face {
+    struct FilledFace {
         glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
         double offset;
         std::uint32_t source;              ///< the source number, as in SliceSet::faceSource
@@ -33,7 +33,7 @@ struct FilledFaces {
         int winding;  ///< the maximum of |winding number|; 0 if the face is filled roughly, or is not flat
     };
     std::vector<std::uint32_t> faceBegin, pieceBegin, cornerBegin;
-    std::vector<Face> faces;
+    std::vector<FilledFace> faces;
     std::vector<glm::dvec3> corners;
 
     bool empty() const { return faces.empty(); }
@@ -87,14 +87,14 @@ class FaceFiller {
         auto operator<=>(const PieceAtLevel&) const = default;
     };
     // A plane in space: one of its points, and two orthonormal axes.
-    struct Plane {
+    struct FacePlane {
         glm::dvec3 origin, x, y;
     };
 
     void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, FilledFaces& out);
     bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                   FilledFaces::Face& out);
-    bool isFlat(const FilledFaces::Face& face) const;
+                   FilledFaces::FilledFace& out);
+    bool isFlat(const FilledFaces::FilledFace& face) const;
     bool spendSteps(std::size_t steps);
     void findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end);
     void findLevels();
@@ -107,7 +107,7 @@ class FaceFiller {
 
     std::size_t stepsLeft_ = 0;
     double epsilon_ = 0;  // lengths up to this are treated as 0
-    Plane plane_{};
+    FacePlane plane_{};
     std::vector<glm::dvec3> points_;  // the corners of the loops of the current face
     std::vector<LoopSide> sides_;
     std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending

@@ -134,34 +134,34 @@ bool hasConvexFaces(const Object& object) {
 }
 
 // A new kind has no case here, so that this function does not compile until the kind states its properties.
-KindProperties propertiesOf(const Object& object) {
+ObjectKindProperties propertiesOf(const Object& object) {
     return std::visit(Overloaded{[](const PolytopePtr& /*polytope*/) {
-                                     return KindProperties{.noun = "polytope",
-                                                           .isPlural = false,
-                                                           .slices = SliceContent::solids,
-                                                           .slicesAreThick = false,
-                                                           .sectionsHaveNames = true};
+                                     return ObjectKindProperties{.noun = "polytope",
+                                                                 .isPlural = false,
+                                                                 .slices = SliceContent::solids,
+                                                                 .slicesAreThick = false,
+                                                                 .sectionsHaveNames = true};
                                  },
                                  [](const SurfacePtr& /*surface*/) {
-                                     return KindProperties{.noun = "surface",
-                                                           .isPlural = false,
-                                                           .slices = SliceContent::curves,
-                                                           .slicesAreThick = false,
-                                                           .sectionsHaveNames = true};
+                                     return ObjectKindProperties{.noun = "surface",
+                                                                 .isPlural = false,
+                                                                 .slices = SliceContent::curves,
+                                                                 .slicesAreThick = false,
+                                                                 .sectionsHaveNames = true};
                                  },
                                  [](const CloudPtr& /*cloud*/) {
-                                     return KindProperties{.noun = "points",
-                                                           .isPlural = true,
-                                                           .slices = SliceContent::points,
-                                                           .slicesAreThick = true,
-                                                           .sectionsHaveNames = false};
+                                     return ObjectKindProperties{.noun = "points",
+                                                                 .isPlural = true,
+                                                                 .slices = SliceContent::points,
+                                                                 .slicesAreThick = true,
+                                                                 .sectionsHaveNames = false};
                                  },
                                  [](const FieldPtr& /*field*/) {
-                                     return KindProperties{.noun = "field",
-                                                           .isPlural = false,
-                                                           .slices = SliceContent::level_surfaces,
-                                                           .slicesAreThick = false,
-                                                           .sectionsHaveNames = false};
+                                     return ObjectKindProperties{.noun = "field",
+                                                                 .isPlural = false,
+                                                                 .slices = SliceContent::level_surfaces,
+                                                                 .slicesAreThick = false,
+                                                                 .sectionsHaveNames = false};
                                  }},
                       object);
 }
@@ -244,7 +244,7 @@ void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals,
                   object);
 }
 
-std::span<const std::uint32_t> typeOfCells(const Object& object) {
+std::span<const std::uint32_t> typesOfCells(const Object& object) {
     using CellTypeNumbers = std::span<const std::uint32_t>;
     return visitElements(Overloaded{[](const CellComplex& complex) { return CellTypeNumbers(complex.typeOfCell); },
                                     [](const PointCloud& /*cloud*/) { return CellTypeNumbers(); }},

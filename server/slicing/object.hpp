@@ -55,17 +55,17 @@ enum class SliceContent : std::uint8_t {
 };
 
 /// The properties by which code for objects of all kinds distinguishes kinds. Every kind states each of them.
-struct KindProperties {
-    std::string_view noun;   ///< what messages call the object, such as "polytope"
-    bool isPlural;           ///< whether the noun is a plural
-    SliceContent slices;     ///< what the slices are made of
-    bool slicesAreThick;     ///< whether a slice contains what is within half the spacing of its hyperplane, below the
-                             ///< upper end of this interval, rather than the section by the hyperplane
+struct ObjectKindProperties {
+    std::string_view noun;  ///< what messages call the object, such as "polytope"
+    bool isPlural;          ///< whether the noun is a plural
+    SliceContent slices;    ///< what the slices are made of
+    bool slicesAreThick;    ///< whether a slice is not the section by its hyperplane, but contains all points from half
+                            ///< a spacing below the hyperplane, included, to half a spacing above it, not included
     bool sectionsHaveNames;  ///< whether SectionNamer names sections of the object
 };
 
 /// Returns the properties of the kind of an object, which may be a null pointer.
-KindProperties propertiesOf(const Object& object);
+ObjectKindProperties propertiesOf(const Object& object);
 
 /// Returns the field, or null if the object is of another kind. The pointer is valid as long as the field exists.
 const fields::Field* fieldIn(const Object& object);
@@ -126,7 +126,7 @@ void findCellHyperplanes(const Object& object, std::vector<glm::dvec4>& normals,
 
 /// Returns the type of each cell, as an index into ObjectInfo::cellTypes. The span is valid as long as the object's
 /// data exist; it is empty for a point cloud or a surface.
-std::span<const std::uint32_t> typeOfCells(const Object& object);
+std::span<const std::uint32_t> typesOfCells(const Object& object);
 
 /// Returns the object as the text of a 4OFF file, in the object's units. The file contains `rotatedVertices` in place
 /// of the object's own vertices. ObjectInfo::originInFile, the point of the object's file that is the origin of the

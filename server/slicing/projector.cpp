@@ -73,7 +73,7 @@ void endPart(SliceSet& out) {
 }  // namespace
 
 void Projector::project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
-                        const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells) {
+                        const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells) {
     clear(out);
     faceCells.clear();
     const ProjectionToHyperplane& projection = options.projection;

@@ -30,7 +30,7 @@ struct ProjectionToHyperplane {
 /// reuses its memory. Only one thread at a time may use a projector.
 class Projector {
   public:
-    struct Options {
+    struct ProjectionOptions {
         ProjectionToHyperplane projection;
         /// Whether to write the 2-faces of the object: those that bound the projected cells or, of a surface, all. The
         /// loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat; FaceFiller
@@ -54,7 +54,7 @@ class Projector {
     /// object has no cells, the entry is the index of the 2-face. For a face of a slice, it is the source number of the
     /// face. Overwrites `out` and `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
-                 const Options& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
+                 const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
   private:
     void findFacingCells(const Object& object, const geometry::Rotation& orientation,

@@ -54,7 +54,7 @@ class SectionNamer {
     /// n be the number of the object's vertices in the hyperplane, and m the number of edges that cross it. The slice
     /// has n + m vertices; the second name depends only on the n vertices. Returns true if n or n + m is between 1 and
     /// the vertex count of the largest named shape. Always returns false for objects whose sections have
-    /// no names (KindProperties), such as fields. Takes time linear in the numbers of vertices and edges.
+    /// no names (ObjectKindProperties), such as fields. Takes time linear in the numbers of vertices and edges.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
     /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.

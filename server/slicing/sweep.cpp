@@ -168,7 +168,8 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
 }
 
 void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane) {
-    for (const ActiveList::Entry& edge : edges_.activateAt(plane)) beginEdge(polytope, edge.number, rotatedVertices);
+    for (const ActiveList::CutElement& edge : edges_.activateAt(plane))
+        beginEdge(polytope, edge.number, rotatedVertices);
     faces_.activateAt(plane);
     cells_.activateAt(plane);
 }
@@ -227,7 +228,7 @@ void Sweep::writeVertices(int plane, int end, SliceCounts at, SliceSet& out) {
     glm::dvec3* vertex = out.vertices.data() + at.vertices;
     for (int k = plane; k < end; ++k) {
         const double w = out.planes.w(first_ + k);
-        for (const ActiveList::Entry& edge : cut) {
+        for (const ActiveList::CutElement& edge : cut) {
             const Line& line = edgeLines[edge.number];
             *vertex++ = glm::dvec3(line.at) + (w - line.at.w) * line.slope;
         }

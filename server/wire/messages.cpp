@@ -79,7 +79,7 @@ void writeElementMembers(JsonWriter& w, const slicing::Element& element, const s
     if (element.kind == slicing::ElementKind::face)
         w.member("name", std::string_view(slicing::nameOfFace(source, element.index)));
     if (element.kind == slicing::ElementKind::cell) {
-        const std::uint32_t kind = slicing::typeOfCells(object)[element.index];
+        const std::uint32_t kind = slicing::typesOfCells(object)[element.index];
         w.member("kind", std::uint64_t{kind});
         w.member("name", std::string_view(slicing::infoOf(object).cellTypes[kind].name));
     }

@@ -109,7 +109,7 @@ class ProjectionDrawer {
         // has no seams between them. Only a face with several loops is drawn in pieces.
         const slicing::FilledFaces& fill = projection.fill;
         for (std::uint32_t f = fill.faceBegin[part]; f < fill.faceBegin[part + 1]; ++f) {
-            const slicing::FilledFaces::Face& face = fill.faces[f];
+            const slicing::FilledFaces::FilledFace& face = fill.faces[f];
             const double own = opacityOf(face.source);
             if (own == 0) continue;
             if (face.endLoop - face.firstLoop == 1) {

@@ -179,7 +179,7 @@ class SliceDrawer {
         const slicing::FilledFaces& fill = scene_.fill;
         if (fill.empty()) return;
         for (std::uint32_t f = fill.faceBegin[slice_]; f < fill.faceBegin[slice_ + 1]; ++f) {
-            const slicing::FilledFaces::Face& face = fill.faces[f];
+            const slicing::FilledFaces::FilledFace& face = fill.faces[f];
             const double opacity = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(face.source));
             const scene::Color color = lit(scene_.cellColors[scene_.fillCells[f]], glm::dmat3(view_) * face.normal);
             for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {

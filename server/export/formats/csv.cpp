@@ -160,10 +160,10 @@ std::string criticalCsv(const SceneToWrite& source) {
 // Returns a table of the values of w at which the body of a level changes its topology.
 std::string fieldCriticalCsv(const SceneToWrite& source) {
     const slicing::FieldSettings& settings = source.scene.look.field;
-    slicing::CriticalOptions options{.stop = source.budget.stopToken()};
-    // The search takes up to 1.5 times `options.time`; it must end within the time of the export.
-    options.time = std::min(options.time, source.budget.time() / 2);
-    const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, options);
+    slicing::CriticalSearchLimits limits{.stop = source.budget.stopToken()};
+    // The search takes up to 1.5 times `limits.time`; it must end within the time of the export.
+    limits.time = std::min(limits.time, source.budget.time() / 2);
+    const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, limits);
     source.budget.checkTimeAndStop();
     if (!found) throw ExportRefused{{ExportRefusal::Cause::too_long, found.error().message}};
     std::string out =

@@ -113,7 +113,7 @@ void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId 
     }
     const slicing::ElementMeasurements found = slicing::measureElement(object, element);
     wire::Measured measured{revision(), found.length, found.area, found.volume, found.center};
-    if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typeOfCells(object)[element.index];
+    if (element.kind == slicing::ElementKind::cell) measured.kind = slicing::typesOfCells(object)[element.index];
     if (element.kind == slicing::ElementKind::face) measured.name = slicing::nameOfFace(object, element.index);
     if (!found.unit.empty()) measured.unit = found.unit;
     if (measure.highlight) {
@@ -191,7 +191,7 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
 asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id) {
     const std::uint64_t askedRevision = revision();
     const double originW = slicing::infoOf(session_.current.object).originInFile.w;
-    Result<slicing::CriticalPtr> found = kInternalError;
+    Result<slicing::CriticalSectionsPtr> found = kInternalError;
     try {
         found = co_await findCriticalValues(peer);
     } catch (const parallel::QueueFull&) {
@@ -207,7 +207,7 @@ asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<P
 }
 
 /// Finds the critical values of w of the current object. Unless they are known, an export worker searches for them.
-asio::awaitable<Result<slicing::CriticalPtr>> RequestAnswers::findCriticalValues(std::shared_ptr<Peer> peer) {
+asio::awaitable<Result<slicing::CriticalSectionsPtr>> RequestAnswers::findCriticalValues(std::shared_ptr<Peer> peer) {
     session::ObjectLoader loader = loading_->makeLoader();
     const session::State asked = session_.current;
     auto found = loader.criticalSections(asked);

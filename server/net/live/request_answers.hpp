@@ -54,7 +54,7 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
     boost::asio::awaitable<void> answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id);
-    boost::asio::awaitable<Result<slicing::CriticalPtr>> findCriticalValues(std::shared_ptr<Peer> peer);
+    boost::asio::awaitable<Result<slicing::CriticalSectionsPtr>> findCriticalValues(std::shared_ptr<Peer> peer);
     std::function<OutgoingMessage(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
                                                                      std::optional<glm::dvec2> point) const;
 

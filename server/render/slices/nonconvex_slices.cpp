@@ -98,7 +98,7 @@ void NonconvexShapeCollector::addShape(const SliceRef& slice, const SortedShape&
 
 void NonconvexShapeCollector::addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out) {
     const slicing::FilledFaces& fill = slice.scene.fill;
-    const slicing::FilledFaces::Face& face = fill.faces[number];
+    const slicing::FilledFaces::FilledFace& face = fill.faces[number];
     const glm::vec3 normal(glm::dmat3(slice.toView) * face.normal);
     const auto opacity =
         static_cast<float>(slice.scene.faceOpacity) * slice.opacity(slice.scene.visibilities.face(face.source));

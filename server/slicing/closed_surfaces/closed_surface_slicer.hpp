@@ -48,9 +48,9 @@ class ClosedSurfaceSlicer {
     static constexpr int kFormulaCells = 64;
 
     struct IsosurfaceOptions {
-        double level = 0;
+        double level = 0;  ///< the value of the function on the surface
         fields::Inside inside = fields::Inside::below;
-        std::size_t maxTriangles = 5'000'000;
+        std::size_t maxTriangles = 5'000'000;  ///< including those of the caps
         bool pointData = false;  ///< whether ClosedSurface::values and ClosedSurface::gradients are needed
         /// Called often, on the thread that called slice(). May read the triangles found so far in `out`. If it returns
         /// true or throws, the slicer stops early. May be null.

@@ -193,13 +193,13 @@ struct TopologyChange {
 class CriticalSearch {
   public:
     CriticalSearch(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings,
-                   const CriticalOptions& options, std::pair<double, double> range)
+                   const CriticalSearchLimits& limits, std::pair<double, double> range)
         : field_(field),
           orientation_(orientation),
           settings_(settings),
-          options_(options),
+          limits_(limits),
           begin_(Clock::now()),
-          end_(begin_ + std::chrono::duration_cast<Clock::duration>(options.time)),
+          end_(begin_ + std::chrono::duration_cast<Clock::duration>(limits.time)),
           cutter_(field, orientation, settings) {
         found_.least = range.first;
         found_.greatest = range.second;
@@ -208,20 +208,20 @@ class CriticalSearch {
     }
 
     Result<CriticalSections> run() {
-        if (options_.stop.stop_requested()) return kCanceled;
+        if (limits_.stop.stop_requested()) return kCanceled;
         findIntervals();
         for (const TopologyChange& change : combined()) {
-            if (options_.stop.stop_requested()) break;
+            if (limits_.stop.stop_requested()) break;
             found_.all.push_back(criticalSectionOf(change));
         }
-        if (options_.stop.stop_requested()) return kCanceled;
+        if (limits_.stop.stop_requested()) return kCanceled;
         std::ranges::stable_sort(found_.all, {}, &CriticalSection::w);
         return std::move(found_);
     }
 
   private:
     double width() const { return found_.greatest - found_.least; }
-    bool mustEnd() const { return options_.stop.stop_requested() || Clock::now() > end_; }
+    bool mustEnd() const { return limits_.stop.stop_requested() || Clock::now() > end_; }
 
     // Finds the intervals in which the topology changes. Always halves the widest interval, so that w is covered evenly
     // even if the search ends early.
@@ -372,7 +372,7 @@ class CriticalSearch {
     const fields::Field& field_;
     const geometry::Rotation& orientation_;
     const FieldSettings& settings_;
-    const CriticalOptions& options_;
+    const CriticalSearchLimits& limits_;
     const Clock::time_point begin_, end_;
     SectionCutter cutter_;
     std::vector<SearchInterval> intervals_;
@@ -382,10 +382,10 @@ class CriticalSearch {
 }  // namespace
 
 Result<CriticalSections> findCriticalSections(const Object& object, const geometry::Rotation& orientation,
-                                              const FieldSettings& settings, const CriticalOptions& options) {
+                                              const FieldSettings& settings, const CriticalSearchLimits& limits) {
     const auto range = rangeOfW(object, orientation);
     if (const fields::Field* field = fieldIn(object))
-        return CriticalSearch(*field, orientation, settings, options, range).run();
+        return CriticalSearch(*field, orientation, settings, limits, range).run();
     CriticalSections found{range.first, range.second, kOnPlaneTolerance * infoOf(object).circumradius, 0, {}};
     for (const auto& [w, vertexCount] : vertexHeights(object, orientation))
         found.all.push_back({w, SectionChange::vertices, vertexCount, 0, {}, {}});

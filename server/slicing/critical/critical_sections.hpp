@@ -66,10 +66,10 @@ struct CriticalSections {
     std::vector<CriticalSection> all;  ///< in ascending order of w
 };
 
-using CriticalPtr = std::shared_ptr<const CriticalSections>;
+using CriticalSectionsPtr = std::shared_ptr<const CriticalSections>;
 
-/// Limits on one search.
-struct CriticalOptions {
+/// Limits on one search of findCriticalSections().
+struct CriticalSearchLimits {
     /// The time limit of the search, in seconds. When it is reached, no further intervals are halved, so that
     /// CriticalSections::tolerance may be greater than usual. Sections are compared to find the SectionChange of each
     /// critical w until 1.5 times this limit has passed since the start. After that, the SectionChange is derived from
@@ -97,7 +97,7 @@ struct CriticalOptions {
 /// Error: `canceled` if a stop is requested. Throws std::runtime_error if the samples of a field are in a file that can
 /// no longer be read.
 Result<CriticalSections> findCriticalSections(const Object& object, const geometry::Rotation& orientation,
-                                              const FieldSettings& settings, const CriticalOptions& options);
+                                              const FieldSettings& settings, const CriticalSearchLimits& limits);
 inline constexpr int kCriticalSections = 128, kCriticalCubes = 160;
 inline constexpr double kCriticalTolerance = 1e-4;   // CriticalSections::tolerance / range of w, if time suffices
 inline constexpr double kCriticalResolution = 1e-3;  // CriticalSections::resolution / range of w

@@ -18,7 +18,7 @@ constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWi
 constexpr int kMaxSamplings = 600;          // how often one search may sample a window
 constexpr std::size_t kMaxTriedPoints = 8;  // the number of points of a change that are tried as middles of windows
 constexpr int kWindowMargin = 2;          // points closer to the boundary of a window than this are not in its interior
-constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, relative to Start::tolerance
+constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, relative to SearchStart::tolerance
 constexpr double kReachShrink = 2;        // the reach in a window, divided by that in the next one
 constexpr int kNeededWindows = 3;         // the number of windows in which a change must be found
 
@@ -58,7 +58,7 @@ LocalChangeSearch::LocalChangeSearch(const fields::Field& field, const geometry:
       z_(kWindowLayer),
       w_(kWindowLayer) {}
 
-std::optional<double> LocalChangeSearch::find(const Change& change, const Start& start) {
+std::optional<double> LocalChangeSearch::find(const PartCountChange& change, const SearchStart& start) {
     change_ = change;
     tolerance_ = start.tolerance;
     samplings_ = 0;
@@ -67,7 +67,7 @@ std::optional<double> LocalChangeSearch::find(const Change& change, const Start&
 
 // Finds the change in a window, and refines it in smaller windows around the points that change sides. `number` is 1
 // for the first, largest window.
-std::optional<double> LocalChangeSearch::findIn(const Window& window, double w, double reach, int number) {
+std::optional<double> LocalChangeSearch::findIn(const SearchWindow& window, double w, double reach, int number) {
     const std::optional<LocalEvent> event = eventIn(window, w, reach, number);
     if (!event) return std::nullopt;
     if (number == kWindows) return event->w;
@@ -80,8 +80,8 @@ std::optional<double> LocalChangeSearch::findIn(const Window& window, double w, 
 }
 
 // Finds the change in a window that is nearest to `w`, at a distance of at most `reach`.
-std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Window& window, double w, double reach,
-                                                                        int number) {
+std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const SearchWindow& window, double w,
+                                                                        double reach, int number) {
     double from = w, to = w;
     std::size_t before = 0, after = 0;
     for (double distance = std::min(tolerance_, reach);; distance = std::min(2 * distance, reach)) {
@@ -117,14 +117,14 @@ std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Wi
     return event;
 }
 
-std::size_t LocalChangeSearch::partsAt(const Window& window, double w) {
+std::size_t LocalChangeSearch::partsAt(const SearchWindow& window, double w) {
     sample(window, w, flags_);
     return countParts(flags_);
 }
 
 // Sets `inside`: which points of the window in the section at `w` are in the body. Points beside the domain and points
 // without a value are outside.
-void LocalChangeSearch::sample(const Window& window, double w, PointFlags& inside) {
+void LocalChangeSearch::sample(const SearchWindow& window, double w, PointFlags& inside) {
     ++samplings_;
     const double step = window.half / kWindowMiddle;
     const bool isBelow = inside_ == fields::Inside::below;

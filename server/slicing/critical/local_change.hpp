@@ -37,17 +37,17 @@ class LocalChangeSearch {
     static constexpr double kZoom = 4;  // the width of a window divided by that of the next one
 
     /// What changes while w increases.
-    struct Change {
+    struct PartCountChange {
         bool ofBody = true;       ///< true: the parts of the body; false: the parts outside of the body
         bool becomesMore = true;  ///< whether the number of these parts grows
     };
     /// Where to search. Lengths and w are in the units of the object.
-    struct Start {
+    struct SearchStart {
         glm::dvec3 point;  ///< the middle of the first window
         double half;       ///< half the width of the first window
-        double w;
-        double reach;      ///< how far from `w` the change in the first window may be
-        double tolerance;  ///< the error that is small enough
+        double w;          ///< the search finds the change nearest to this w
+        double reach;      ///< the greatest distance in w from `w` to the change in the first window
+        double tolerance;  ///< the error of the w of the change that is small enough
     };
 
     /// `mustEnd` is called often. If it returns true, find() ends without a result. `field` must outlive this object.
@@ -56,24 +56,25 @@ class LocalChangeSearch {
 
     /// Returns the w of the change. Returns an empty optional if there is no change in the first window, or if the
     /// smaller windows do not have the same change.
-    std::optional<double> find(const Change& change, const Start& start);
+    std::optional<double> find(const PartCountChange& change, const SearchStart& start);
 
   private:
-    struct Window {
+    struct SearchWindow {
         glm::dvec3 center;
-        double half;
+        double half;  // half the width
     };
+    // A change of the number of parts, at a value of w.
     struct LocalEvent {
         double w;
         std::vector<glm::dvec3> points;  // lattice points in the interior of the window that change sides; not empty
     };
     using PointFlags = std::vector<std::uint8_t>;  // per point of a window: whether it is in the body
 
-    std::optional<double> findIn(const Window& window, double w, double reach, int number);
-    std::optional<LocalEvent> eventIn(const Window& window, double w, double reach, int number);
-    void sample(const Window& window, double w, PointFlags& inside);
+    std::optional<double> findIn(const SearchWindow& window, double w, double reach, int number);
+    std::optional<LocalEvent> eventIn(const SearchWindow& window, double w, double reach, int number);
+    void sample(const SearchWindow& window, double w, PointFlags& inside);
     std::size_t countParts(const PointFlags& inside);
-    std::size_t partsAt(const Window& window, double w);
+    std::size_t partsAt(const SearchWindow& window, double w);
     bool isChange(std::size_t before, std::size_t after) const {
         return change_.becomesMore ? after > before : after < before;
     }
@@ -84,7 +85,7 @@ class LocalChangeSearch {
     const fields::Inside inside_;
     const std::function<bool()> mustEnd_;
     double leastStep_ = 0;  // the result of leastStepAlongW(): bisection stops at intervals of w of this length
-    Change change_;
+    PartCountChange change_;
     double tolerance_ = 0;
     int samplings_ = 0;  // how often a window was sampled in the current search
     PointFlags flags_, otherFlags_;

@@ -85,7 +85,7 @@ struct SurfaceExtractor::Evaluation {
 };
 
 void SurfaceExtractor::extract(const fields::ScalarFunction& function, const FieldSection& section,
-                               const Options& options, SliceSurface& out) {
+                               const ExtractionOptions& options, SliceSurface& out) {
     out.clear();
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
     sign_ = options.inside == fields::Inside::below ? 1 : -1;
@@ -97,7 +97,7 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
 // Extracts the surfaces with a lattice step of at least `step`. Returns false if there are too many points and the
 // lattice can still become coarser.
 bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
-                                  const Options& options, SliceSurface& out) {
+                                  const ExtractionOptions& options, SliceSurface& out) {
     chooseLattice(step, function, section, options);
     if (active_.empty()) return true;
     sampleBlocks(function, section, options);
@@ -120,7 +120,7 @@ bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& fun
 
 // Lays out the lattice and classifies its blocks. Enlarges the step until the extraction does not take too long.
 void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
-                                     const Options& options) {
+                                     const ExtractionOptions& options) {
     const fields::EvaluationCost cost = function.cost();
     constexpr double kEnlarge = 1.25, kBoundsShare = 0.25;
     // The surface passes through about one in six cubes of an active block, and the gradient is evaluated twice for
@@ -190,8 +190,8 @@ SurfaceExtractor::ExtentsTowardWalls SurfaceExtractor::extentsTowardWalls(const 
 // Finds the blocks that may contain a surface, and notes which points of their upper neighbors they need. Looks at
 // groups of 2 × 2 × 2 blocks first, and at single blocks only in groups that may contain a surface.
 void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
-                                      const Options& options) {
-    blocks_.assign(static_cast<std::size_t>(blockCount_.x) * blockCount_.y * blockCount_.z, Block{});
+                                      const ExtractionOptions& options) {
+    blocks_.assign(static_cast<std::size_t>(blockCount_.x) * blockCount_.y * blockCount_.z, LatticeBlock{});
     active_.clear();
     glm::dvec4 unit(0);  // half the size of the bounding box of a cube with the side 2, in the function's coordinates
     for (const glm::dvec4& axis : section.axes) unit += glm::abs(axis);
@@ -235,7 +235,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         }
     }
     bool outside = false;
-    forEachBlock([&](Block& block, glm::ivec3 b) {
+    forEachBlock([&](LatticeBlock& block, glm::ivec3 b) {
         if (block.isSampled()) block.walls = wallsAt(section, ofBlock, position(b * kBlock) + half, outside);
     });
 }
@@ -246,7 +246,7 @@ void SurfaceExtractor::activate(glm::ivec3 block) {
     active_.push_back(static_cast<std::uint32_t>(blockIndex(block)));
     for (int i = 0; i < 8; ++i) {
         const glm::ivec3 offset(i & 1, i >> 1 & 1, i >> 2);
-        Block& other = blocks_[blockIndex(block + offset)];
+        LatticeBlock& other = blocks_[blockIndex(block + offset)];
         for (int axis = 0; axis < 3; ++axis) {
             const auto needed = static_cast<std::uint8_t>(offset[axis] == 0 ? kBlock : 1);
             other.needed[axis] = std::max(other.needed[axis], needed);
@@ -256,10 +256,10 @@ void SurfaceExtractor::activate(glm::ivec3 block) {
 }
 
 void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
-                                    const Options& options) {
+                                    const ExtractionOptions& options) {
     // Blocks are collected until they fill a batch, which is then evaluated at once.
     struct BatchedBlock {
-        const Block* block;
+        const LatticeBlock* block;
         glm::ivec3 first;   // the lattice point at its lower end
         std::size_t begin;  // the index of its first point in the batch
     };
@@ -294,7 +294,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     // The steps to the next point along x, y and z, in the function's coordinates.
     std::array<glm::vec4, 3> steps;
     for (std::size_t i = 0; i < 3; ++i) steps[i] = glm::vec4(step_ * section.axes[i]);
-    forEachBlock([&](const Block& block, glm::ivec3 b) {
+    forEachBlock([&](const LatticeBlock& block, glm::ivec3 b) {
         if (!block.isSampled()) return;
         const glm::ivec3 needed(block.needed), first = b * kBlock;
         const std::size_t count = static_cast<std::size_t>(needed.x) * static_cast<std::size_t>(needed.y) *
@@ -310,7 +310,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
 }
 
 // For each value, sets the bits of the levels whose body contains a point with this value.
-void SurfaceExtractor::findInside(std::span<const float> values, const Options& options,
+void SurfaceExtractor::findInside(std::span<const float> values, const ExtractionOptions& options,
                                   std::span<std::uint8_t> inside) const {
     std::ranges::fill(inside, std::uint8_t{0});
     for (std::size_t l = 0; l < options.levels.size(); ++l) {

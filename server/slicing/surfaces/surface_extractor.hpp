@@ -35,7 +35,7 @@ namespace oval4d::slicing {
 /// extractor.
 class SurfaceExtractor {
   public:
-    struct Options {
+    struct ExtractionOptions {
         std::span<const double> levels;  ///< at most 7
         fields::Inside inside = fields::Inside::below;
         /// The distance between neighboring lattice points. Their coordinates are multiples of the step, so that the
@@ -53,7 +53,7 @@ class SurfaceExtractor {
 
     /// Extracts the surfaces of all levels. Points where the function has no value are outside the body. Calls with the
     /// same arguments give the same surfaces. Overwrites `out`; leaves its secondValues empty.
-    void extract(const fields::ScalarFunction& function, const FieldSection& section, const Options& options,
+    void extract(const fields::ScalarFunction& function, const FieldSection& section, const ExtractionOptions& options,
                  SliceSurface& out);
 
   private:
@@ -64,7 +64,7 @@ class SurfaceExtractor {
     static constexpr std::uint16_t kWalls = 0xff, kOnLevel = 0x100, kAtHole = 0x200;
 
     struct Evaluation;
-    struct Block {
+    struct LatticeBlock {
         bool isActive = false;   // whether it may contain a surface
         std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that it may touch or lie beyond
         glm::u8vec3 needed{0};   // how many points along each axis are sampled, from the block's lower end on
@@ -93,19 +93,22 @@ class SurfaceExtractor {
 
     void layOutLattice(const FieldSection& section, double step);
     bool tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
-                    const Options& options, SliceSurface& out);
+                    const ExtractionOptions& options, SliceSurface& out);
     void chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
-                       const Options& options);
-    void classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
+                       const ExtractionOptions& options);
+    void classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
+                        const ExtractionOptions& options);
     void activate(glm::ivec3 block);
     std::uint8_t wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents, const glm::dvec3& center,
                          bool& outside) const;
     ExtentsTowardWalls extentsTowardWalls(const FieldSection& section, double half) const;
-    void sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section, const Options& options);
+    void sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
+                      const ExtractionOptions& options);
     void moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
                        FunctionPoints& points, std::span<bool> inDomain) const;
     bool moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const;
-    void findInside(std::span<const float> values, const Options& options, std::span<std::uint8_t> inside) const;
+    void findInside(std::span<const float> values, const ExtractionOptions& options,
+                    std::span<std::uint8_t> inside) const;
     bool findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints);
     void addCube(const FieldSection& section, std::size_t level, glm::ivec3 place);
     bool placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place);
@@ -124,7 +127,7 @@ class SurfaceExtractor {
     }
     // Returns whether the lattice is so coarse that it must not become coarser.
     bool isCoarsest() const { return std::max({blockCount_.x, blockCount_.y, blockCount_.z}) <= 3; }
-    // Calls visit(Block&, ivec3 block) for all blocks, in their order.
+    // Calls visit(LatticeBlock&, ivec3 block) for all blocks, in their order.
     template <typename Visit>
     void forEachBlock(Visit&& visit) {
         std::size_t number = 0;
@@ -134,7 +137,7 @@ class SurfaceExtractor {
             }
         }
     }
-    const Block& blockOf(glm::ivec3 cube) const { return blocks_[blockIndex(cube / kBlock)]; }
+    const LatticeBlock& blockOf(glm::ivec3 cube) const { return blocks_[blockIndex(cube / kBlock)]; }
     std::size_t blockIndex(glm::ivec3 block) const {
         const glm::i64vec3 b(block), count(blockCount_);
         return static_cast<std::size_t>(b.x + count.x * (b.y + count.y * b.z));
@@ -154,7 +157,7 @@ class SurfaceExtractor {
     std::unique_ptr<float[]> values_;               // per lattice point of a sampled block: its value
     std::unique_ptr<std::uint8_t[]> inside_;        // per lattice point: a bit for each level, set if inside its body
     std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
-    std::vector<Block> blocks_;
+    std::vector<LatticeBlock> blocks_;
     std::vector<std::uint32_t> active_;  // the indices of active blocks
     std::vector<CrossedCube> cubes_;     // the cubes through which the surface of the current level passes
     // Per point of the current level: its position, and its position before it was moved.

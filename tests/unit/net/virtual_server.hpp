@@ -43,7 +43,7 @@ class VirtualServer {
         options.loadTimeout, Seconds(10), [](const process::ProcessLoss& /*loss*/) {}, {}, 1}};
     polytopes::PolytopeCache polytopes{options.polytopeCache};
     DataFolder data{options.data, options.dataCache, fieldCacheFiles};
-    slicing::CriticalCache critical{options.criticalCache};
+    slicing::CriticalSectionsCache critical{options.criticalCache};
     pipeline::PipelinePool pictureWorkers{
         pipeline::PipelinePool::Options{
             .limits = options.jobs,

@@ -170,7 +170,7 @@ TEST(ProjectionFill, LeavesOutWhatTheEyeCannotSee) {
     EXPECT_TRUE(projection.drawsPieces(0));
     EXPECT_TRUE(projection.drawsPieces(1)) << "the section of the focus hyperplane";
     for (std::size_t f = 0; f < projection.fill.faceBegin[1]; ++f) {
-        const slicing::FilledFaces::Face& face = projection.fill.faces[f];
+        const slicing::FilledFaces::FilledFace& face = projection.fill.faces[f];
         EXPECT_EQ(face.source, projection.elements.faceSource[f]);
         const auto& cells = p.faceCells[face.source - p.cells.size()];
         EXPECT_TRUE(projection.fillCells[f] == cells[0] || projection.fillCells[f] == cells[1]);
@@ -208,7 +208,7 @@ TEST(ProjectionFill, IsRoughBeyondTheLimitWhichItSharesWithTheSlices) {
     const auto roughFaces = [](const Scene& s) {
         const slicing::FilledFaces& fill = s.projection.fill;
         return std::ranges::count(std::span(fill.faces).first(fill.faceBegin[1]), 0,
-                                  &slicing::FilledFaces::Face::winding);
+                                  &slicing::FilledFaces::FilledFace::winding);
     };
     const Scene rough = sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, 0);
     EXPECT_EQ(roughFaces(rough), static_cast<std::ptrdiff_t>(p.faces.size()));
@@ -319,7 +319,8 @@ TEST(ProjectionFill, OfTheFocusSectionHasThePiecesOfItsSlice) {
             ASSERT_GT(count, 0U);
             ASSERT_EQ(count, from.faceBegin[3] - from.faceBegin[2]);
             for (std::uint32_t i = 0; i < count; ++i) {
-                const slicing::FilledFaces::Face &face = to.faces[begin + i], &own = from.faces[from.faceBegin[2] + i];
+                const slicing::FilledFaces::FilledFace &face = to.faces[begin + i],
+                                                       &own = from.faces[from.faceBegin[2] + i];
                 ASSERT_EQ(face.source, own.source);
                 ASSERT_EQ(face.endLoop - face.firstLoop, own.endLoop - own.firstLoop);
                 for (std::uint32_t loop = face.firstLoop; loop < face.endLoop; ++loop)

@@ -233,7 +233,7 @@ TEST(CommandLine, ActsOnTheHighlightedElement) {
     Session session;
     line(session, "polytope cuboctahedral prism");
     line(session, "highlight cell 5");
-    const std::uint32_t type = slicing::typeOfCells(session.current.object)[5];
+    const std::uint32_t type = slicing::typesOfCells(session.current.object)[5];
     line(session, "hide");
     EXPECT_EQ(session.current.look.cellTypes.hidden, std::vector{type});
     line(session, "fade");

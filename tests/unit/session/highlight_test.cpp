@@ -100,7 +100,7 @@ TEST(HighlightKeys, SkipWhatIsHidden) {
     EXPECT_EQ(visitedBy(session, "vC", ElementKind::cell, 12).size(), 12U) << "what is faded is visible";
     line(session, "highlight none");
     line(session, "hide pentagonal prism");
-    const auto types = slicing::typeOfCells(session.current.object);
+    const auto types = slicing::typesOfCells(session.current.object);
     const std::set<std::size_t> cells = visitedBy(session, "vc", ElementKind::cell, 12);
     EXPECT_EQ(cells, visitedBy(session, "vC", ElementKind::cell, 12));
     EXPECT_EQ(cells.size(), 5U) << "one heptagonal prism for each edge of the pentagon";
@@ -123,7 +123,7 @@ TEST(HighlightKeys, SkipWhatIsHidden) {
 TEST(HighlightKeys, LeaveAHiddenElement) {
     Session session;
     line(session, "polytope rectified 5-cell");
-    const auto types = slicing::typeOfCells(session.current.object);
+    const auto types = slicing::typesOfCells(session.current.object);
     const std::size_t first = indexAfter(session, "vc", ElementKind::cell);
     line(session, "hide");  // the kind of the highlighted cell
     EXPECT_NE(types[indexAfter(session, "vc", ElementKind::cell)], types[first]);

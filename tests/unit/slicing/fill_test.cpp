@@ -260,7 +260,7 @@ TEST(FaceFiller, PiecesLieInTheirPlaneAndFaceOutward) {
         CellComplexSlicer().slice(polytope, randomRotation(random), {-4, 9, polytope.circumradius / 5}, slices);
         const FilledFaces fill = filled(slices, polytope.circumradius);
         for (std::size_t p = 0; p < fill.faces.size(); ++p) {
-            const FilledFaces::Face& face = fill.faces[p];
+            const FilledFaces::FilledFace& face = fill.faces[p];
             for (auto k = fill.pieceBegin[p]; k < fill.pieceBegin[p + 1]; ++k) {
                 const auto begin = fill.cornerBegin[k], end = fill.cornerBegin[k + 1];
                 glm::dvec3 area(0);
@@ -288,7 +288,7 @@ TEST(FaceFiller, WindingNumbersAlongARayAddUpToTheDensity) {
         for (int trial = 0; trial < 5; ++trial) {
             const auto ray = glm::normalize(glm::dvec3(normal(random), normal(random), normal(random)));
             int winding = 0;
-            for (const FilledFaces::Face& face : fill.faces) {
+            for (const FilledFaces::FilledFace& face : fill.faces) {
                 const double along = glm::dot(face.normal, ray);
                 if (face.offset / along < 0) continue;
                 const glm::dvec3 hit = ray * (face.offset / along);

@@ -54,7 +54,7 @@ TEST(Object, TellsWhatItsPolytopeIs) {
     EXPECT_EQ(&infoOf(object), polytope.get());
     EXPECT_EQ(elementCounts(object), (std::array<std::size_t, 4>{10, 30, 30, 10}));
     EXPECT_EQ(memoryOf(object), polytopes::memoryOf(*polytope));
-    EXPECT_TRUE(std::ranges::equal(typeOfCells(object), polytope->typeOfCell));
+    EXPECT_TRUE(std::ranges::equal(typesOfCells(object), polytope->typeOfCell));
     EXPECT_EQ(write4Off(object, polytope->vertices).substr(0, 4), "4OFF");
     std::vector<glm::dvec4> centers;
     findCellCenters(object, centers);
@@ -124,7 +124,7 @@ TEST(Object, OfEachKindHasTheStatedProperties) {
         const auto found = std::ranges::find(objects, kind, &Object::index);
         ASSERT_NE(found, objects.end()) << "no example of kind " << kind;
         const Object& object = *found;
-        const KindProperties properties = propertiesOf(object);
+        const ObjectKindProperties properties = propertiesOf(object);
         SCOPED_TRACE(properties.noun);
         EXPECT_FALSE(properties.noun.empty());
         const auto [least, most] = rangeOfW(object, {});

@@ -86,7 +86,7 @@ struct Projected {
     std::vector<std::uint32_t> faceCells;
 };
 
-Projected projected(const Object& object, const geometry::Rotation& turn, const Projector::Options& options,
+Projected projected(const Object& object, const geometry::Rotation& turn, const Projector::ProjectionOptions& options,
                     geometry::Hyperplanes planes) {
     Projected out;
     Slicer().sliceWithoutSurfaces(object, turn, planes, out.slices);

@@ -309,7 +309,7 @@ TEST(Diagrams, ofSubgroupsGenerateTheSamePolytopes) {
 }
 
 TEST(CellTypes, areTheOrbitsOfTheFullSymmetryGroup) {
-    const auto typeOfCells = [](std::string_view name) {
+    const auto typesOfCells = [](std::string_view name) {
         const Polytope& p = built(name);
         std::vector<std::pair<std::string, long>> types;
         for (std::size_t k = 0; k < p.cellTypes.size(); ++k)
@@ -317,23 +317,23 @@ TEST(CellTypes, areTheOrbitsOfTheFullSymmetryGroup) {
         return types;
     };
     using Expected = std::vector<std::pair<std::string, long>>;
-    EXPECT_EQ(typeOfCells("24-cell"), (Expected{{"octahedron", 24}}));
-    EXPECT_EQ(typeOfCells("truncated tesseract"), (Expected{{"truncated cube", 8}, {"tetrahedron", 16}}));
-    EXPECT_EQ(typeOfCells("runcinated 5-cell"), (Expected{{"tetrahedron", 10}, {"triangular prism", 20}}));
-    EXPECT_EQ(typeOfCells("runcinated tesseract"),
+    EXPECT_EQ(typesOfCells("24-cell"), (Expected{{"octahedron", 24}}));
+    EXPECT_EQ(typesOfCells("truncated tesseract"), (Expected{{"truncated cube", 8}, {"tetrahedron", 16}}));
+    EXPECT_EQ(typesOfCells("runcinated 5-cell"), (Expected{{"tetrahedron", 10}, {"triangular prism", 20}}));
+    EXPECT_EQ(typesOfCells("runcinated tesseract"),
               (Expected{{"cube", 8}, {"tetrahedron", 16}, {"cube", 24}, {"triangular prism", 32}}));
-    EXPECT_EQ(typeOfCells("bitruncated 24-cell"), (Expected{{"truncated cube", 48}}));
-    EXPECT_EQ(typeOfCells("omnitruncated 120-cell"), (Expected{{"truncated icosidodecahedron", 120},
-                                                               {"truncated octahedron", 600},
-                                                               {"decagonal prism", 720},
-                                                               {"hexagonal prism", 1200}}));
-    EXPECT_EQ(typeOfCells("snub 24-cell"), (Expected{{"icosahedron", 24}, {"tetrahedron", 24}, {"tetrahedron", 96}}));
-    EXPECT_EQ(typeOfCells("grand antiprism"),
+    EXPECT_EQ(typesOfCells("bitruncated 24-cell"), (Expected{{"truncated cube", 48}}));
+    EXPECT_EQ(typesOfCells("omnitruncated 120-cell"), (Expected{{"truncated icosidodecahedron", 120},
+                                                                {"truncated octahedron", 600},
+                                                                {"decagonal prism", 720},
+                                                                {"hexagonal prism", 1200}}));
+    EXPECT_EQ(typesOfCells("snub 24-cell"), (Expected{{"icosahedron", 24}, {"tetrahedron", 24}, {"tetrahedron", 96}}));
+    EXPECT_EQ(typesOfCells("grand antiprism"),
               (Expected{{"pentagonal antiprism", 20}, {"tetrahedron", 100}, {"tetrahedron", 200}}));
-    EXPECT_EQ(typeOfCells("snub cube prism"),
+    EXPECT_EQ(typesOfCells("snub cube prism"),
               (Expected{{"snub cube", 2}, {"cube", 6}, {"triangular prism", 8}, {"triangular prism", 24}}));
-    EXPECT_EQ(typeOfCells("5,5-duoprism"), (Expected{{"pentagonal prism", 10}}));
-    EXPECT_EQ(typeOfCells("5,7-duoprism"), (Expected{{"heptagonal prism", 5}, {"pentagonal prism", 7}}));
+    EXPECT_EQ(typesOfCells("5,5-duoprism"), (Expected{{"pentagonal prism", 10}}));
+    EXPECT_EQ(typesOfCells("5,7-duoprism"), (Expected{{"heptagonal prism", 5}, {"pentagonal prism", 7}}));
 }
 
 }  // namespace

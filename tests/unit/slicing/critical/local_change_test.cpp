@@ -29,11 +29,11 @@ TEST(LocalChange, HeatKernelsInAnArrayMerge) {
     LocalChangeSearch search(heat.array, orientation, HeatKernels::kLevel, Inside::above, never);
     const double expected = HeatKernels::merging(), center = heat.array.center.w;
     for (const double early : {-5e-4, 0.0, 5e-4}) {
-        LocalChangeSearch::Start start{.point = placeOf(heat.array, orientation, {0.02, -0.03, 0.02, center}),
-                                       .half = 0.11,
-                                       .w = expected - center - early,
-                                       .reach = 1.2e-3,
-                                       .tolerance = 2.4e-5};
+        LocalChangeSearch::SearchStart start{.point = placeOf(heat.array, orientation, {0.02, -0.03, 0.02, center}),
+                                             .half = 0.11,
+                                             .w = expected - center - early,
+                                             .reach = 1.2e-3,
+                                             .tolerance = 2.4e-5};
         const auto found = search.find({.ofBody = true, .becomesMore = false}, start);
         ASSERT_TRUE(found) << early;
         EXPECT_NEAR((*found + center) / expected, 1, 1e-3);
@@ -50,7 +50,7 @@ TEST(LocalChange, BallsAppear) {
     const geometry::Rotation orientation = turnedInSpace();
     for (const Inside inside : {Inside::below, Inside::above}) {
         LocalChangeSearch search(ball, orientation, 0, inside, never);
-        const LocalChangeSearch::Start start{
+        const LocalChangeSearch::SearchStart start{
             .point = glm::dvec3(0.02, -0.01, 0.03), .half = 0.075, .w = -0.995, .reach = 0.015, .tolerance = 3e-4};
         const bool ofBody = inside == Inside::below;
         const auto found = search.find({.ofBody = ofBody, .becomesMore = true}, start);

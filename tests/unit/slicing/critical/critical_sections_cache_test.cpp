@@ -1,4 +1,4 @@
-#include "slicing/critical/critical_cache.hpp"
+#include "slicing/critical/critical_sections_cache.hpp"
 
 #include <memory>
 
@@ -9,20 +9,20 @@
 namespace oval4d::slicing {
 namespace {
 
-CriticalPtr resultOfSize(std::size_t changes) {
+CriticalSectionsPtr resultOfSize(std::size_t changes) {
     CriticalSections result;
     result.all.resize(changes);
     return std::make_shared<const CriticalSections>(std::move(result));
 }
 
-TEST(CriticalCache, FindsOnlyWhatHasTheSameArguments) {
+TEST(CriticalSectionsCache, FindsOnlyWhatHasTheSameArguments) {
     const polytopes::Polytope polytope = support::rectifiedFiveCell();
     polytopes::Polytope other = polytope;
     ++other.serial;
     const Object object = support::objectOf(polytope);
     const geometry::Rotation turned(geometry::Turn{geometry::Plane::xw, 0.1, {}});
-    CriticalCache cache(1U << 20U);
-    const CriticalPtr result = resultOfSize(3);
+    CriticalSectionsCache cache(1U << 20U);
+    const CriticalSectionsPtr result = resultOfSize(3);
     cache.add(object, turned, {{1}}, result);
     EXPECT_EQ(cache.find(object, turned, {{1}}), result);
     EXPECT_EQ(cache.find(object, {}, {{1}}), nullptr);
@@ -31,10 +31,10 @@ TEST(CriticalCache, FindsOnlyWhatHasTheSameArguments) {
     EXPECT_EQ(cache.find(support::objectOf(other), turned, {{1}}), nullptr);
 }
 
-TEST(CriticalCache, ForgetsTheLeastRecentlyUsed) {
+TEST(CriticalSectionsCache, ForgetsTheLeastRecentlyUsed) {
     const polytopes::Polytope polytope = support::rectifiedFiveCell();
     const Object object = support::objectOf(polytope);
-    CriticalCache cache(3500 * sizeof(CriticalSection));
+    CriticalSectionsCache cache(3500 * sizeof(CriticalSection));
     for (const double level : {1, 2, 3}) {
         cache.add(object, {}, {{level}}, resultOfSize(1000));
         cache.find(object, {}, {{1}});
