@@ -52,11 +52,11 @@ struct Arrangement {
     double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth. In a grid, the greatest |x|
     double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight. In a grid, the greatest |y|
     double depth = 0;       ///< how far behind the focus slice the first and the last slice stand
-    double pitch = 0, distance = 1;
-    double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere
-    double reach = 1;        ///< the radius of a slice with its balls
-    /// Whether the layout places the slices and the projection such that they do not overlap the symbol of the axes.
-    /// If false, they may overlap it.
+    double pitch = 0, distance = 1;  ///< of the camera
+    double sliceRadius = 1;          ///< the radius of the object's circumscribed sphere
+    double reach = 1;                ///< the radius of a slice with its balls
+    /// Whether the layout places the slices and the projection such that they do not overlap the symbol of the axes. If
+    /// false, the slices and the projection may overlap the symbol.
     bool isClearOfAxes = false;
     bool showsMatrix = false;  ///< whether the matrix of planar sections is beside the slices
     /// The direction from a slice to its label is the sum of the unit vector away from the curve and a downward vector

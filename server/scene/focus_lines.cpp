@@ -11,12 +11,12 @@ constexpr double kHalfLength = 0.12;  // half the length of each line, in circum
 
 }  // namespace
 
-std::array<Segment, 3> focusLines(const Scene& scene, const SlicePlacement& placement) {
+std::array<ViewSegment, 3> focusLines(const Scene& scene, const SlicePlacement& placement) {
     const glm::dmat4 toView = scene.camera.view();
     const auto viewOf = [&](const glm::dvec3& point) {
         return glm::dvec3(toView * glm::dvec4(placement.position + scene.scale * point, 1));
     };
-    std::array<Segment, 3> lines;
+    std::array<ViewSegment, 3> lines;
     for (int axis = 0; axis < 3; ++axis) {
         glm::dvec3 step(0);
         step[axis] = kHalfLength * scene.circumradius;

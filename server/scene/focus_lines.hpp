@@ -10,10 +10,10 @@
 namespace oval4d::scene {
 
 /// The ends of a line, in view coordinates: the eye is at the origin and looks along −z.
-using Segment = std::array<glm::dvec3, 2>;
+using ViewSegment = std::array<glm::dvec3, 2>;
 
 /// Returns three lines through the focus point, along x, y and z, in the slice at `placement`. The focus point is the
 /// middle of each line.
-std::array<Segment, 3> focusLines(const Scene& scene, const SlicePlacement& placement);
+std::array<ViewSegment, 3> focusLines(const Scene& scene, const SlicePlacement& placement);
 
 }  // namespace oval4d::scene

@@ -222,7 +222,7 @@ std::optional<SectionMatrixLayout::Panel> SectionMatrixLayout::panelAt(glm::dvec
 }
 
 void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
-            Viewport viewport, std::string_view focusName, Layout& out) {
+            Viewport viewport, std::string_view focusName, PictureLayout& out) {
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};

@@ -48,12 +48,11 @@ struct CoordinatesLayout {
     double rowStep = 0;     ///< the distance from a row's zero line down to that of the next row
     double columnStep = 0;  ///< lines: the distance from one vertex to the next in its row
     double lineStep = 0;    ///< the distance from one of the four lines, axes or panels to the next
-    double lineWidth = 0;
-    double amplitude = 0;  ///< lines: the length that represents the circumradius; else half the plot's height
-    bool named = true;     ///< whether there are labels: P0, P1, … below the vertices, or x, y, z, w below the axes
-    /// Whether a density strip is drawn.
-    bool isDensityStrip = false;
-    double panel = 0;  ///< the width of the panels of a field's histogram; 0 if none is drawn
+    double lineWidth = 0;   ///< of all lines and axes
+    double amplitude = 0;   ///< lines: the length that represents the circumradius; else half the plot's height
+    bool named = true;      ///< whether there are labels: P0, P1, … below the vertices, or x, y, z, w below the axes
+    bool isDensityStrip = false;  ///< whether a density strip is drawn
+    double panel = 0;             ///< the width of the panels of a field's histogram; 0 if none is drawn
 
     /// Returns the height of the part of the picture that belongs to the parallel coordinates, from the lower edge.
     double top() const { return zero + amplitude + 0.01; }
@@ -116,7 +115,7 @@ struct SectionMatrixLayout {
 };
 
 /// The layout of a whole picture.
-struct Layout {
+struct PictureLayout {
     Camera camera;
     double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere in slices, in world units
     double ballRadius = 0, barRadius = 0;  ///< of the balls and bars of slices, in world units
@@ -141,6 +140,6 @@ struct LayoutObjectInfo {
 /// geometry::Hyperplanes); `focusName` is the text that follows w in the focus slice's label, if there is room for it.
 /// Overwrites `out` and reuses its memory.
 void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
-            Viewport viewport, std::string_view focusName, Layout& out);
+            Viewport viewport, std::string_view focusName, PictureLayout& out);
 
 }  // namespace oval4d::scene

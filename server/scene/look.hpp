@@ -12,7 +12,7 @@
 
 #include "geometry/range.hpp"
 #include "scene/background.hpp"
-#include "scene/parts.hpp"
+#include "scene/shown_parts.hpp"
 #include "serialization/stored_members.hpp"
 #include "slicing/element.hpp"
 #include "slicing/field_settings.hpp"
@@ -138,7 +138,7 @@ struct Look {
     static constexpr geometry::Range kThicknessRange{0.25, 4}, kOpacityRange{0.25, 4};
 
     View view = View::oval;
-    Parts parts;
+    ShownParts parts;
     CameraOrbit orbit;
     Coloring coloring = Coloring::cell;
     CellTypeFilter cellTypes = {};

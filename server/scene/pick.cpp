@@ -51,7 +51,7 @@ class Picker {
     }
 
     void pickSlices() {
-        const Parts& parts = scene_.look.parts;
+        const ShownParts& parts = scene_.look.parts;
         for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
             if (!scene_.placements[i].drawn) continue;
             // If balls are hidden, the points of a cloud are still found, but not the balls that join bars.

@@ -24,7 +24,7 @@ inline constexpr auto kPickedIn =
 struct PickedElement {
     slicing::Element element;
     PickedIn in = PickedIn::slice;
-    std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet
+    std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet; else without meaning
     double depth = 0;       ///< in slices and in the projection: the distance from the eye along the camera's axis
 };
 

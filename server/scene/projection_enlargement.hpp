@@ -6,10 +6,10 @@
 
 namespace oval4d::scene {
 
-/// Returns the factor, at least 1, by which the projection must be enlarged about the eye so that it covers no slice.
-/// This leaves its image as it is, but puts it behind all slices with which it overlaps in the image. The factor is 1
-/// if it overlaps with none. Parts of the projection that are nearer to the eye than Camera::near may still cover
-/// slices. The scene must show the projection.
+/// Returns the factor, at least 1, by which the projection must be enlarged about the eye so that the projection covers
+/// no slice. Such an enlargement does not change the image of the projection, but puts the projection behind all slices
+/// that it overlaps in the image. The factor is 1 if it overlaps none. Parts of the projection that are nearer to the
+/// eye than Camera::near may still cover slices. The scene must show the projection.
 double enlargementBehindSlices(const Scene& scene);
 
 }  // namespace oval4d::scene

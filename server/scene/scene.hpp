@@ -95,7 +95,7 @@ struct HistogramAxes {
 };
 
 /// A picture: its layout, its slices, and how they are drawn.
-struct Scene : Layout {
+struct Scene : PictureLayout {
     const slicing::SliceSet* slices = &slicing::kNoSlices;  ///< never null; must outlive the scene
     std::string title;                                      ///< the object's name
     double circumradius = 1;                                ///< the object's circumradius, in the object's units
@@ -103,7 +103,7 @@ struct Scene : Layout {
     Viewport viewport;
     double scale = 1;  ///< world units per unit of the object
     /// One per cell. For a surface, whose 2-faces only the projection shows: one per 2-face or one for all of them if
-    /// Parts::projectionFaces is true, else none (see CellPainter::updateFaceColors()).
+    /// ShownParts::projectionFaces is true, else none (see CellPainter::updateFaceColors()).
     std::vector<Color> cellColors;
     /// For each face of `slices`, the cell that determines the face's color. Empty if the list would be equal to
     /// SliceSet::faceSource.
@@ -132,8 +132,8 @@ struct Scene : Layout {
     /// Returns the style of the picture, which depends on its background.
     const Style& style() const { return scene::style(look.background); }
     /// Returns the radius of the balls at the vertices of slices, in world units, before SliceSet::ballScale multiplies
-    /// it. If Parts::balls is false, balls with the radius and color of the bars join the bars, and the points of a
-    /// cloud have this radius, too. Returns 0 if no balls are drawn.
+    /// it. If ShownParts::balls is false, balls with the radius and color of the bars join the bars, and the points of
+    /// a cloud have this radius, too. Returns 0 if no balls are drawn.
     double drawnBallRadius() const {
         if (look.parts.balls) return ballRadius;
         return look.parts.bars || !slices->ballScale.empty() ? barRadius : 0;

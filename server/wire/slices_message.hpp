@@ -28,7 +28,7 @@ class SlicesMessageWriter {
     /// but are not included, because SliceListWriter caches their texts.
     struct StaticScene {
         scene::View view{};
-        scene::Parts shown;
+        scene::ShownParts shown;
         scene::Viewport viewport;
         scene::Camera camera;
         /// `ball`, `bar` and `opacity` are Scene::ballRadius, Scene::barRadius and Scene::faceOpacity.

@@ -314,9 +314,9 @@ bool showsFocusPoint(const scene::Look& look) {
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement,
                           const PaperProjection& paper) {
     ShapeGroup point{"focus-point", {}};
-    const std::array<scene::Segment, 3> lines = scene::focusLines(scene, placement);
+    const std::array<scene::ViewSegment, 3> lines = scene::focusLines(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const scene::Segment& ends = lines.at(axis);
+        const scene::ViewSegment& ends = lines.at(axis);
         if (ends[0].z > -kNearest || ends[1].z > -kNearest) continue;
         point.shapes.emplace_back(Line{.from = paper(ends[0]),
                                        .to = paper(ends[1]),

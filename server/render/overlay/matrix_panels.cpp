@@ -154,7 +154,7 @@ class SectionPainter {
 void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));
-    const std::array<scene::Segment, 3> lines = scene::focusLines(scene, placement);
+    const std::array<scene::ViewSegment, 3> lines = scene::focusLines(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const glm::vec3 from(lines.at(axis)[0]), to(lines.at(axis)[1]);
         if (from.z >= 0 || to.z >= 0) continue;

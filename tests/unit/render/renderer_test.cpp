@@ -276,7 +276,7 @@ TEST_F(Pictures, FromAnyPlaceAreDrawn) {
 }
 
 TEST_F(Pictures, ShowWhatIsAskedFor) {
-    const auto drawn = [&](scene::Parts parts) {
+    const auto drawn = [&](scene::ShownParts parts) {
         scene::Look look;
         look.parts = parts;
         return Subject("16-cell", randomRotation(10), 11, look, {320, 180}).draw(renderer()).pixels;

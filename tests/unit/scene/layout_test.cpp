@@ -25,7 +25,7 @@ using scene::Scene;
 using support::named;
 
 // A negative field of view would show the picture upside down.
-TEST(Layout, ofVeryNarrowPicturesIsUpright) {
+TEST(PictureLayout, ofVeryNarrowPicturesIsUpright) {
     for (const scene::Viewport viewport : {scene::Viewport{16, 400}, {16, 1000}, {16, 8192}, {8192, 16}, {16, 16}}) {
         for (const scene::ViewRow& view : scene::kViews) {
             scene::Look look;
@@ -76,7 +76,7 @@ TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
     }
 }
 
-TEST(Layout, hasTheRadiiOfBallsAndBars) {
+TEST(PictureLayout, hasTheRadiiOfBallsAndBars) {
     scene::Look look;
     look.projection.kind = scene::ProjectionKind::orthogonal;
     for (const char* name : {"5-cell", "120-cell"}) {

@@ -32,8 +32,8 @@ struct Example {
 
 std::ostream& operator<<(std::ostream& out, const Example& example) { return out << example.name; }
 
-constexpr scene::Parts kOnlyFaces{.faces = true, .bars = false, .balls = false};
-constexpr scene::Parts kSections{.projectionFaces = true, .allSections = true};
+constexpr scene::ShownParts kOnlyFaces{.faces = true, .bars = false, .balls = false};
+constexpr scene::ShownParts kSections{.projectionFaces = true, .allSections = true};
 
 class ShapesInMemory : public testing::TestWithParam<Example> {
   protected:

@@ -104,10 +104,10 @@ TEST_P(SurfacesInMemory, AreTheSameWithTwoThreads) {
     for (int i = 0; i < 4; ++i) EXPECT_EQ(subject.draw(two).pixels, expected.pixels);
 }
 
-constexpr scene::Parts kOnlySurfaces{.bars = false, .balls = false};
+constexpr scene::ShownParts kOnlySurfaces{.bars = false, .balls = false};
 constexpr auto kBelow = fields::Inside::below;
 
-scene::Look lookOf(const scene::Parts& parts, std::vector<double> levels, scene::Look look = {}) {
+scene::Look lookOf(const scene::ShownParts& parts, std::vector<double> levels, scene::Look look = {}) {
     look.parts = parts;
     look.field = {.levels = std::move(levels), .inside = kBelow};
     return look;
