@@ -74,7 +74,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     const bool isFolder = std::filesystem::is_directory(path);
     const auto mapped = fields::FileContents::map(std::filesystem::path(path));
     if (isFolder || (mapped && isArray(*mapped))) {
-        fields::ReadOptions options{take(query, "axes").value_or(""), {}, take(query, "variable").value_or("")};
+        fields::FieldReadOptions options{take(query, "axes").value_or(""), {}, take(query, "variable").value_or("")};
         if (const auto text = take(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
         if (const auto text = take(query, "region")) options.region = valueOrThrow(session::parseBox(*text, "region"));
         const session::SecondFunctionSource second{take(query, "values").value_or(""),

@@ -5,7 +5,7 @@
 
 #include "errors/error.hpp"
 #include "fields/field.hpp"
-#include "fields/readers/read_field.hpp"
+#include "fields/readers/field_array.hpp"
 
 namespace oval4d::fields {
 

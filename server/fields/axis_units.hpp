@@ -36,8 +36,8 @@ struct CommonCoordinate {
     bool isW() const;
 };
 /// Returns the coordinate that all points of a slice have in common after the field has been rotated by `orientation`;
-/// an empty optional if the slices are perpendicular to no axis of the box. For example, each slice of an array is a
-/// moment without a rotation, and perpendicular to the axis x of the box after a quarter turn in xw.
+/// an empty optional if the slices are perpendicular to no axis of the box. For example, without a rotation, all points
+/// of a slice have the same w in the box of an array, and after a quarter turn in xw, the same x.
 std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation);
 
 /// Returns the unit of lengths in a hyperplane w = const of the picture: the unit of the axes x, y and z if all three

@@ -23,9 +23,9 @@ FieldArray arrayOf(const ArrayFunction& function) {
     return array;
 }
 
-SecondDefinition definitionOf(const SecondFunction& second) {
+SecondFunctionDefinition definitionOf(const SecondFunction& second) {
     const auto& [function, formula, array, variable, quantity] = second;  // `function` is computed from the others
-    SecondDefinition definition{formula, variable, {}};
+    SecondFunctionDefinition definition{formula, variable, {}};
     if (array) {
         definition.array = arrayOf(*array);
         definition.array->quantity = quantity;
@@ -75,7 +75,7 @@ FieldDefinition definitionByFunctions(const Field& field) {
     return definition;
 }
 
-Result<Field> fieldFrom(const FieldDefinition& definition) {
+Result<Field> fieldFromDefinition(const FieldDefinition& definition) {
     const auto& [info, source, formula, box, array, second] = definition;
     if (source) return badField("the samples are in a file");
     if (second && second->array.has_value() != second->formula.empty())

@@ -6,19 +6,19 @@
 
 #include "errors/error.hpp"
 #include "fields/field.hpp"
-#include "fields/readers/read_field.hpp"
+#include "fields/readers/field_array.hpp"
 #include "geometry/object_info.hpp"
 #include "serialization/stored_members.hpp"
 
 namespace oval4d::fields {
 
 /// From what the second function of a field is made: a formula or an array.
-struct SecondDefinition {
+struct SecondFunctionDefinition {
     std::string formula;              ///< empty if the function is an array
     std::string variable;             ///< the name of the array in its file; empty if it has none
     std::optional<FieldArray> array;  ///< without units of the axes, which are those of the field
 };
-void visitStoredMembers(serialization::ReadOrWritten<SecondDefinition> auto& second, auto& visit) {
+void visitStoredMembers(serialization::ReadOrWritten<SecondFunctionDefinition> auto& second, auto& visit) {
     auto& [formula, variable, array] = second;
     visit.member(0, formula);
     visit.member(1, variable);
@@ -33,7 +33,7 @@ struct FieldDefinition {
     std::string formula;
     Box box;  ///< the domain of the formula
     std::optional<FieldArray> array;
-    std::optional<SecondDefinition> second;
+    std::optional<SecondFunctionDefinition> second;
 };
 void visitStoredMembers(serialization::ReadOrWritten<FieldDefinition> auto& definition, auto& visit) {
     auto& [info, source, formula, box, array, second] = definition;
@@ -56,6 +56,6 @@ FieldDefinition definitionByFunctions(const Field& field);
 /// and setSecondArray(); `bad_field` if members contradict each other, such as a formula and an array, if the samples
 /// of an array do not match its shape, if quantityText() would change a unit or a quantity, or if the definition refers
 /// to a file.
-Result<Field> fieldFrom(const FieldDefinition& definition);
+Result<Field> fieldFromDefinition(const FieldDefinition& definition);
 
 }  // namespace oval4d::fields

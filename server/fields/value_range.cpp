@@ -13,11 +13,11 @@ namespace oval4d::fields {
 void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
     constexpr double kRoot = 1.1673039782614187;
     double fraction = 1;
-    for (std::array<float, kUnitPoints>& axis : out) {
+    for (std::array<float, kQuasirandomPoints>& axis : out) {
         fraction /= kRoot;
         const auto step = static_cast<std::uint32_t>(fraction * 0x1p32);
         const std::uint32_t start = 0x80000000U + step * static_cast<std::uint32_t>(first);
-        for (std::uint32_t i = 0; i < kUnitPoints; ++i)
+        for (std::uint32_t i = 0; i < kQuasirandomPoints; ++i)
             axis[i] = static_cast<float>(static_cast<std::int32_t>((start + step * i) >> 8U)) * 0x1p-24F;
     }
 }
@@ -53,15 +53,15 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
         // The slower the function, the fewer batches are evaluated.
         constexpr double kTime = 1e6;  // nanoseconds, for all points
         constexpr std::size_t kMaxBatches = 8, kCorners = 81;
-        const double batches = kTime / (static_cast<double>(kUnitPoints) * function_->cost().value);
+        const double batches = kTime / (static_cast<double>(kQuasirandomPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
-        std::vector<float> values((count + 1) * kUnitPoints);
+        std::vector<float> values((count + 1) * kQuasirandomPoints);
         // With the step 0, versionForSteps() returns the function itself. However, if the function is an array that is
         // too large for memory, it returns a selection of the samples, which is in memory.
         const ScalarFunction& function = function_->versionForSteps(std::array{glm::dvec4(0)});
         UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {
-            writeQuasirandomPoints(batch * kUnitPoints, points);
+            writeQuasirandomPoints(batch * kQuasirandomPoints, points);
             // The first 81 points are the corners of the box, the midpoints of its edges, faces and cells, and its
             // center.
             for (std::size_t i = 0; batch == 0 && i < kCorners; ++i)
@@ -73,7 +73,7 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
                     u = static_cast<float>(box_.min[axis] + u * size);
             }
             function.evaluate({points[0], points[1], points[2], points[3]},
-                              std::span(values).subspan(batch * kUnitPoints, kUnitPoints));
+                              std::span(values).subspan(batch * kQuasirandomPoints, kQuasirandomPoints));
         }
         constexpr double kMargin = 0.5;  // large, because a color scale should include the extreme values if possible
         range_ = rangesWith(values, kMargin).typical;

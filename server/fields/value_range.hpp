@@ -19,12 +19,12 @@ struct ValueRange {
 };
 
 /// The number of points that writeQuasirandomPoints() writes.
-inline constexpr std::size_t kUnitPoints = 1024;
+inline constexpr std::size_t kQuasirandomPoints = 1024;
 
 /// Points of the unit cube [0, 1)⁴ as a structure of arrays.
-using UnitCubePoints = std::array<std::array<float, kUnitPoints>, 4>;
+using UnitCubePoints = std::array<std::array<float, kQuasirandomPoints>, 4>;
 
-/// Writes the points `first` … `first` + kUnitPoints − 1 of a quasirandom sequence. The sequence is an additive
+/// Writes the points `first` … `first` + kQuasirandomPoints − 1 of a quasirandom sequence. The sequence is an additive
 /// recurrence that fills the cube evenly (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out);
 

@@ -72,7 +72,7 @@ class RequestedObjectReader {
             return session::readObject(load, request_.limits);
         fields::MappedFileMaker newFile;
         if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestFile(bytes); };
-        const fields::ReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
+        const fields::FieldReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
         if (request_.isFolder) {
             const auto open = [this](const std::string& path) { return openFile(path); };
             return session::readZarr(open, load.name, options, {load.secondFormula, load.secondVariable});

@@ -74,9 +74,9 @@ struct LoadObject {
     /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
     /// is the box that the file states or, without one, fields::defaultBox().
     std::optional<fields::Box> box = {};
-    std::optional<fields::Box> region = {};  ///< for a Zarr folder: see fields::ReadOptions
-    std::string axes = {};                   ///< for an array: see fields::ReadOptions
-    std::string variable = {};               ///< for an array: see fields::ReadOptions
+    std::optional<fields::Box> region = {};  ///< for a Zarr folder: see fields::FieldReadOptions
+    std::string axes = {};                   ///< for an array: see fields::FieldReadOptions
+    std::string variable = {};               ///< for an array: see fields::FieldReadOptions
     std::string secondFormula = {};          ///< the formula of the second function; empty for none
     std::string secondVariable = {};  ///< for an array: the variable of the same file that is the second function
     /// Whether to add the time steps in the file to the loaded array called `name`, at the end of w, instead of

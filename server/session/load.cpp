@@ -219,7 +219,7 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
 
 // Makes a field from the array that `read` returns for these options, and sets the field's second function.
 template <typename Read>
-Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::ReadOptions options,
+Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::FieldReadOptions options,
                                       const SecondFunctionSource& second) {
     if (auto error = options.region ? checkOrder(*options.region, "region") : std::nullopt) return std::move(*error);
     Result<fields::FieldArray> array = read(options);
@@ -241,7 +241,7 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
     }
     if (fault) return std::move(*fault);
     std::vector<std::string> warnings = array->warnings;
-    if (!field->array->rangeIsExact())
+    if (!field->array->statisticsAreExact())
         warnings.emplace_back("the array is not read as a whole: its range is that of a selection of the samples");
     return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
 }
@@ -318,20 +318,19 @@ Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
 }
 
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
-                                     const fields::ReadOptions& options, const SecondFunctionSource& second) {
-    return objectFrom([&](const fields::ReadOptions& of) { return fields::readField(file, of); }, name, options,
-                      second);
+                                     const fields::FieldReadOptions& options, const SecondFunctionSource& second) {
+    return objectFrom([&](const auto& of) { return fields::readField(file, of); }, name, options, second);
 }
 
 Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, const std::string& name,
-                                    const fields::ReadOptions& options, const SecondFunctionSource& second) {
-    return objectFrom([&](const fields::ReadOptions& of) { return fields::readZarr(folder, of); }, name, options,
-                      second);
+                                    const fields::FieldReadOptions& options, const SecondFunctionSource& second) {
+    return objectFrom([&](const auto& of) { return fields::readZarr(folder, of); }, name, options, second);
 }
 
-fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits, fields::MappedFileMaker newFile) {
+fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
+                                           fields::MappedFileMaker newFile) {
     const std::size_t most = limits.maxFieldBytes / sizeof(float);
-    fields::ReadOptions options{load.axes, load.box, load.variable, most, most};
+    fields::FieldReadOptions options{load.axes, load.box, load.variable, most, most};
     if (newFile) options.maxSamples = fields::kMaxSamples;
     options.newFile = std::move(newFile);
     options.region = load.region;
@@ -342,8 +341,8 @@ fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limi
 }
 
 Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
-                                      const fields::ReadOptions& options) {
-    return objectFrom([&](const fields::ReadOptions& of) { return fields::readSeries(files, of); }, load.name, options,
+                                      const fields::FieldReadOptions& options) {
+    return objectFrom([&](const auto& of) { return fields::readSeries(files, of); }, load.name, options,
                       {load.secondFormula, load.secondVariable});
 }
 

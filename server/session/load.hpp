@@ -8,8 +8,8 @@
 
 #include "errors/error.hpp"
 #include "fields/field.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 #include "fields/readers/zarr.hpp"
 #include "session/command.hpp"
 #include "session/session.hpp"
@@ -51,25 +51,27 @@ LoadObject loadOf(const std::string& name, const fields::FileSource& source);
 /// options has no extent along an axis with several samples, or if the ends of the box along any axis are in the wrong
 /// order.
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
-                                     const fields::ReadOptions& options = {}, const SecondFunctionSource& second = {});
+                                     const fields::FieldReadOptions& options = {},
+                                     const SecondFunctionSource& second = {});
 
 /// Returns the options for reading the array that `load` specifies. The array and its second array together may have at
 /// most Limits::maxFieldBytes. If `newFile` is given, larger arrays are allowed, too: their samples remain in the file
 /// or are written to a new file. Of a multiscale image, selects the level `load.finer` or, without it, one of at most
 /// Limits::maxFirstLevelBytes.
-fields::ReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
-                                      fields::MappedFileMaker newFile = {});
+fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
+                                           fields::MappedFileMaker newFile = {});
 
 /// Reads an array, or the region of it that the options select, from a Zarr folder. Errors: those of
 /// fields::readZarr(), and of readArray(); `out_of_range` if the ends of the region along any axis are in the wrong
 /// order.
 Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, const std::string& name,
-                                    const fields::ReadOptions& options = {}, const SecondFunctionSource& second = {});
+                                    const fields::FieldReadOptions& options = {},
+                                    const SecondFunctionSource& second = {});
 
 /// Reads the files of a series as one array, with the name and the second function of `load`. Errors: those of
 /// fields::readSeries(), and of readArray().
 Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
-                                      const fields::ReadOptions& options);
+                                      const fields::FieldReadOptions& options);
 
 /// Returns the format that the first word of the file `text` shows: "off" if this word contains OFF, as in 4OFF;
 /// "cloud" if it is CLOUD; otherwise "points".

@@ -16,7 +16,7 @@ namespace {
 using fields::UnitCubePoints;
 using fields::writeQuasirandomPoints;
 
-constexpr std::size_t kHistogramBatch = fields::kUnitPoints;
+constexpr std::size_t kHistogramBatch = fields::kQuasirandomPoints;
 static_assert(CoordinateValueHistograms::kMinPoints % kHistogramBatch == 0);
 constexpr std::uint8_t kNoRow = 255;
 static_assert(CoordinateValueHistograms::kRows < kNoRow);

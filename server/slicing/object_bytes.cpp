@@ -179,7 +179,7 @@ void writeObject(const Object& object, ObjectWriter& writer) {
 
 // Throws std::runtime_error if the field is invalid.
 fields::Field madeFrom(const fields::FieldDefinition& definition) {
-    auto field = fields::fieldFrom(definition);
+    auto field = fields::fieldFromDefinition(definition);
     if (!field) throw std::runtime_error("an invalid field: " + field.error().message);
     return std::move(*field);
 }

@@ -116,7 +116,7 @@ struct KindCodec<slicing::FieldPtr> {
             if (!formula.empty() || array || second) throwUnreadable("a field in a file has other functions");
             return openFile(info.name, *source, open);
         }
-        auto field = fields::fieldFrom(stored);
+        auto field = fields::fieldFromDefinition(stored);
         // Any other error is one of a formula or its box.
         if (!field && field.error().code != ErrorCode::bad_field)
             throwLater("a formula cannot be read: " + field.error().message);

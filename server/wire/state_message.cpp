@@ -154,7 +154,7 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
         w.value(double{field.array->statistics().min});
         w.value(double{field.array->statistics().max});
         w.endArray();
-        if (!field.array->rangeIsExact()) w.member("estimated", true);
+        if (!field.array->statisticsAreExact()) w.member("estimated", true);
         writePart(w, field);
         writeUnits(w, field.units);
         writeQuantity(w, field.quantity);

@@ -18,7 +18,7 @@ namespace {
 SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
     if (samples.values().size() != sampleCount(shape))
         throw std::invalid_argument("the number of samples does not match the shape of the array");
-    samples.expectAccess(eager ? SampleStorage::Access::sequential : SampleStorage::Access::random);
+    samples.expectAccess(eager ? SampleStorage::AccessOrder::sequential : SampleStorage::AccessOrder::random);
     return samples;
 }
 
@@ -41,7 +41,7 @@ ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, SampleStorage s
       samples_(checked(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
       bricks_({lattice_, samples_.values().data()}, isEager()),
       coarser_(isEager() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
-    samples_.expectAccess(SampleStorage::Access::random);
+    samples_.expectAccess(SampleStorage::AccessOrder::random);
     releasePages();
 }
 
@@ -116,9 +116,9 @@ std::size_t ArrayFunction::memoryBytes() const {
 
 std::shared_ptr<const ArrayFunction> ArrayFunction::downsampled() const {
     const Shape coarse = downsampledShape(lattice_.shape);
-    samples_.expectAccess(SampleStorage::Access::sequential);
+    samples_.expectAccess(SampleStorage::AccessOrder::sequential);
     SampleStorage means(downsample(lattice_.shape, samples_.values()));
-    samples_.expectAccess(SampleStorage::Access::random);
+    samples_.expectAccess(SampleStorage::AccessOrder::random);
     return std::make_shared<ArrayFunction>(coarse, lattice_.box, std::move(means), eagerSamples_);
 }
 

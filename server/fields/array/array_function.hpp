@@ -82,10 +82,11 @@ class ArrayFunction final : public ScalarFunction {
     std::span<const float> samples() const { return samples_.values(); }
     const SampleStorage& storage() const { return samples_; }
 
-    /// Returns the least and the greatest sample and the number of missing samples. If rangeIsExact() is true, all
-    /// samples are considered; otherwise, only a selection of about 260,000 samples.
+    /// Returns the least and the greatest sample and the number of missing samples. If statisticsAreExact() is false,
+    /// only a selection of about 260,000 samples is considered.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
-    bool rangeIsExact() const { return isEager(); }
+    /// Returns whether statistics() considers all samples.
+    bool statisticsAreExact() const { return isEager(); }
 
     /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. A sample of the
     /// result is the mean of the interpolant over a box around the sample. This box is as long as a coarse cell along

@@ -16,16 +16,16 @@ inline constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 inline bool isFinite(float value) { return std::abs(value) <= std::numeric_limits<float>::max(); }
 
 /// The number of rows of a cell. A row is a pair of samples that are neighbors along x.
-inline constexpr std::size_t kRows = 8;
+inline constexpr std::size_t kCellRows = 8;
 
 /// For each row of a cell, the distance in memory from the cell's first sample to the row's first sample, in samples.
 /// Bits 0, 1 and 2 of the row's index are set if the row lies at the upper end of the cell along y, z and w,
 /// respectively.
-using RowOffsets = std::array<std::size_t, kRows>;
+using CellRowOffsets = std::array<std::size_t, kCellRows>;
 
-inline RowOffsets rowOffsets(const Lattice& lattice) {
-    RowOffsets offsets{};
-    for (std::size_t row = 0; row < kRows; ++row) {
+inline CellRowOffsets rowOffsets(const Lattice& lattice) {
+    CellRowOffsets offsets{};
+    for (std::size_t row = 0; row < kCellRows; ++row) {
         for (std::size_t i = 0; i < 3; ++i) {
             if ((row >> i & 1U) != 0) offsets[row] += lattice.axes[i + 1].stride;
         }
@@ -45,10 +45,10 @@ struct ValueAndDerivatives {
 
 /// A point in a cell: the 16 samples at the cell's corners, and the position in the cell, from 0 to 1 along each axis.
 struct CellPoint {
-    std::array<float, 2 * kRows> corners;  // the rows' samples at the lower x, then those at the upper x
+    std::array<float, 2 * kCellRows> corners;  // the rows' samples at the lower x, then those at the upper x
     std::array<float, 4> t;
 
-    CellPoint(const SampledLattice& from, const RowOffsets& offsets, const std::array<float, 4>& point) {
+    CellPoint(const SampledLattice& from, const CellRowOffsets& offsets, const std::array<float, 4>& point) {
         const float* samples = from.samples;
         for (std::size_t i = 0; i < 4; ++i) {
             const LatticeAxis& axis = from.lattice.axes[i];
@@ -58,9 +58,9 @@ struct CellPoint {
             samples += static_cast<std::size_t>(cell) * axis.stride;
             t[i] = position - cell;
         }
-        for (std::size_t row = 0; row < kRows; ++row) {
+        for (std::size_t row = 0; row < kCellRows; ++row) {
             corners[row] = samples[offsets[row]];
-            corners[row + kRows] = samples[offsets[row] + from.lattice.axes[0].stride];
+            corners[row + kCellRows] = samples[offsets[row] + from.lattice.axes[0].stride];
         }
     }
 
@@ -80,7 +80,7 @@ struct CellPoint {
     ValueAndDerivatives valueAndDerivatives() const {
         std::array<std::array<float, 4>, 2> ends{};  // at x = 0 and x = 1 of the cell: value, derivatives along y, z, w
         for (std::size_t x = 0; x < 2; ++x) {
-            const float* const c = &corners[x * kRows];
+            const float* const c = &corners[x * kCellRows];
             std::array<float, 4> v{}, dw{};  // at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) of the cell
             for (std::size_t i = 0; i < 4; ++i) {
                 v[i] = mix(c[i], c[i + 4], t[3]);
@@ -101,7 +101,7 @@ struct CellPoint {
     float interpolateCorners(const Mix& mixed) const {
         std::array<float, 2> ends{};
         for (std::size_t x = 0; x < 2; ++x) {
-            const float* const c = &corners[x * kRows];
+            const float* const c = &corners[x * kCellRows];
             const float y0 = mixed(mixed(c[0], c[4], t[3]), mixed(c[2], c[6], t[3]), t[2]);
             const float y1 = mixed(mixed(c[1], c[5], t[3]), mixed(c[3], c[7], t[3]), t[2]);
             ends[x] = mixed(y0, y1, t[1]);

@@ -82,7 +82,7 @@ OVAL4D_AVX2 inline void locate(const AxisLanes* axes, const PointBatch& points, 
     putIntegers(high, cells.first.data() + 4);
 }
 
-inline void prefetch(const float* samples, const RowOffsets& offsets, const CellLanes& cells) {
+inline void prefetch(const float* samples, const CellRowOffsets& offsets, const CellLanes& cells) {
     for (std::size_t i = 0; i < kLanes; i += 2) {
         for (const std::size_t offset : offsets) __builtin_prefetch(samples + cells.first[i] + offset);
     }
@@ -103,11 +103,11 @@ OVAL4D_AVX2 inline PairLanes rowAt(const float* samples, const std::int64_t* fir
 // Interpolates along w, z and y in four cells. `first` are the indices of the cells' first samples; y, z and w are the
 // positions in the cells, each position twice, once for each number of a pair.
 template <bool kGradient>
-OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const RowOffsets& offsets, const std::int64_t* first,
-                                            const __m256& y, const __m256& z, const __m256& w,
-                                            InterpolatedAlongWzy& out) {
-    PairLanes rows[kRows];
-    for (std::size_t row = 0; row < kRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
+OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const CellRowOffsets& offsets,
+                                            const std::int64_t* first, const __m256& y, const __m256& z,
+                                            const __m256& w, InterpolatedAlongWzy& out) {
+    PairLanes rows[kCellRows];
+    for (std::size_t row = 0; row < kCellRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
     PairLanes v[4];  // at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) of the cells
     for (std::size_t i = 0; i < 4; ++i) v[i] = mix(rows[i], rows[i + 4], w);
     const PairLanes y0 = mix(v[0], v[2], z), y1 = mix(v[1], v[3], z);
@@ -165,7 +165,7 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
                    _mm256_set1_ps(axis.shift),    _mm256_set1_ps(axis.last),
                    _mm256_set1_ps(axis.lastCell), _mm256_set1_pd(static_cast<double>(axis.stride))};
     }
-    const RowOffsets offsets = rowOffsets(from.lattice);
+    const CellRowOffsets offsets = rowOffsets(from.lattice);
     const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
     CellLanes upcoming[kAhead];  // the cells of the next kAhead groups; those of group g are at g % kAhead

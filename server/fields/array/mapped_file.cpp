@@ -72,14 +72,14 @@ std::size_t FileHandle::size() const {
     return fstat(descriptor_, &status) == 0 && status.st_size > 0 ? static_cast<std::size_t>(status.st_size) : 0;
 }
 
-Result<std::shared_ptr<MappedFile>> MappedFile::mapAs(Access access, int descriptor,
+Result<std::shared_ptr<MappedFile>> MappedFile::mapAs(MappingAccess access, int descriptor,
                                                       std::shared_ptr<const FileHandle> file) {
     struct stat status{};
     if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode))
         return Error{ErrorCode::bad_field, "not a regular file"};
     if (status.st_size <= 0) return Error{ErrorCode::bad_field, "the file is empty"};
     const auto size = static_cast<std::size_t>(status.st_size);
-    const int protection = access == Access::write ? PROT_READ | PROT_WRITE : PROT_READ;
+    const int protection = access == MappingAccess::write ? PROT_READ | PROT_WRITE : PROT_READ;
     handleBusErrors();
     const std::lock_guard lock(mappedRangesMutex);
     std::size_t entry = 0;
@@ -102,18 +102,18 @@ Result<std::shared_ptr<MappedFile>> MappedFile::mapAs(Access access, int descrip
 
 Result<MappedFilePtr> MappedFile::map(std::shared_ptr<const FileHandle> file) {
     const int descriptor = file->descriptor();
-    auto mapped = mapAs(Access::read, descriptor, std::move(file));
+    auto mapped = mapAs(MappingAccess::read, descriptor, std::move(file));
     if (!mapped) return mapped.error();
     return MappedFilePtr(std::move(*mapped));
 }
 
 Result<std::shared_ptr<MappedFile>> MappedFile::mapToWrite(std::shared_ptr<const FileHandle> file) {
     const int descriptor = file->descriptor();
-    return mapAs(Access::write, descriptor, std::move(file));
+    return mapAs(MappingAccess::write, descriptor, std::move(file));
 }
 
 Result<MappedFilePtr> MappedFile::map(int descriptor) {
-    auto mapped = mapAs(Access::read, descriptor, nullptr);
+    auto mapped = mapAs(MappingAccess::read, descriptor, nullptr);
     if (!mapped) return mapped.error();
     return MappedFilePtr(std::move(*mapped));
 }

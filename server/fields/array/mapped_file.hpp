@@ -39,7 +39,7 @@ class FileHandle {
 /// without the handler.
 class MappedFile {
   public:
-    enum class Access : bool { read, write };
+    enum class MappingAccess : bool { read, write };
 
     /// Maps an open file, which stays open as long as this object exists. Errors: `bad_field` if it is not a regular
     /// file, or is empty; `too_large` if there is no room in the address space, or if too many files are mapped;
@@ -72,7 +72,7 @@ class MappedFile {
   private:
     MappedFile(std::byte* at, std::size_t size, std::shared_ptr<const FileHandle> file, std::size_t entry)
         : at_(at), size_(size), file_(std::move(file)), entry_(entry) {}
-    static Result<std::shared_ptr<MappedFile>> mapAs(Access access, int descriptor,
+    static Result<std::shared_ptr<MappedFile>> mapAs(MappingAccess access, int descriptor,
                                                      std::shared_ptr<const FileHandle> file);
 
     std::byte* const at_;

@@ -67,8 +67,8 @@ void SampleStorage::advise(std::size_t first, std::size_t count, int advice) con
     static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
 }
 
-void SampleStorage::expectAccess(Access access) const {
-    advise(0, values_.size(), access == Access::random ? MADV_RANDOM : MADV_SEQUENTIAL);
+void SampleStorage::expectAccess(AccessOrder access) const {
+    advise(0, values_.size(), access == AccessOrder::random ? MADV_RANDOM : MADV_SEQUENTIAL);
 }
 
 void SampleStorage::prefetch(std::size_t first, std::size_t count) const { advise(first, count, MADV_WILLNEED); }

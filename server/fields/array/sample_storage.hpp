@@ -32,17 +32,17 @@ class SampleStorage {
     /// Returns the position of the first sample in the file, in bytes. The samples must be in a mapped file.
     std::size_t byteOffsetInFile() const;
 
-    /// Returns these samples, followed by `others`. Normally, copies all of them into new memory, which has room for
-    /// 1.5 times as many samples. However, if an earlier call has returned these samples, if their memory has room for
-    /// `others`, and if nothing has been appended to them yet, copies only `others` into this memory. The result then
-    /// shares the memory of these samples. Thread-safe.
+    /// Returns these samples, followed by `others`. Normally, copies these and the others into new memory, which has
+    /// room for 1.5 times as many samples. However, if an earlier call has returned these samples, if their memory has
+    /// room for `others`, and if nothing has been appended to them yet, copies only `others` into this memory. The
+    /// result then shares the memory of these samples. Thread-safe.
     SampleStorage followedBy(std::span<const float> others) const;
 
     /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the
     /// pages that are needed; or `sequential`, so that it reads ahead.
-    enum class Access : std::uint8_t { random, sequential };
+    enum class AccessOrder : std::uint8_t { random, sequential };
     /// Advises the system of the order in which the samples are going to be read. Does nothing for samples in memory.
-    void expectAccess(Access access) const;
+    void expectAccess(AccessOrder access) const;
     /// Advises the system that `count` samples from the index `first` on are needed soon. Does nothing for samples in
     /// memory.
     void prefetch(std::size_t first, std::size_t count) const;

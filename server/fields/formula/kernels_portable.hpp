@@ -5,6 +5,7 @@
 
 namespace oval4d::fields {
 
+/// Returns the kernels that run on every processor.
 const Kernels& portableKernels();
 
 }  // namespace oval4d::fields

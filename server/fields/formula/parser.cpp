@@ -16,7 +16,7 @@ namespace oval4d::fields {
 
 namespace {
 
-using Kind = SyntaxNode::Kind;
+using NodeKind = SyntaxNode::NodeKind;
 using Index = std::uint32_t;
 
 constexpr auto kVariablesAndConstants = std::to_array<std::string_view>({"x", "y", "z", "w", "t", "r", "pi", "phi"});
@@ -107,7 +107,7 @@ class Parser {
         Index node;
         bool isNegative;
     };
-    Index withSign(SignedOperand term) { return term.isNegative ? add(Kind::negate, {term.node}) : term.node; }
+    Index withSign(SignedOperand term) { return term.isNegative ? add(NodeKind::negate, {term.node}) : term.node; }
 
     Index sum() {
         Index value = withSign(product());
@@ -115,7 +115,7 @@ class Parser {
             const bool plus = take("+");
             if (!plus && !takeMinus()) return value;
             const SignedOperand term = product();
-            value = add(plus == term.isNegative ? Kind::subtract : Kind::add, {value, term.node});
+            value = add(plus == term.isNegative ? NodeKind::subtract : NodeKind::add, {value, term.node});
         }
     }
     SignedOperand product() {
@@ -124,7 +124,7 @@ class Parser {
             const bool times = take("*");
             if (!times && !take("/")) return value;
             const SignedOperand factor = signedPower();
-            value.node = add(times ? Kind::multiply : Kind::divide, {value.node, factor.node});
+            value.node = add(times ? NodeKind::multiply : NodeKind::divide, {value.node, factor.node});
             value.isNegative = value.isNegative != factor.isNegative;
         }
     }
@@ -141,9 +141,9 @@ class Parser {
         if (take("^")) {
             const NestingGuard deeper(*this);
             const Index exponent = withSign(signedPower());
-            return {add(Kind::power, {value, exponent}), isNegative};
+            return {add(NodeKind::power, {value, exponent}), isNegative};
         }
-        if (tree_.nodes[value].kind != Kind::negate) return {value, isNegative};
+        if (tree_.nodes[value].kind != NodeKind::negate) return {value, isNegative};
         // The value is a negation in parentheses. The node of the negation is the last node of the tree; it is removed,
         // because the returned SignedOperand holds the sign.
         const Index operand = tree_.operands.back();
@@ -165,8 +165,8 @@ class Parser {
             expectClosingParenthesis();
             return value;
         }
-        if (take(kPiLetter)) return add(Kind::pi, {});
-        if (take(kPhiLetter)) return add(Kind::phi, {});
+        if (take(kPiLetter)) return add(NodeKind::pi, {});
+        if (take(kPhiLetter)) return add(NodeKind::phi, {});
         if (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) return number();
         if (at_ < text_.size() && isLetter(text_[at_])) return named();
         fail("a number, a name or '(' is expected");
@@ -177,7 +177,7 @@ class Parser {
         if (error == std::errc::result_out_of_range) fail("the number is too large or too small");
         if (error != std::errc{}) fail("a number is expected");
         at_ = static_cast<std::size_t>(end - text_.data());
-        const Index node = add(Kind::number, {});
+        const Index node = add(NodeKind::number, {});
         tree_.nodes[node].number = value;
         return node;
     }
@@ -185,13 +185,13 @@ class Parser {
         const std::size_t start = at_;
         const std::string_view name = takeName();
         if (const auto function = functionNamed(name)) return call(*function, start);
-        if (name == "pi") return add(Kind::pi, {});
-        if (name == "phi") return add(Kind::phi, {});
+        if (name == "pi") return add(NodeKind::pi, {});
+        if (name == "phi") return add(NodeKind::phi, {});
         constexpr std::string_view kVariables = "xyzwr";
         const std::size_t variable = name == "t" ? 3 : (name.size() == 1 ? kVariables.find(name) : kVariables.npos);
         if (variable != kVariables.npos) {
             isConstantDefinition_ = false;
-            return add(Kind::variable, {}, static_cast<Index>(variable));
+            return add(NodeKind::variable, {}, static_cast<Index>(variable));
         }
         if (contains(kUnits, name)) failAt(start, text::inQuotes(name) + " is expected after a number");
         if (take("(")) {
@@ -237,7 +237,7 @@ class Parser {
             std::find_if(uses_.begin(), uses_.end(), [name](const auto& use) { return use.name == name; });
         const auto index = static_cast<Index>(found - uses_.begin());
         if (found == uses_.end()) uses_.push_back({name, byte});
-        return add(Kind::constant, {}, index);
+        return add(NodeKind::constant, {}, index);
     }
     // Adds a node for `name`, which occurs in the definition of another name. Fails unless `name` is defined before
     // that definition.
@@ -296,7 +296,7 @@ class Parser {
         return nodeOffset;
     }
     struct ResolvedName {
-        Kind kind;  // constant or expression
+        NodeKind kind;  // constant or expression
         Index index;
     };
     void resolveNames(SyntaxTree& formula) const {
@@ -307,7 +307,7 @@ class Parser {
             definitions.push_back(*found);
         }
         for (SyntaxNode& node : formula.nodes) {
-            if (node.kind != Kind::constant) continue;
+            if (node.kind != NodeKind::constant) continue;
             const auto& [kind, index] = definitions[node.index];
             node.kind = kind;
             node.index = index;
@@ -315,24 +315,24 @@ class Parser {
     }
     std::optional<ResolvedName> resolve(std::string_view name) const {
         for (std::size_t i = 0; i < constants_.size(); ++i)
-            if (constants_[i].name == name) return ResolvedName{Kind::constant, static_cast<Index>(i)};
+            if (constants_[i].name == name) return ResolvedName{NodeKind::constant, static_cast<Index>(i)};
         const auto& expressions = expressions_.expressions;
         for (std::size_t i = 0; i < expressions.size(); ++i)
-            if (expressions[i].name == name) return ResolvedName{Kind::expression, static_cast<Index>(i)};
+            if (expressions[i].name == name) return ResolvedName{NodeKind::expression, static_cast<Index>(i)};
         return {};
     }
 
-    Index add(Kind kind, std::initializer_list<Index> operands, Index index = 0) {
+    Index add(NodeKind kind, std::initializer_list<Index> operands, Index index = 0) {
         return add(kind, std::span(operands.begin(), operands.size()), index);
     }
-    Index add(Kind kind, std::span<const Index> operands, Index index) {
+    Index add(NodeKind kind, std::span<const Index> operands, Index index) {
         tree_.nodes.push_back(
             {kind, index, static_cast<Index>(tree_.operands.size()), static_cast<Index>(operands.size()), 0});
         tree_.operands.insert(tree_.operands.end(), operands.begin(), operands.end());
         return static_cast<Index>(tree_.nodes.size() - 1);
     }
     Index addCall(std::size_t function, const std::vector<Index>& arguments) {
-        return add(Kind::call, arguments, static_cast<Index>(function));
+        return add(NodeKind::call, arguments, static_cast<Index>(function));
     }
 
     bool take(std::string_view token) {

@@ -26,6 +26,7 @@ struct FormulaMistake {
     std::string what;
 };
 
+/// A formula as the parser has read it: its syntax tree, and its named constants with their values.
 struct ParsedFormula {
     SyntaxTree tree;
     std::vector<FormulaConstant> constants;

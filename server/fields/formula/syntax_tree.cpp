@@ -11,7 +11,7 @@ namespace oval4d::fields {
 
 namespace {
 
-using Kind = SyntaxNode::Kind;
+using NodeKind = SyntaxNode::NodeKind;
 using Ref = Graph::Ref;
 
 Ref buildVariable(std::uint32_t index, Graph& graph) {
@@ -26,31 +26,31 @@ Ref buildVariable(std::uint32_t index, Graph& graph) {
 Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<const FormulaConstant> constants,
               Graph& graph) {
     switch (node.kind) {
-        case Kind::number:
+        case NodeKind::number:
             return graph.constant(node.number);
-        case Kind::pi:
+        case NodeKind::pi:
             return graph.constant(std::numbers::pi);
-        case Kind::phi:
+        case NodeKind::phi:
             return graph.constant(std::numbers::phi);
-        case Kind::variable:
+        case NodeKind::variable:
             return buildVariable(node.index, graph);
-        case Kind::constant:
+        case NodeKind::constant:
             return graph.constant(constants[node.index].value);
-        case Kind::expression:
+        case NodeKind::expression:
             break;  // does not occur: buildGraph() handles this kind
-        case Kind::negate:
+        case NodeKind::negate:
             return graph.negate(operands[0]);
-        case Kind::add:
+        case NodeKind::add:
             return graph.add(operands[0], operands[1]);
-        case Kind::subtract:
+        case NodeKind::subtract:
             return graph.subtract(operands[0], operands[1]);
-        case Kind::multiply:
+        case NodeKind::multiply:
             return graph.multiply(operands[0], operands[1]);
-        case Kind::divide:
+        case NodeKind::divide:
             return graph.divide(operands[0], operands[1]);
-        case Kind::power:
+        case NodeKind::power:
             return graph.binary(Operation::power, operands[0], operands[1]);
-        case Kind::call:
+        case NodeKind::call:
             return functions()[node.index].build(graph, operands);
     }
     return 0;
@@ -101,31 +101,31 @@ class FormulaWriter {
   private:
     TextWithPrecedence write(const SyntaxNode& node) {
         switch (node.kind) {
-            case Kind::number:
+            case NodeKind::number:
                 return {text::shortestDecimal(node.number), Precedence::atom};
-            case Kind::pi:
+            case NodeKind::pi:
                 return {"pi", Precedence::atom};
-            case Kind::phi:
+            case NodeKind::phi:
                 return {"phi", Precedence::atom};
-            case Kind::variable:
+            case NodeKind::variable:
                 return {std::string(1, "xyzwr"[node.index]), Precedence::atom};
-            case Kind::constant:
+            case NodeKind::constant:
                 return {constants_[node.index].name, Precedence::atom};
-            case Kind::expression:
+            case NodeKind::expression:
                 return {tree_.expressions[node.index].name, Precedence::atom};
-            case Kind::negate:
+            case NodeKind::negate:
                 return writeNegation(node);
-            case Kind::add:
+            case NodeKind::add:
                 return writeBinary(node, "\1+\1", Precedence::sum, Precedence::sum, Precedence::product);
-            case Kind::subtract:
+            case NodeKind::subtract:
                 return writeBinary(node, "\1-\1", Precedence::sum, Precedence::sum, Precedence::product);
-            case Kind::multiply:
+            case NodeKind::multiply:
                 return writeBinary(node, "*", Precedence::product, Precedence::product, Precedence::negation);
-            case Kind::divide:
+            case NodeKind::divide:
                 return writeBinary(node, "/", Precedence::product, Precedence::product, Precedence::negation);
-            case Kind::power:
+            case NodeKind::power:
                 return writeBinary(node, "^", Precedence::power, Precedence::unit, Precedence::negation);
-            case Kind::call:
+            case NodeKind::call:
                 return writeCall(node);
         }
         return {};
@@ -183,7 +183,7 @@ Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> c
     std::vector<Ref> built, operands;
     built.reserve(tree.nodes.size());
     for (const SyntaxNode& node : tree.nodes) {
-        if (node.kind == Kind::expression) {
+        if (node.kind == NodeKind::expression) {
             built.push_back(built[tree.expressions[node.index].root]);
             continue;
         }

@@ -23,8 +23,9 @@ struct FormulaConstant {
 /// How the two sides of a formula are compared; `none` if the formula is not a comparison.
 enum class Relation : std::uint8_t { none, equal, less, less_equal, greater, greater_equal };
 
+/// A node of a syntax tree: a number, a name, an operation or a call.
 struct SyntaxNode {
-    enum class Kind : std::uint8_t {
+    enum class NodeKind : std::uint8_t {
         number,  ///< the value is `number`, which is not negative
         pi,
         phi,
@@ -39,7 +40,7 @@ struct SyntaxNode {
         power,
         call,  ///< `index`: in functions()
     };
-    Kind kind = Kind::number;
+    NodeKind kind = NodeKind::number;
     std::uint32_t index = 0;
     std::uint32_t firstOperand = 0, operandCount = 0;  ///< a range of SyntaxTree::operands
     double number = 0;

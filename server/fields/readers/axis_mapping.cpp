@@ -96,7 +96,7 @@ std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
 }
 
 Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
-                                           const NumberFormat& format, const ReadOptions& options) const {
+                                           const NumberFormat& format, const FieldReadOptions& options) const {
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
     // Floats in memory must be aligned, but the bytes of a file may lie anywhere.
     const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;
@@ -110,7 +110,7 @@ Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<c
     if (!buffer) return buffer.error();
     const std::byte* from = bytes.data();
     for (const Slab& slab : slabs(kSlabSize)) {
-        convert(format, from, slab.layout, buffer->values().data() + slab.first);
+        convertToFloats(format, from, slab.layout, buffer->values().data() + slab.first);
         const auto& size = slab.layout.size;
         from += size[0] * size[1] * size[2] * size[3] * sizeOf(format.type);
         file.releasePages();

@@ -9,9 +9,9 @@
 
 #include "errors/error.hpp"
 #include "fields/array/shape.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
 #include "fields/readers/numbers.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -74,7 +74,7 @@ class AxisMapping {
     /// 32-bit floats (see NumberFormat::isPlain()) in this processor's byte order; otherwise, converts them. Errors:
     /// those of SampleBuffer::of().
     Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
-                                  const NumberFormat& format, const ReadOptions& options) const;
+                                  const NumberFormat& format, const FieldReadOptions& options) const;
 
   private:
     Shape shape_{1, 1, 1, 1};
@@ -82,10 +82,9 @@ class AxisMapping {
     std::size_t first_ = 0;
 };
 
-/// Returns a box, centered at the origin, for an array of which only the shape is known. The distance between samples
-/// is the same along all axes, and the longest axis extends from −1 to 1. However, if `time` is true, w always extends
-/// from −1 to 1, and the distances and lengths along w are left out of these rules. An axis with one sample has no
-/// extent.
+/// Returns a box, centered at the origin, for an array of which only the shape is known. By two rules, the distance
+/// between samples is the same along all axes, and the longest axis extends from −1 to 1. However, if `time` is true, w
+/// always extends from −1 to 1, and the two rules hold for x, y and z alone. An axis with one sample has no extent.
 Box defaultBox(const Shape& shape, bool time);
 
 }  // namespace oval4d::fields

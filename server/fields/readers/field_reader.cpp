@@ -61,7 +61,7 @@ bool comesBefore(const std::string& a, const std::string& b) {
 }
 
 // Sets the box of a series (see readSeries()). `times` has, for each file of the series, the w at which its box begins.
-void setSeriesBox(FieldArray& series, std::span<const double> times, const ReadOptions& options) {
+void setSeriesBox(FieldArray& series, std::span<const double> times, const FieldReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     CoordinateEnds ends{0, static_cast<double>(times.size() - 1)};
@@ -95,7 +95,7 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start) {
     return format == kFormats.end() ? nullptr : format;
 }
 
-Result<FieldArray> readField(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& options) {
     if (options.region)
         return Error{ErrorCode::unsupported_format, "only Zarr folders can be read in part, not other files (region)"};
     const FieldFormat* const format = formatOfFile(file.bytes.first(std::min(file.bytes.size(), kRecognizedBytes)));
@@ -108,9 +108,9 @@ Result<FieldArray> readField(const FileContents& file, const ReadOptions& option
     return format->read(file, options);
 }
 
-Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOptions& options) {
+Result<FieldArray> readSeries(std::span<const FileContents> files, const FieldReadOptions& options) {
     if (files.empty()) return Error{ErrorCode::bad_field, "the series has no files"};
-    ReadOptions ofFile = options;
+    FieldReadOptions ofFile = options;
     ofFile.box.reset();
     FieldArray series;
     std::optional<SampleBuffer> all;

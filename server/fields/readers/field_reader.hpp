@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "errors/error.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -17,7 +17,7 @@ namespace oval4d::fields {
 struct FieldFormat {
     std::string_view name;                              ///< the name in messages and on the command line
     bool (*isStart)(std::span<const std::byte> start);  ///< whether the bytes are the start of such a file
-    Result<FieldArray> (*read)(const FileContents& file, const ReadOptions& options);
+    Result<FieldArray> (*read)(const FileContents& file, const FieldReadOptions& options);
 };
 
 /// The number of bytes at the start of a file from which its format is recognized.
@@ -33,7 +33,7 @@ const FieldFormat* formatOfFile(std::span<const std::byte> start);
 
 /// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, also if the options have a
 /// region; and those of FieldFormat::read.
-Result<FieldArray> readField(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. All files must have the same shape, with one sample
 /// along w, and the same box in x, y and z. `options.axes` names the axes of each file. The box of the field is:
@@ -47,7 +47,7 @@ Result<FieldArray> readField(const FileContents& file, const ReadOptions& option
 ///
 /// Errors: those of readField(), with the number of the file; `bad_field` if there are no files, or if their shapes or
 /// boxes are not as required; `too_large` if there are more than `options.maxSamples` samples in all.
-Result<FieldArray> readSeries(std::span<const FileContents> files, const ReadOptions& options);
+Result<FieldArray> readSeries(std::span<const FileContents> files, const FieldReadOptions& options);
 
 /// Returns the files in a folder that have one of the formats, sorted by name. Numbers in names are compared by value:
 /// t2 comes before t10. Does not follow symbolic links, and leaves out names that begin with a dot. Error: `not_found`

@@ -53,16 +53,16 @@ GzipReader::GzipReader(std::span<const std::byte> compressed, StreamFormat forma
 
 GzipReader::~GzipReader() = default;
 
-Result<bool> GzipReader::extendTo(std::size_t size, std::vector<std::byte>& to) {
+Result<std::monostate> GzipReader::extendTo(std::size_t size, std::vector<std::byte>& to) {
     while (to.size() < size) {
         const std::size_t before = to.size();
         to.resize(std::min(size, before + kStep));
         if (auto filled = fill(std::span(to).subspan(before)); !filled) return filled;
     }
-    return true;
+    return std::monostate{};
 }
 
-Result<bool> GzipReader::fill(std::span<std::byte> to) {
+Result<std::monostate> GzipReader::fill(std::span<std::byte> to) {
     inflate_state& inflate = state_->inflate;
     while (!to.empty()) {
         if (!state_->proceed()) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
@@ -75,7 +75,7 @@ Result<bool> GzipReader::fill(std::span<std::byte> to) {
         if (status != ISAL_DECOMP_OK) return Error{ErrorCode::bad_field, "the compressed file is faulty"};
         if (stuck) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
     }
-    return true;
+    return std::monostate{};
 }
 
 bool GzipReader::verifyEnd() {

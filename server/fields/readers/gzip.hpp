@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <variant>
 #include <vector>
 
 #include "errors/error.hpp"
@@ -28,10 +29,10 @@ class GzipReader {
 
     /// Appends the next decompressed bytes to `to` until `to` has `size` bytes in all. Error: `bad_field` if the file
     /// is faulty or ends earlier.
-    Result<bool> extendTo(std::size_t size, std::vector<std::byte>& to);
+    Result<std::monostate> extendTo(std::size_t size, std::vector<std::byte>& to);
 
     /// Fills `to` with the next decompressed bytes. Errors: those of extendTo().
-    Result<bool> fill(std::span<std::byte> to);
+    Result<std::monostate> fill(std::span<std::byte> to);
 
     /// Returns whether the caller has read all decompressed bytes and their checksum is correct. Do not read from this
     /// object afterward: if bytes were left, this function has skipped one of them.

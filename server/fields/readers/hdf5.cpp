@@ -170,7 +170,7 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
 }
 
 // Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers.
-Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& options, hid_t dataset, hid_t stored,
+Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options, hid_t dataset, hid_t stored,
                                 const AxisMapping& mapping, const NumberFormat& format) {
     const Handle space(H5Dget_space(dataset), H5Sclose);
     const auto dimensions = static_cast<std::size_t>(H5Sget_simple_extent_ndims(*space));
@@ -191,7 +191,7 @@ Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& opt
             return badField(
                 "the dataset cannot be read: it is damaged, or it is compressed in a way that is not supported");
         }
-        convert(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
+        convertToFloats(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
         file.releasePages();
         buffer->releasePages();
     }
@@ -245,7 +245,7 @@ std::string textOfAttribute(hid_t dataset, const char* attribute) {
 }
 
 Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::vector<std::string>& datasets,
-                               const ReadOptions& options) {
+                               const FieldReadOptions& options) {
     FieldArray field;
     std::string name = options.variable;
     if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
@@ -295,7 +295,7 @@ bool isHdf5Start(std::span<const std::byte> start) {
     return std::string_view(reinterpret_cast<const char*>(start.data()), start.size()).starts_with("\x89HDF\r\n\x1a\n");
 }
 
-Result<FieldArray> readHdf5(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readHdf5(const FileContents& file, const FieldReadOptions& options) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // print no messages
     H5PLset_loading_state(0);                     // load no plug-ins
     const Handle id(openBytes(file.bytes), H5Fclose);

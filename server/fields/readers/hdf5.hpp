@@ -5,8 +5,8 @@
 #include <span>
 
 #include "errors/error.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -24,6 +24,6 @@ bool isHdf5Start(std::span<const std::byte> start);
 ///
 /// The HDF5 library is not made for hostile files: files from strangers should be read in a confined process.
 /// Thread-safe only if the HDF5 library is thread-safe.
-Result<FieldArray> readHdf5(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readHdf5(const FileContents& file, const FieldReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -302,7 +302,7 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
 // Returns the dimensions in `kept` (see keptDimensions()) with their axes. Sets the box and the units of `field`, and
 // adds warnings to it.
 Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std::vector<std::size_t>& kept,
-                                             const ReadOptions& options, FieldArray& field) {
+                                             const FieldReadOptions& options, FieldArray& field) {
     std::vector<CfDimension> stated;
     std::vector<std::optional<Variable>> coordinates;
     std::vector<Dimension> dimensions;
@@ -337,7 +337,7 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std
     return dimensions;
 }
 
-Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& options, const Variable& variable,
+Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options, const Variable& variable,
                                 const std::vector<std::size_t>& kept, const AxisMapping& mapping) {
     const NumberFormat format = formatOf(variable, *rowOf(variable.type));
     const std::size_t skipped = 4 - kept.size();
@@ -359,7 +359,7 @@ Result<SampleStorage> readSlabs(const FileContents& file, const ReadOptions& opt
         const int status = nc_get_vara(variable.group, variable.id, start.data(), count.data(), numbers.data());
         if (status != NC_NOERR)
             return badField("the variable cannot be read: " + text::printable(nc_strerror(status), kMaxNetcdfText));
-        convert(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
+        convertToFloats(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
         file.releasePages();
         buffer->releasePages();
     }
@@ -373,7 +373,7 @@ bool isNetcdfStart(std::span<const std::byte> start) {
     return text.size() >= 4 && text.starts_with("CDF") && (text[3] == 1 || text[3] == 2 || text[3] == 5);
 }
 
-Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readNetcdf(const FileContents& file, const FieldReadOptions& options) {
     const OpenFile open(file);
     if (open.status() != NC_NOERR)
         return badField("the file is not a valid NetCDF file: " +

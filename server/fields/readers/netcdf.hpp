@@ -5,8 +5,8 @@
 #include <span>
 
 #include "errors/error.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -29,6 +29,6 @@ bool isNetcdfStart(std::span<const std::byte> start);
 ///
 /// Errors: `bad_field`, `too_large`, `not_found` for the variable, `out_of_range` for the other options. The library
 /// NetCDF is neither thread-safe nor made for hostile files: files from strangers should be read in a confined process.
-Result<FieldArray> readNetcdf(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readNetcdf(const FileContents& file, const FieldReadOptions& options);
 
 }  // namespace oval4d::fields

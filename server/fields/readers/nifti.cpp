@@ -223,7 +223,7 @@ AxisUnits statedUnits(const NiftiHeader& header) {
 
 // Sets the box and the units of `field`, and the axes and directions of `dimensions`, which must be in the order from
 // the fastest to the slowest.
-std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions& options,
+std::optional<Error> mapDimensions(const NiftiHeader& header, const FieldReadOptions& options,
                                    std::vector<Dimension>& dimensions, FieldArray& field) {
     const AxisUnits units = statedUnits(header);
     field.units = units;
@@ -268,7 +268,7 @@ std::optional<Error> mapDimensions(const NiftiHeader& header, const ReadOptions&
 // `options.maxInMemory` bytes, or if `options.newFile` is null. Otherwise, it is in a file that `options.newFile`
 // makes.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
-                           std::size_t size, const ReadOptions& options) {
+                           std::size_t size, const FieldReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;
     if (size / sizeof(float) <= options.maxInMemory || !options.newFile) {
         if (const auto read = gzip.extendTo(size, unzipped); !read) return read.error();
@@ -289,7 +289,7 @@ Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vect
 // Returns the stored numbers, which take `size` bytes from the byte `begin` on. If `gzip` is null, these are bytes of
 // `file`; otherwise, they are bytes of the decompressed contents of `file`. For `gzip` and `unzipped`, see unzip().
 Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
-                            std::size_t begin, std::size_t size, const ReadOptions& options) {
+                            std::size_t begin, std::size_t size, const FieldReadOptions& options) {
     if (gzip != nullptr) {
         auto contents = unzip(file, *gzip, unzipped, begin + size, options);
         if (contents) contents->bytes = contents->bytes.subspan(begin);
@@ -314,7 +314,7 @@ bool isNiftiStart(std::span<const std::byte> start) {
     return magic == "n+1" || magic == "n+2" || magic == "ni1" || magic == "ni2";
 }
 
-Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readNifti(const FileContents& file, const FieldReadOptions& options) {
     std::vector<std::byte> unzipped;
     std::optional<GzipReader> gzip;
     if (isGzipStart(file.bytes)) {

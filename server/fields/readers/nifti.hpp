@@ -5,8 +5,8 @@
 #include <span>
 
 #include "errors/error.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -24,6 +24,6 @@ bool isNiftiStart(std::span<const std::byte> start);
 ///
 /// Along the fourth dimension, the box begins at the time offset that the file states. Errors: `bad_field`,
 /// `too_large`; `out_of_range` for the options.
-Result<FieldArray> readNifti(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readNifti(const FileContents& file, const FieldReadOptions& options);
 
 }  // namespace oval4d::fields

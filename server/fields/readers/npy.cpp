@@ -116,7 +116,7 @@ bool isNpyStart(std::span<const std::byte> start) {
     return std::string_view(reinterpret_cast<const char*>(start.data()), start.size()).starts_with(kMagic);
 }
 
-Result<FieldArray> readNpy(const FileContents& file, const ReadOptions& options) {
+Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& options) {
     const std::string_view bytes(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
     if (!isNpyStart(file.bytes)) return badField("the file is not in NumPy's format .npy");
     const auto byteAt = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(bytes[i])}; };

@@ -5,8 +5,8 @@
 #include <span>
 
 #include "errors/error.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -18,6 +18,6 @@ bool isNpyStart(std::span<const std::byte> start);
 /// processor's byte order are used in place, without a copy, if they are aligned and in the order of Lattice (x varies
 /// fastest, w slowest); other arrays are converted. The box is that of the options, or defaultBox(). Errors:
 /// `bad_field`, `too_large`; `out_of_range` for the options.
-Result<FieldArray> readNpy(const FileContents& file, const ReadOptions& options);
+Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& options);
 
 }  // namespace oval4d::fields

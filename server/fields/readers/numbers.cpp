@@ -148,7 +148,7 @@ void NumberFormat::roundLimitsToType() {
     max = roundedToType(max);
 }
 
-void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
+void convertToFloats(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     switch (format.type) {
         case NumberType::boolean:
             return convertInFileByteOrder<Boolean>(format, from, layout, to);

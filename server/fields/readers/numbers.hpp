@@ -54,6 +54,6 @@ struct StridedLayout {
 /// aligned; `to` is the place of the first number. Numbers that stand for no value, and finite numbers beyond the
 /// largest float, become NaN. Infinite numbers become NaN or remain infinite; ArrayFunction treats both as missing
 /// samples.
-void convert(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
+void convertToFloats(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
 
 }  // namespace oval4d::fields

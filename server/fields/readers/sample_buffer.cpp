@@ -4,7 +4,7 @@
 
 namespace oval4d::fields {
 
-Result<SampleBuffer> SampleBuffer::of(std::size_t count, const ReadOptions& options) {
+Result<SampleBuffer> SampleBuffer::of(std::size_t count, const FieldReadOptions& options) {
     SampleBuffer buffer;
     if (options.into.size() == count) {
         buffer.values_ = options.into;

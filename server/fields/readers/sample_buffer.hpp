@@ -8,21 +8,21 @@
 
 #include "errors/error.hpp"
 #include "fields/array/sample_storage.hpp"
-#include "fields/readers/read_field.hpp"
+#include "fields/readers/field_array.hpp"
 
 namespace oval4d::fields {
 
-/// Memory for samples, of the first kind that applies: ReadOptions::into, if it has the right size; a new file, if
-/// ReadOptions::newFile is set and there are more samples than ReadOptions::maxInMemory; a vector.
+/// Memory for samples, of the first kind that applies: FieldReadOptions::into, if it has the right size; a new file, if
+/// FieldReadOptions::newFile is set and there are more samples than FieldReadOptions::maxInMemory; a vector.
 class SampleBuffer {
   public:
-    /// Errors: those of ReadOptions::newFile.
-    static Result<SampleBuffer> of(std::size_t count, const ReadOptions& options);
+    /// Errors: those of FieldReadOptions::newFile.
+    static Result<SampleBuffer> of(std::size_t count, const FieldReadOptions& options);
 
     std::span<float> values() { return values_; }
     /// Releases the resident pages of the file, if there is one.
     void releasePages() const;
-    /// Returns the samples, which own their memory unless it is ReadOptions::into. This object must not be used
+    /// Returns the samples, which own their memory unless it is FieldReadOptions::into. This object must not be used
     /// afterward.
     SampleStorage take();
 

@@ -80,7 +80,7 @@ void squeeze(ZarrArrayMetadata& array, std::vector<std::size_t>& kept) {
 // Returns the dimensions with their axes. Sets the box and the units of `field`, and adds warnings to it.
 Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, const ZarrFolder& zarr,
                                              const ZarrArrayMetadata& array, const std::vector<std::size_t>& kept,
-                                             const ReadOptions& options, FieldArray& field) {
+                                             const FieldReadOptions& options, FieldArray& field) {
     auto axes = parseAxes(options.axes, kept.size());  // also checks the number of dimensions
     if (!axes) return axes.error();
     const auto ofImage = zarr.coordinatesOf(array.path);
@@ -204,7 +204,7 @@ std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart&
 // Returns the part of an array that the options select. `isCoarser`: whether the array is a level of an image, but not
 // the finest one. Its samples may lie between those of the finest level, and then do not reach the ends of that box.
 Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
-                         const ReadOptions& options, bool isCoarser = false) {
+                         const FieldReadOptions& options, bool isCoarser = false) {
     ArrayPart part{std::move(array), {}, {}, {}, {}};
     squeeze(part.array, part.kept);
     part.indices = {std::vector<std::size_t>(part.array.shape.size(), 0), part.array.shape};
@@ -226,7 +226,7 @@ Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr,
 
 // Returns the part that the options select of the array that they name or, without a name, of the array that readZarr()
 // chooses.
-Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& zarr, const ReadOptions& options) {
+Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& zarr, const FieldReadOptions& options) {
     std::string path = options.variable;
     while (path.starts_with('/')) path.erase(0, 1);
     auto named = zarr.array(path);
@@ -287,7 +287,7 @@ ImageLevel levelOf(const ZarrFolder& zarr, const std::string& path) {
 
 }  // namespace
 
-Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options) {
+Result<FieldArray> readZarr(const FolderFileReader& folder, const FieldReadOptions& options) {
     const ZarrFolder zarr(textsOf(folder));
     auto part = chosenPart(folder, zarr, options);
     if (!part) return part.error();

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "errors/error.hpp"
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields {
 
@@ -39,6 +39,6 @@ inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarra
 /// not list its arrays, if `options.axes` does not fit the array, or if the region lies beyond the box;
 /// `unsupported_format` for other types, compressors and filters; `too_large`, also if `options.level` has more than
 /// `options.maxInMemory` samples; and those of `folder`.
-Result<FieldArray> readZarr(const FolderFileReader& folder, const ReadOptions& options);
+Result<FieldArray> readZarr(const FolderFileReader& folder, const FieldReadOptions& options);
 
 }  // namespace oval4d::fields

@@ -103,7 +103,7 @@ TEST(BrickBounds, CountEachMissingSampleOnce) {
         EXPECT_EQ(array.statistics().missing, missing);
         EXPECT_EQ(array.statistics().min, min);
         EXPECT_EQ(array.statistics().max, max);
-        EXPECT_TRUE(array.rangeIsExact());
+        EXPECT_TRUE(array.statisticsAreExact());
     }
 }
 
@@ -111,7 +111,7 @@ TEST(BrickBounds, ReadLittleOfALargeArray) {
     const Shape shape{64, 64, 64, 64};
     std::mt19937 random(4);
     const ArrayFunction array(shape, {}, SampleStorage(randomSamples(shape, 0, random)), 1000);
-    EXPECT_FALSE(array.rangeIsExact());
+    EXPECT_FALSE(array.statisticsAreExact());
     EXPECT_LT(array.statistics().min, -0.99F);  // of a selection
     EXPECT_GT(array.statistics().max, 0.99F);
     const std::size_t before = array.memoryBytes();

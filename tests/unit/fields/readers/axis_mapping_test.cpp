@@ -25,14 +25,14 @@ TEST(AxisMapping, SlabsCoverTheArrayInItsOrder) {
         std::vector<float> numbers(mapping->count()), whole(numbers.size()), parts(numbers.size());
         for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(i);
         const auto* from = reinterpret_cast<const std::byte*>(numbers.data());
-        convert({}, from, mapping->layout(), whole.data() + mapping->firstSampleIndex());
+        convertToFloats({}, from, mapping->layout(), whole.data() + mapping->firstSampleIndex());
         const std::size_t most = 1 + below(2 * numbers.size());
         const auto slabs = mapping->slabs(most);
         for (const Slab& slab : slabs) {
             const auto& size = slab.layout.size;
             const std::size_t count = size[0] * size[1] * size[2] * size[3];
             EXPECT_LE(count, std::max(most, mapping->layout().size[3]));
-            convert({}, from, slab.layout, parts.data() + slab.first);
+            convertToFloats({}, from, slab.layout, parts.data() + slab.first);
             from += count * sizeof(float);
         }
         EXPECT_EQ(from, reinterpret_cast<const std::byte*>(numbers.data() + numbers.size()));

@@ -17,8 +17,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fields/readers/field_array.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/read_field.hpp"
 
 namespace oval4d::fields::test {
 
@@ -86,7 +86,7 @@ inline std::string npy(const std::string& shape, const std::vector<float>& numbe
 template <typename Reader>
 void expectRobust(const std::string& file, std::size_t mutated, const Reader& read, std::size_t step = 1) {
     const auto tryFile = [&](const std::string& bytes) {
-        auto field = read(FileContents::copyOf(bytes), ReadOptions{.maxSamples = 1'000'000});
+        auto field = read(FileContents::copyOf(bytes), FieldReadOptions{.maxSamples = 1'000'000});
         if (!field) {
             EXPECT_FALSE(field.error().message.empty());
             return;

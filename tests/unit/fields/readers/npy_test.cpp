@@ -20,13 +20,14 @@ std::vector<float> samplesOf(const Result<FieldArray>& field) {
     return {values.begin(), values.end()};
 }
 
-FieldArray readNpyOrFail(const std::string& file, const ReadOptions& options = {}) {
+FieldArray readNpyOrFail(const std::string& file, const FieldReadOptions& options = {}) {
     auto field = readNpy(FileContents::copyOf(file), options);
     if (!field) throw std::runtime_error(field.error().message);
     return *field;
 }
 
-void expectError(const std::string& file, ErrorCode code, const std::string& text, const ReadOptions& options = {}) {
+void expectError(const std::string& file, ErrorCode code, const std::string& text,
+                 const FieldReadOptions& options = {}) {
     const auto field = readNpy(FileContents::copyOf(file), options);
     ASSERT_FALSE(field);
     EXPECT_EQ(field.error().code, code);
@@ -260,7 +261,7 @@ TEST(Npy, ReadsLittleOfAFileLargerThanTheMemory) {
     const auto array = field->function();
     ASSERT_TRUE(array);
     const ArrayFunction& f = **array;
-    EXPECT_FALSE(f.rangeIsExact());
+    EXPECT_FALSE(f.statisticsAreExact());
     std::vector<float> x{249, 248.5, 10}, y{399, 399, 20}, z{399, 399, 30}, w{99, 99, 40}, values(3);
     f.evaluate({x, y, z, w}, values);
     EXPECT_EQ(values, (std::vector<float>{7, 3.5, 0}));

@@ -41,7 +41,7 @@ inline std::vector<std::uint32_t> sampleBits(const FieldArray& field) {
     return bits;
 }
 
-inline FieldArray readOrFail(const std::string& bytes, const ReadOptions& options = {}) {
+inline FieldArray readOrFail(const std::string& bytes, const FieldReadOptions& options = {}) {
     auto field = readField(FileContents::copyOf(bytes), options);
     if (!field) throw std::runtime_error(field.error().message);
     return *field;

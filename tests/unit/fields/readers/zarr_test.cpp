@@ -21,7 +21,8 @@ namespace {
 using Files = std::map<std::string, std::string>;  // the contents of each file by its path
 
 // Reads an array from the files. If `opened` is not null, adds to it the paths that are opened.
-Result<FieldArray> readFiles(const Files& files, const ReadOptions& options, std::set<std::string>* opened = nullptr) {
+Result<FieldArray> readFiles(const Files& files, const FieldReadOptions& options,
+                             std::set<std::string>* opened = nullptr) {
     const FolderFileReader folder = [&](const std::string& path) -> Result<std::optional<FileContents>> {
         if (opened != nullptr) opened->insert(path);
         const auto found = files.find(path);
@@ -32,7 +33,7 @@ Result<FieldArray> readFiles(const Files& files, const ReadOptions& options, std
 }
 
 Result<FieldArray> readFiles(const Files& files, const std::string& variable = "") {
-    return readFiles(files, ReadOptions{.variable = variable});
+    return readFiles(files, FieldReadOptions{.variable = variable});
 }
 
 // The .zarray file of an array of 32-bit floats in one chunk. `sizes` are the numbers in a JSON list.
@@ -177,7 +178,7 @@ Files filesInChunks() {
 
 TEST(Zarr, ReadsARegionFromItsOwnChunks) {
     const Files files = filesInChunks();
-    const ReadOptions whole{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}};  // the coordinates are the indices
+    const FieldReadOptions whole{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}};  // the coordinates are the indices
     struct Case {
         Box region, expected;  // the box of the samples that cover the region
         std::vector<std::string> chunks;
@@ -188,7 +189,7 @@ TEST(Zarr, ReadsARegionFromItsOwnChunks) {
                             {{0, 3, 2, 4}, {1, 4, 3, 4}},
                             {"2.0.0.0", "2.0.1.0", "2.1.0.0", "2.1.1.0"}},
                            {{{4, 0, 3, 1.4}, {4, 0.1, 3, 1.4}}, {{4, 0, 3, 1}, {4, 1, 3, 1}}, {"0.1.0.0"}}}) {
-        ReadOptions options = whole;
+        FieldReadOptions options = whole;
         options.region = region;
         std::set<std::string> opened;
         const auto field = readFiles(files, options, &opened);
@@ -211,7 +212,7 @@ TEST(Zarr, ReadsARegionFromItsOwnChunks) {
         std::erase_if(opened, [](const std::string& path) { return path.starts_with(".z") || path == "zarr.json"; });
         EXPECT_EQ(opened, std::set<std::string>(chunks.begin(), chunks.end()));
     }
-    ReadOptions all = whole;
+    FieldReadOptions all = whole;
     all.region = Box{{-1, -1, -1, -1}, {9, 9, 9, 9}};
     const auto one = readFiles(files, all), other = readFiles(files, whole);
     ASSERT_TRUE(one && other);
@@ -230,7 +231,7 @@ TEST(Zarr, ReadsARegionWhereTheCoordinateDecreases) {
                       {"x/0", chunkOf({50, 40, 30, 20, 10})}};
     std::set<std::string> opened;
     const auto field =
-        readFiles(files, ReadOptions{.variable = "f", .region = Box{{20, 0, 0, 0}, {30, 0, 0, 0}}}, &opened);
+        readFiles(files, FieldReadOptions{.variable = "f", .region = Box{{20, 0, 0, 0}, {30, 0, 0, 0}}}, &opened);
     ASSERT_TRUE(field) << field.error().message;
     const auto samples = field->samples.values();
     EXPECT_EQ(std::vector(samples.begin(), samples.end()), (std::vector<float>{4, 3}));
@@ -253,7 +254,7 @@ TEST(Zarr, CoordinatesFarFromZeroAreCountedFromTheLeast) {
     EXPECT_EQ(whole->units[0], "m");
     ASSERT_EQ(whole->warnings.size(), 1U);
     EXPECT_NE(whole->warnings.front().find("5400000 m"), std::string::npos) << whole->warnings.front();
-    const auto part = readFiles(files, ReadOptions{.variable = "f", .region = Box{{1, 0, 0, 0}, {2, 0, 0, 0}}});
+    const auto part = readFiles(files, FieldReadOptions{.variable = "f", .region = Box{{1, 0, 0, 0}, {2, 0, 0, 0}}});
     ASSERT_TRUE(part) << part.error().message;
     EXPECT_EQ(part->box, (Box{{1, 0, 0, 0}, {2, 0, 0, 0}}));
 }
@@ -310,7 +311,7 @@ TEST(Zarr, ReadsChunksOfShards) {
                   (std::vector<float>{0, 1, 2, 3, 4, 5, 10, 11, 7, 7, 14, 15, 20, 21, 22, 23, 7, 7}));
         std::set<std::string> opened;
         const Box box{{0, 0, 0, 0}, {5, 2, 0, 0}}, region{{4, 0, 0, 0}, {5, 1, 0, 0}};
-        const auto part = readFiles(files, ReadOptions{.box = box, .region = region}, &opened);
+        const auto part = readFiles(files, FieldReadOptions{.box = box, .region = region}, &opened);
         ASSERT_TRUE(part) << part.error().message;
         const auto ofPart = part->samples.values();
         EXPECT_EQ(std::vector(ofPart.begin(), ofPart.end()), (std::vector<float>{4, 5, 14, 15}));
@@ -338,7 +339,7 @@ TEST(Zarr, RefusesDamagedShards) {
 TEST(Zarr, RefusesARegionBeyondTheArray) {
     const Files files = filesInChunks();
     for (const auto& region : {Box{{-2, 0, 0, 0}, {-1, 6, 3, 4}}, Box{{5.5, 0, 0, 0}, {6, 6, 3, 4}}}) {
-        const auto field = readFiles(files, ReadOptions{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}, .region = region});
+        const auto field = readFiles(files, FieldReadOptions{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}, .region = region});
         ASSERT_FALSE(field);
         EXPECT_EQ(field.error().code, ErrorCode::out_of_range);
         EXPECT_NE(field.error().message.find("along x from 0 to 5"), std::string::npos) << field.error().message;
@@ -356,7 +357,7 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
                       {"1/.zarray", zarray("[2,4]", "[2,4]")}};
     const Box fine{{0, 0, 0, 0}, {7, 3, 0, 0}}, coarse{{0.5, 0.5, 0, 0}, {6.5, 2.5, 0, 0}};
     const auto read = [&](std::size_t maxInMemory, const std::optional<Box>& region = {}) {
-        auto field = readFiles(files, ReadOptions{.maxInMemory = maxInMemory, .region = region});
+        auto field = readFiles(files, FieldReadOptions{.maxInMemory = maxInMemory, .region = region});
         EXPECT_TRUE(field) << field.error().message;
         return std::move(*field);
     };
@@ -374,7 +375,7 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
     EXPECT_EQ(whole.imageLevel, (ImageLevel{0, 2}));
     EXPECT_EQ(overview.imageLevel, (ImageLevel{1, 2}));
     EXPECT_EQ(left.imageLevel, (ImageLevel{0, 2}));
-    const auto named = readFiles(files, ReadOptions{.variable = "1"});
+    const auto named = readFiles(files, FieldReadOptions{.variable = "1"});
     ASSERT_TRUE(named) << named.error().message;
     EXPECT_EQ(named->imageLevel, (ImageLevel{1, 2}));
     EXPECT_TRUE(left.isPart);

@@ -26,7 +26,7 @@ namespace oval4d::fields {
 using MappedFileMaker = std::function<Result<std::shared_ptr<MappedFile>>(std::size_t bytes)>;
 
 /// How to read a file.
-struct ReadOptions {
+struct FieldReadOptions {
     /// The axes of the array's dimensions in the order of its indices, such as "tzyx"; t means w. The last index varies
     /// fastest in memory, unless the file states otherwise. An axis that is not named gets one sample. If empty, the
     /// axes are those that the file states; if it states none, "tzyx", "zyx", "yx" or "x", depending on the number of

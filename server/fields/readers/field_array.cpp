@@ -1,4 +1,4 @@
-#include "fields/readers/read_field.hpp"
+#include "fields/readers/field_array.hpp"
 
 #include <stdexcept>
 
