@@ -17,7 +17,7 @@ class MeteredSession {
 
     const AddressAccountPtr& client() const { return client_; }
 
-    /// Adjusts the reserved bytes to the memory of the session after a command. If that would exceed a limit on the
+    /// Adjusts the reserved bytes to the memory of the session after a command. If they would exceed a limit on the
     /// bytes held for clients, removes the older half of the undo steps, and reserves the memory of the remaining
     /// session, even if it exceeds the limit. `objectsChanged`: whether the command may have added, removed or replaced
     /// objects of the session.

@@ -14,11 +14,11 @@ class MotionTiming {
     using Clock = std::chrono::steady_clock;
     /// The least time between two steps, and the time that the first step covers.
     static constexpr auto kInterval = std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1)) / 60;
-    /// The longest time that a step covers. This limit prevents a large jump of the object after a pause, or for a
+    /// The longest time that a step covers. This limit prevents a large jump after a pause, or for a
     /// client that shows only one picture per second.
     static constexpr Clock::duration kLongestStep = std::chrono::milliseconds(250);
 
-    /// Records that the object makes a step now, if one is due. Returns the time that the step covers, or an empty
+    /// Records that the motion makes a step now, if one is due. Returns the time that the step covers, or an empty
     /// optional if no step is due yet.
     std::optional<Clock::duration> step(Clock::time_point now) {
         if (last_ && now < due()) return std::nullopt;
@@ -28,11 +28,11 @@ class MotionTiming {
     }
     /// Returns when the next step is due. The caller must ensure that a step was made since the last stop().
     Clock::time_point due() const { return *last_ + kInterval; }
-    /// Records that the object does not move.
+    /// Records that nothing moves.
     void stop() { last_.reset(); }
 
   private:
-    std::optional<Clock::time_point> last_;  // when the last step was made; empty if the object does not move
+    std::optional<Clock::time_point> last_;  // when the last step was made; empty if nothing moves
 };
 
 }  // namespace oval4d::net

@@ -8,7 +8,7 @@ void Pacing::recordSent(std::uint64_t revision) {
 }
 
 void Pacing::recordWritten(std::uint64_t revision, Clock::time_point now) {
-    for (Picture& picture : unshown_) {
+    for (UnshownPicture& picture : unshown_) {
         if (picture.revision == revision) picture.written = now;
     }
 }

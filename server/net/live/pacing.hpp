@@ -38,12 +38,12 @@ class Pacing {
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:
-    struct Picture {
+    struct UnshownPicture {
         std::uint64_t revision;
         std::optional<Clock::time_point> written;  // empty until the picture is written to the socket
     };
     std::optional<std::uint64_t> newest_;
-    std::deque<Picture> unshown_;  // pictures sent but not shown, the oldest first
+    std::deque<UnshownPicture> unshown_;  // pictures sent but not shown, the oldest first
 };
 
 }  // namespace oval4d::net

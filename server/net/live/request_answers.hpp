@@ -38,8 +38,8 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
                    std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
                    std::shared_ptr<ObjectLoading> loading);
 
-    /// Answers a `get`, and returns when it is answered. However, if it asks for critical values of w, returns at once
-    /// and answers later. Does nothing if the client was not added to the publisher.
+    /// Answers a request `get`, and returns when the answer is sent. However, if the request asks for critical values
+    /// of w, returns at once and answers later. Does nothing if the client was not added to the publisher.
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     void answer(Peer& peer, const wire::Measure& measure, RequestId id);
     void answer(Peer& peer, const wire::Ping& ping, RequestId id);

@@ -139,7 +139,7 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Ad
                           const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (const auto found = live_.find(credentials.id); found != live_.end()) {
-        LiveEntry& live = found->second;
+        SessionWithClients& live = found->second;
         const auto session = live.session;
         const bool authorized = store::equalInConstantTime(credentials.token, session->credentials().token);
         if (authorized) ++live.clients;
@@ -291,7 +291,7 @@ std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials 
     const std::string id = credentials.id;
     auto session =
         std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), fence, client, std::move(value));
-    live_.emplace(id, LiveEntry{session, 1});
+    live_.emplace(id, SessionWithClients{session, 1});
     byClient_.recordOpened(id, client->name());
     return session;
 }

@@ -49,7 +49,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
 
   private:
     // A session with clients.
-    struct LiveEntry {
+    struct SessionWithClients {
         std::shared_ptr<LiveSession> session;
         int clients = 0;  // number of clients; the session is closed when it reaches 0
     };
@@ -85,8 +85,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
 
     const Services services_;
     mutable std::mutex mutex_;
-    std::map<std::string, LiveEntry, std::less<>> live_;  // guarded by mutex_
-    SessionsByClient byClient_;                           // guarded by mutex_
+    std::map<std::string, SessionWithClients, std::less<>> live_;  // guarded by mutex_
+    SessionsByClient byClient_;                                    // guarded by mutex_
     // The sessions that are being fetched from the store, by id, each with the calls of join() that wait for it, except
     // the call that started the fetch. Guarded by mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;

@@ -211,7 +211,7 @@ void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
         job = std::move(*queuedJob_);
         queuedJob_.reset();
     }
-    JobResult result{job.number, job.revision, job.quality, job.snapshot, {}, {}};
+    RevisionPictures result{job.number, job.revision, job.quality, job.snapshot, {}, {}};
     if (job.section) pipeline.keepFocusSection(*job.section);
     for (const StreamKey& key : job.wanted) {
         try {
@@ -244,7 +244,7 @@ void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const 
 /// Sends the pictures that a worker has made. Sends them even if the session has changed in the meantime, because they
 /// are newer than the pictures that the clients have. So when changes are very frequent, clients still see every
 /// picture that the workers have time to make.
-void SessionPublisher::onJobDone(JobResult result) {
+void SessionPublisher::onJobDone(RevisionPictures result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
     if (result.snapshot && !isSectionNamed()) section_ = result.snapshot->section;

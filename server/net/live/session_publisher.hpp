@@ -117,8 +117,8 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         std::vector<StreamKey> wanted;                 // the pictures to make
         std::optional<slicing::NamedSection> section;  // PictureStreams::section_ when the job was created
     };
-    // The result of a RevisionPicturesJob.
-    struct JobResult {
+    // The result of a RevisionPicturesJob: the pictures of a revision that it has made, and those that have failed.
+    struct RevisionPictures {
         std::uint64_t job = 0;  // number of the job
         std::uint64_t revision = 0;
         slicing::Quality quality = slicing::Quality::full;
@@ -138,7 +138,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     void requestPictures(std::vector<StreamKey> wanted);
     const Subscriber& subscriberToCharge(const std::vector<StreamKey>& wanted) const;
     void scheduleRetry();
-    void onJobDone(JobResult result);
+    void onJobDone(RevisionPictures result);
     void sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture);
     void requestState(const Subscriber& subscriber);
     void onStateMade(const SnapshotPtr& made);

@@ -27,14 +27,14 @@ void SessionSaver::saveNow(store::SaveCallback written) {
     if (!detached_) writeBehind_.save(id_, fence_, *session_, SaveScope::whole, std::move(written));
 }
 
-std::optional<SessionSaver::Write> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
+std::optional<SessionSaver::WriteFunction> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
     if (writeBehind_.writePolicy() != WritePolicy::at_once) return std::nullopt;
     // The head of a record is saved without objects, so a new object requires a save of the whole session.
     return writeOf(hasNewObject ? SaveScope::whole : SaveScope::head);
 }
 
 /// Returns a function that writes the session as it is now, or only its head (the state and the revision).
-SessionSaver::Write SessionSaver::writeOf(SaveScope scope) {
+SessionSaver::WriteFunction SessionSaver::writeOf(SaveScope scope) {
     session::Session value;
     if (scope == SaveScope::whole) {
         value = *session_;

@@ -25,7 +25,7 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     static constexpr std::chrono::milliseconds kDelay{250};
 
     /// Hands a value of the session to the store, which calls `written` as WriteBehindStore::save() does.
-    using Write = std::function<void(store::SaveCallback written)>;
+    using WriteFunction = std::function<void(store::SaveCallback written)>;
 
     /// `fence`: the fence with which the session was created in the store or fetched from it (see store::Fence).
     /// `session`: the session, which the caller changes on `strand`. `clock` measures the delay.
@@ -44,14 +44,14 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     /// else returns an empty optional. `hasNewObject`: whether the change has added or replaced an object of the
     /// session. If the session is detached when the function is called, it writes nothing, and calls its argument with
     /// `false`.
-    std::optional<Write> writeBeforeAcknowledgment(bool hasNewObject);
+    std::optional<WriteFunction> writeBeforeAcknowledgment(bool hasNewObject);
 
     /// Makes this object never write the session to the store again.
     void detach() { detached_ = true; }
     bool isDetached() const { return detached_; }
 
   private:
-    Write writeOf(store::WriteBehindStore::SaveScope scope);
+    WriteFunction writeOf(store::WriteBehindStore::SaveScope scope);
 
     store::WriteBehindStore& writeBehind_;
     const std::string id_;

@@ -15,21 +15,21 @@ void SessionsByClient::recordOpened(const std::string& id, const std::string& cl
 void SessionsByClient::recordClosed(const std::string& id, bool unmodified, Clock::time_point now) {
     const auto found = sessions_.find(id);
     if (found == sessions_.end()) return;
-    SessionInfo& entry = found->second;
-    entry.closed = ++last_;
-    entry.unmodified = unmodified;
-    entry.expires = now + expiry_;
-    closed_.emplace(entry.closed, id);
+    RecordedSession& session = found->second;
+    session.closed = ++last_;
+    session.unmodified = unmodified;
+    session.expires = now + expiry_;
+    closed_.emplace(session.closed, id);
     if (!unmodified) return;
-    unmodified_.emplace(entry.closed, id);
-    clients_[entry.client].unmodified.emplace(entry.closed, id);
+    unmodified_.emplace(session.closed, id);
+    clients_[session.client].unmodified.emplace(session.closed, id);
 }
 
-void SessionsByClient::reopen(SessionInfo& entry) {
-    closed_.erase(entry.closed);
-    unmodified_.erase(entry.closed);
-    clients_[entry.client].unmodified.erase(entry.closed);
-    entry.closed = 0;
+void SessionsByClient::reopen(RecordedSession& session) {
+    closed_.erase(session.closed);
+    unmodified_.erase(session.closed);
+    clients_[session.client].unmodified.erase(session.closed);
+    session.closed = 0;
 }
 
 void SessionsByClient::remove(const std::string& id) {

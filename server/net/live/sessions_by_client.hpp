@@ -37,7 +37,7 @@ class SessionsByClient {
     std::optional<std::string> firstClosedUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:
-    struct SessionInfo {
+    struct RecordedSession {
         std::string client;
         std::uint64_t closed = 0;  // position in the order in which sessions were closed, from 1; 0 while open
         bool unmodified = false;
@@ -45,20 +45,20 @@ class SessionsByClient {
     };
     struct ClientSessions {
         std::size_t sessions = 0;
-        std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by SessionInfo::closed
+        std::map<std::uint64_t, std::string> unmodified;  // unmodified closed sessions: ids by RecordedSession::closed
     };
-    using SessionsById = std::map<std::string, SessionInfo, std::less<>>;
+    using SessionsById = std::map<std::string, RecordedSession, std::less<>>;
 
     void expire(Clock::time_point now);
-    void reopen(SessionInfo& entry);
+    void reopen(RecordedSession& session);
     void erase(SessionsById::iterator session);
 
     const Clock::duration expiry_;
     SessionsById sessions_;
     std::map<std::string, ClientSessions, std::less<>> clients_;  // by client name
-    std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by SessionInfo::closed
-    std::map<std::uint64_t, std::string> unmodified_;  // unmodified closed sessions: ids by SessionInfo::closed
-    std::uint64_t last_ = 0;                           // the last value given to SessionInfo::closed
+    std::map<std::uint64_t, std::string> closed_;                 // closed sessions: ids by RecordedSession::closed
+    std::map<std::uint64_t, std::string> unmodified_;  // unmodified closed sessions: ids by RecordedSession::closed
+    std::uint64_t last_ = 0;                           // the last value given to RecordedSession::closed
 };
 
 }  // namespace oval4d::net

@@ -70,7 +70,7 @@ struct SavedSession {
         EXPECT_TRUE(done.get_future().get());
     }
     /// Calls `write`, and returns the argument of its callback: whether the session is or will be written.
-    static bool resultOf(const SessionSaver::Write& write) {
+    static bool resultOf(const SessionSaver::WriteFunction& write) {
         std::promise<bool> done;
         write([&](bool written) { done.set_value(written); });
         return done.get_future().get();
