@@ -44,7 +44,7 @@ import { executePageCommand } from "./page_commands";
 import { PhoneDialog } from "./phone_dialog";
 import { PolytopePicker } from "./picker";
 import type { HitTester } from "./picture/hit_tester";
-import { type Mode, Stage } from "./picture/stage";
+import { type RenderingMode, Stage } from "./picture/stage";
 import { PointedLabel } from "./pointed_label";
 import { Pointing } from "./pointing";
 import { PrintView } from "./print_view";
@@ -394,7 +394,7 @@ export class App {
         this.connection.stateShown(state.revision);
     }
 
-    private picturePresented(revision: number, by: Mode): void {
+    private picturePresented(revision: number, by: RenderingMode): void {
         this.client.shown(revision);
         this.keyRepeatLimiter.picturePresented(revision);
         this.latency.picturePresented(revision, by);
@@ -410,7 +410,7 @@ export class App {
         }, kResizeDelay);
     }
 
-    private modeChanged(mode: Mode): void {
+    private modeChanged(mode: RenderingMode): void {
         this.framePointing.reset();
         showModePressed(mode);
         this.updateStreamAndConnection();

@@ -2,6 +2,7 @@
 
 import type { CatalogueEntry } from "@oval4d/protocol";
 
+/** A family of polytopes, and those of its entries that were found. */
 export interface Family {
     name: string;
     entries: CatalogueEntry[];

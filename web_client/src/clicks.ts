@@ -2,9 +2,9 @@
 
 import type { Command, PolytopeElement, State } from "@oval4d/protocol";
 
-import { ElementMenu, type MenuItem } from "./element_menu";
+import { ElementMenu, type ElementMenuItem } from "./element_menu";
 import { capitalize } from "./format";
-import type { Point } from "./hover";
+import type { AreaPoint } from "./hover";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import { isElement, type Pointing } from "./pointing";
@@ -24,7 +24,7 @@ interface ClickActions {
      * Moves the focus point to the point that a panel of the matrix shows at the point `at` of the drawing; returns
      * false if no panel is there.
      */
-    moveFocusPoint: (at: Point) => boolean;
+    moveFocusPoint: (at: AreaPoint) => boolean;
     send: (command: Command) => void;
     exportElement: (element: PolytopeElement) => void;
 }
@@ -49,7 +49,7 @@ export class Clicks {
      * removes the highlight. The point is in pixels of the drawing. `isTap` tells that the click was made by a finger;
      * the name of the element or surface is then shown, too.
      */
-    async click({ x, y }: Point, isTap: boolean): Promise<void> {
+    async click({ x, y }: AreaPoint, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;
         const ratio = size.height / this.drawing.clientHeight;
         const hitTester = await this.actions.hitTester();
@@ -74,13 +74,13 @@ export class Clicks {
     }
 
     /** Highlights the element at a point of the drawing; opens its menu. Resolves to false if no element is there. */
-    async highlightAndOpenMenu(at: Point): Promise<boolean> {
+    async highlightAndOpenMenu(at: AreaPoint): Promise<boolean> {
         const hitTester = await this.actions.hitTester();
         const pointed = hitTester && this.pointing.partAt(at.x, at.y, hitTester);
         if (!pointed || !isElement(pointed)) return false;
         const { element, number, slice } = pointed;
         this.actions.send({ type: "set", highlight: { element, number } });
-        const command = (label: string, line: string): MenuItem => ({
+        const command = (label: string, line: string): ElementMenuItem => ({
             label,
             act: () => this.actions.send({ type: "command", line }),
         });

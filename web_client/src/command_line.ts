@@ -1,7 +1,7 @@
 // The command line, with a history and completion.
 
 import { byId, element } from "./element";
-import { type Completions, commonPrefix, completionsOf, type Names } from "./completion";
+import { commonPrefix, type CompletableNames, type Completions, completionsOf } from "./completion";
 import { toSentence } from "./format";
 import { readStored, writeStored } from "./storage";
 
@@ -16,7 +16,7 @@ export interface CommandLineEvents {
     /** Called if a line fails after the command line was closed, or closed and opened again. */
     failedLater(error: Error): void;
     /** Returns the names that can complete a line, such as those of polytopes and keys. */
-    names(): Names;
+    names(): CompletableNames;
 }
 
 /** Completions between which Tab cycles. */

@@ -7,7 +7,7 @@ import { kCommands, kElementKinds, kPlanes, kSettings } from "./commands";
 import { kFormats } from "./export_formats";
 
 /** The names that depend on the session and on the server. */
-export interface Names {
+export interface CompletableNames {
     polytopes: Catalogue;
     /** The kinds of cells of the polytope that is shown. */
     kinds: string[];
@@ -27,7 +27,7 @@ const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that th
 const kOfRestOfLine = ["polytope", "kind"];
 
 /** The completions at the end of the text `line`, which ends at the caret. */
-export function completionsOf(line: string, names: Names): Completions {
+export function completionsOf(line: string, names: CompletableNames): Completions {
     const [, before = "", verb = "", blanks = "", rest = ""] = /^(\s*:?\s*)(\S*)(\s*)(.*)$/s.exec(line) ?? [];
     const command = kCommands.find(({ name }) => name === verb);
     if (blanks === "") {
@@ -44,7 +44,7 @@ export function completionsOf(line: string, names: Names): Completions {
 }
 
 /** The completions of the last word of `set NAME=VALUE …`. */
-function settingCompletions(line: string, start: number, rest: string, names: Names): Completions {
+function settingCompletions(line: string, start: number, rest: string, names: CompletableNames): Completions {
     // The value of `polytope` may contain blanks if `polytope` is the only setting in the line.
     const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
     if (name !== "") return completionsUnlessComplete(line, line.length - value.length, valuesOf(name, value, names));
@@ -56,7 +56,7 @@ function settingCompletions(line: string, start: number, rest: string, names: Na
  * The texts that begin with `typed`: names of the kind `kind`, such as "planes"; if there is no such kind of names,
  * values of the setting `kind`.
  */
-function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Names): string[] {
+function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: CompletableNames): string[] {
     if (kind === "polytope") return polytopeNames(polytopes, typed);
     const lists: Record<string, string[]> = {
         planes: kPlanes,

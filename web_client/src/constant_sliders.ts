@@ -5,14 +5,15 @@ import { constantsOf, rangeFor, textOfSliderValue, valuesOfTexts, withConstant }
 
 const kDigits = 4; // significant digits of the values beside the sliders
 
-interface Row {
+/** The slider of a constant, with the value beside it; `step` is that of the slider. */
+interface SliderRow {
     slider: HTMLInputElement;
     value: HTMLOutputElement;
     step: number;
 }
 
 export class ConstantSliders {
-    private readonly rows = new Map<string, Row>(); // by the constant's name
+    private readonly rows = new Map<string, SliderRow>(); // by the constant's name
     private readonly values = new Map<string, number>(); // of texts such as "pi/2", as the server has computed them
     private formula = "";
 
@@ -43,7 +44,7 @@ export class ConstantSliders {
         for (const { name, value } of constants) this.show(this.rows.get(name)!, value);
     }
 
-    private show(row: Row, value: number): void {
+    private show(row: SliderRow, value: number): void {
         const { slider } = row;
         if (slider.min === "" || value < Number(slider.min) || value > Number(slider.max)) {
             const { min, max, step } = rangeFor(value);
@@ -54,7 +55,7 @@ export class ConstantSliders {
         slider.value = String(value);
     }
 
-    private makeRow(name: string): Row {
+    private makeRow(name: string): SliderRow {
         const slider = element("input", { type: "range", "data-constant": name, "aria-label": name });
         const value = element("output");
         element("label", {}, element("i", { "aria-hidden": "true" }, name), slider, value);

@@ -1,9 +1,10 @@
 // The menu of an element of the polytope: what can be done with the element. Opens at a right click or a long press.
 
 import { byId, element } from "./element";
-import type { Point } from "./hover";
+import type { AreaPoint } from "./hover";
 
-export interface MenuItem {
+/** What the menu offers; `act` does it. */
+export interface ElementMenuItem {
     label: string;
     act(): void;
 }
@@ -13,7 +14,7 @@ const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1 };
 
 export class ElementMenu {
     private readonly menu = byId("element-menu");
-    private at: Point = { x: 0, y: 0 }; // where the menu was opened
+    private at: AreaPoint = { x: 0, y: 0 }; // where the menu was opened
 
     constructor(private readonly drawing: HTMLElement) {
         document.addEventListener("pointerdown", ({ target }) => this.menu.contains(target as Node) || this.hide());
@@ -23,7 +24,7 @@ export class ElementMenu {
     }
 
     /** Opens the menu at a point of the drawing, with the focus on its first item. */
-    open(title: string, at: Point, items: MenuItem[]): void {
+    open(title: string, at: AreaPoint, items: ElementMenuItem[]): void {
         const buttons = items.map(({ label, act }) => {
             const button = element("button", { type: "button", role: "menuitem", tabindex: "-1" }, label);
             button.addEventListener("click", () => {

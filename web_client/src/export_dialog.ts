@@ -5,7 +5,7 @@ import type { Background, Client, ExportedFile, FileOptions, State, Viewport } f
 import { Dialog } from "./dialog";
 import { download, fileName } from "./download";
 import { byId, element } from "./element";
-import { type Format, kFormats } from "./export_formats";
+import { type ExportFormat, kFormats } from "./export_formats";
 import { focusW, toSentence } from "./format";
 import { readStored, writeStored } from "./storage";
 
@@ -14,7 +14,7 @@ const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 
 /** The options of a file, without its format; see the message `get`. */
 type OptionValue = string | number | boolean;
-type Options = Record<string, OptionValue>;
+type ChosenOptions = Record<string, OptionValue>;
 const kOptions: Record<string, (value: string) => OptionValue> = {
     of: String,
     body: String,
@@ -164,7 +164,7 @@ export class ExportDialog {
         return this.form.elements.namedItem(name) as HTMLInputElement;
     }
 
-    private get format(): Format {
+    private get format(): ExportFormat {
         return kAllFormats.find(({ name }) => name === this.chosenValue("format")) ?? kAllFormats[0]!;
     }
 
@@ -243,7 +243,7 @@ export class ExportDialog {
      * Offers the contents that files of the format can have. If the chosen contents are not among them, chooses the
      * default of the format.
      */
-    private offerContents(format: Format): void {
+    private offerContents(format: ExportFormat): void {
         const all = this.state?.field ? format.forFields.of : format.of;
         const of = all.filter((one) => one !== "highlight" || this.state?.highlight);
         if (of.length > 0 && !of.includes(this.chosenValue("of"))) this.formField("of").value = of[0]!;
@@ -256,7 +256,7 @@ export class ExportDialog {
      * Offers a choice of slices only if the whole oval is exported. Shows the text field, `fit` or `at`, that belongs
      * to the choice.
      */
-    private offerSliceChoices({ choices }: Format): void {
+    private offerSliceChoices({ choices }: ExportFormat): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=slices]")!;
         set.hidden = set.disabled = !choices.includes("of") || this.chosenValue("of") !== "oval";
         for (const name of ["fit", "at"]) {
@@ -281,7 +281,7 @@ export class ExportDialog {
     }
 
     /** Offers exact surfaces only for files with surfaces of a field. */
-    private offerExact({ choices }: Format): void {
+    private offerExact({ choices }: ExportFormat): void {
         const set = this.form.querySelector<HTMLFieldSetElement>("[data-choice=exact]")!;
         const hasSurfaces =
             choices.includes("exact") &&
@@ -310,7 +310,7 @@ export class ExportDialog {
     }
 
     /** The chosen options. Fields that the format does not use are disabled, and therefore omitted. */
-    private get options(): Options {
+    private get options(): ChosenOptions {
         const { side, ...values } = this.formValues(); // `side` is the size of a drawing
         const all = side === undefined ? values : { ...values, size: side };
         const chosen = Object.entries(all).filter(([name]) => name in kOptions);
@@ -321,7 +321,7 @@ export class ExportDialog {
      * Requests the state and a file. The state is the one that the file shows, because the server executes the two
      * requests one after the other.
      */
-    private async requestFile({ name: format }: Format, options: Options): Promise<RequestedFile> {
+    private async requestFile({ name: format }: ExportFormat, options: ChosenOptions): Promise<RequestedFile> {
         const state = this.client.request({ type: "get", what: "state" });
         if (format !== "png") {
             const chosen = options as unknown as Partial<FileOptions>;
@@ -338,7 +338,7 @@ export class ExportDialog {
         return [{ bytes, warnings: [] }, shown];
     }
 
-    private saveFile([{ bytes, warnings }, state]: RequestedFile, format: Format, options: Options): void {
+    private saveFile([{ bytes, warnings }, state]: RequestedFile, format: ExportFormat, options: ChosenOptions): void {
         download(bytes, fileNameFor(state, format, options), format.type);
         this.warn(warnings);
     }
@@ -356,7 +356,11 @@ export class ExportDialog {
     }
 }
 
-function fileNameFor(state: State, { name, choices }: Format, { of, fit, at, body, exact }: Options): string {
+function fileNameFor(
+    state: State,
+    { name, choices }: ExportFormat,
+    { of, fit, at, body, exact }: ChosenOptions,
+): string {
     const parts = [state.polytope.name];
     if (fit !== undefined) parts.push(`${fit} slices`);
     else if (at !== undefined) parts.push("slices");
@@ -382,8 +386,8 @@ function switchOf(text: string): boolean {
 }
 
 /** Parses options from words such as "fit=5"; throws an Error if a word is not an option. */
-function optionsOf(words: string[]): Options {
-    const options: Options = {};
+function optionsOf(words: string[]): ChosenOptions {
+    const options: ChosenOptions = {};
     for (const word of words) {
         const [, name = "", text = ""] = /^(\w+)=(.+)$/.exec(word) ?? [];
         if (!Object.hasOwn(kOptions, name)) {
@@ -401,13 +405,13 @@ function optionsOf(words: string[]): Options {
  * The chosen options, with `changes` applied. If `changes` contains `of`, `at` or `fit`, the chosen values of all three
  * are discarded.
  */
-function withChanges({ of, at, fit, ...others }: Options, changes: Options): Options {
+function withChanges({ of, at, fit, ...others }: ChosenOptions, changes: ChosenOptions): ChosenOptions {
     const changesSlices = ["of", "at", "fit"].some((name) => name in changes);
     const kept = { ...(of !== undefined && { of }), ...(at !== undefined && { at }), ...(fit !== undefined && { fit }) };
     return { ...others, ...(changesSlices ? {} : kept), ...changes };
 }
 
-function formatButtons(title: string, formats: Format[]): HTMLElement {
+function formatButtons(title: string, formats: ExportFormat[]): HTMLElement {
     const radios = formats.map(({ name, label }) => {
         const radio = element("input", { type: "radio", name: "format", value: name, checked: name === "3mf" });
         return element("label", {}, radio, element("span", {}, label));

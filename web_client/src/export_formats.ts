@@ -4,7 +4,7 @@ import table from "../../protocol/export_formats.json";
 
 export type ExportOption = "of" | "body" | "size" | "label" | "exact" | "side" | "pixels" | "background";
 
-export interface Format {
+export interface ExportFormat {
     /** The name in the protocol, which is also the file name extension. */
     name: string;
     label: string;
@@ -26,7 +26,7 @@ export interface Format {
 }
 
 const kAboutPng = "The picture; scripts can restore its state from the file";
-const kPng: Format = {
+const kPng: ExportFormat = {
     name: "png",
     label: "PNG",
     about: kAboutPng,
@@ -36,12 +36,13 @@ const kPng: Format = {
     forFields: { about: kAboutPng, of: [] },
 };
 
-export const kFormats: { title: string; formats: Format[] }[] = table.groups.map(({ name: group, title }) => ({
+export const kFormats: { title: string; formats: ExportFormat[] }[] = table.groups.map(({ name: group, title }) => ({
     title,
     formats: [...(group === "figure" ? [kPng] : []), ...table.formats.filter((row) => row.group === group).map(format)],
 }));
 
-interface Row {
+/** A row of protocol/export_formats.json, which describes its members. */
+interface FormatTableRow {
     name: string;
     label: string;
     about: string;
@@ -55,7 +56,7 @@ interface Row {
     objects?: string;
 }
 
-function format(row: Row): Format {
+function format(row: FormatTableRow): ExportFormat {
     const { name, label, about, of, objects } = row;
     return {
         name,
@@ -69,7 +70,7 @@ function format(row: Row): Format {
     };
 }
 
-function choicesOf(row: Row): ExportOption[] {
+function choicesOf(row: FormatTableRow): ExportOption[] {
     const exact = row.surfaces ? ["exact" as const] : [];
     if (row.bodies) return ["of", "body", ...exact, "size", "label"];
     const side = row.group === "figure" ? ["side" as const] : [];

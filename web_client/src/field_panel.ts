@@ -173,10 +173,7 @@ export class FieldPanel {
         this.typedFields.set(this.ownText, loaded);
     }
 
-    /**
-     * Shows the formula of a state if it is not the one that this page loaded last: for example, if undo has restored
-     * it.
-     */
+    /** Shows the formula of a state, unless it is the formula that this page loaded last: for example, after undo. */
     private showForeignFormula(state: State): void {
         this.recordServerText();
         const text = formulaKeyOf(state);

@@ -63,9 +63,9 @@ export function quantityOfColors({ field }: State): Quantity {
 }
 
 /**
- * The w of the focus slice and, in parentheses, where it is in the box of a field: "0.25 (130 s)", or "0.25 (x 0.5 m)"
- * if it is perpendicular to the axis x of the box. Without parentheses if that is w itself, without a unit, or if the
- * slice is perpendicular to no axis of the box.
+ * The w of the focus slice and, in parentheses, the coordinate that all points of the slice have in the box of a field:
+ * "0.25 (130 s)", or "0.25 (x 0.5 m)" if the slice is perpendicular to the axis x of the box. Without parentheses if
+ * this coordinate is w itself, without a unit, or if the slice is perpendicular to no axis of the box.
  */
 export function focusWithPlace(state: State): string {
     const { section, field } = state;

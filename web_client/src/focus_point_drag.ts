@@ -3,13 +3,13 @@
 import type { SectionMatrix } from "@oval4d/protocol";
 
 import type { FocusPointControl } from "./focus_point_control";
-import { followHover, type Point } from "./hover";
+import { followHover, type AreaPoint } from "./hover";
 import { type MatrixPanel, panelAt } from "./picture/matrix_panel";
 import type { Stage } from "./picture/stage";
 
 export class FocusPointDrag {
     private panel: MatrixPanel | undefined; // the panel in which the drag began
-    private hovering: Point | undefined; // where the mouse hovers
+    private hovering: AreaPoint | undefined; // where the mouse hovers
 
     /**
      * `matrix` returns the matrix of planar sections in the picture; undefined if the picture has none, or while the
@@ -33,12 +33,12 @@ export class FocusPointDrag {
     }
 
     /** Whether a point of the drawing, in pixels, is in a panel. */
-    canMoveTo(at: Point): boolean {
+    canMoveTo(at: AreaPoint): boolean {
         return this.panelAt(at) !== undefined;
     }
 
     /** Begins a drag; returns false if there is no panel at this point of the drawing. */
-    begin(at: Point): boolean {
+    begin(at: AreaPoint): boolean {
         this.panel = this.panelAt(at);
         this.showCursor(at);
         if (!this.panel) return false;
@@ -47,7 +47,7 @@ export class FocusPointDrag {
     }
 
     /** Continues the drag. If the pointer leaves the panel, the focus point stays at the edge of the panel. */
-    dragTo(at: Point): void {
+    dragTo(at: AreaPoint): void {
         if (this.panel) this.moveIn(this.panel, at);
     }
 
@@ -55,7 +55,7 @@ export class FocusPointDrag {
      * Moves the focus point to the point that a panel shows at the point `at` of the drawing; returns false if no panel
      * is there.
      */
-    moveTo(at: Point): boolean {
+    moveTo(at: AreaPoint): boolean {
         const panel = this.panelAt(at);
         if (!panel) return false;
         this.focusPointControl.begin();
@@ -63,25 +63,25 @@ export class FocusPointDrag {
         return true;
     }
 
-    private moveIn(panel: MatrixPanel, at: Point): void {
+    private moveIn(panel: MatrixPanel, at: AreaPoint): void {
         const { x, y } = this.pixelOf(at);
         const [across, up] = panel.coordinatesAt(x, y);
         this.focusPointControl.move([[panel.column, across], [panel.row, up]]);
     }
 
-    private panelAt(at: Point): MatrixPanel | undefined {
+    private panelAt(at: AreaPoint): MatrixPanel | undefined {
         const matrix = this.matrix();
         const { x, y } = this.pixelOf(at);
         return matrix && panelAt(matrix, x, y, this.stage.size);
     }
 
     /** Converts a point of the drawing, in CSS pixels, to pixels of the picture. */
-    private pixelOf({ x, y }: Point): Point {
+    private pixelOf({ x, y }: AreaPoint): AreaPoint {
         const ratio = this.stage.size.height / this.drawing.clientHeight;
         return { x: x * ratio, y: y * ratio };
     }
 
-    private showCursor(at: Point): void {
+    private showCursor(at: AreaPoint): void {
         this.drawing.toggleAttribute("data-panel", this.canMoveTo(at));
     }
 }

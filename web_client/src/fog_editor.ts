@@ -16,7 +16,8 @@ const kTypingDelay = 150; // milliseconds from the last change by typing until i
 const [kWidth, kHeight, kMargin] = [240, 96, 9]; // the size and margin of the curve, in units of its viewBox
 const kSvg = "http://www.w3.org/2000/svg";
 
-interface Row {
+/** The fields of a control point, and the button that removes it. */
+interface ControlPointRow {
     root: HTMLElement;
     value: HTMLInputElement;
     opacity: HTMLInputElement;
@@ -35,7 +36,7 @@ export class FogEditor {
     private readonly offButton = byId<HTMLButtonElement>("fog-off");
     private readonly changes = new NewestOnly<{ fog: FogControlPoint[]; drag?: number }>((change) => this.apply(change));
     private readonly lastChange = new OldStateDetector();
-    private rows: Row[] = [];
+    private rows: ControlPointRow[] = [];
     private points: FogControlPoint[] = []; // what the editor shows
     private state: State | undefined;
     private field = ""; // fieldKeyOf() of the state
@@ -244,7 +245,7 @@ export class FogEditor {
         if (isValid) this.change(points, kTypingDelay);
     }
 
-    private makeRow(i: number): Row {
+    private makeRow(i: number): ControlPointRow {
         const field = (name: string): HTMLInputElement => {
             const input = element("input", {
                 ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false" },

@@ -10,7 +10,7 @@
 import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
 import type { LevelDescription } from "./field_samples";
-import { followHover, type Point } from "./hover";
+import { followHover, type AreaPoint } from "./hover";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
 import type { Stage } from "./picture/stage";
 
@@ -21,8 +21,8 @@ const kNear = 8; // pixels: an answer is not shown if the pointer has moved fart
 const kFollow = 24;
 
 export class FramePointing {
-    private pointer: Point | undefined;
-    private named: Point | undefined; // the point whose element the label names
+    private pointer: AreaPoint | undefined;
+    private named: AreaPoint | undefined; // the point whose element the label names
     private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
     private asked = ""; // the pixel of the last request about the present picture, as "x y"; "" if there was none
     private isAsking = false;
@@ -66,7 +66,7 @@ export class FramePointing {
         if (!this.isAsking) void this.ask();
     }
 
-    private moved(at: Point | undefined): void {
+    private moved(at: AreaPoint | undefined): void {
         this.pointer = at;
         if (!at || (this.named && distance(at, this.named) > kFollow)) {
             this.hide();
@@ -97,7 +97,7 @@ export class FramePointing {
      * The pixel of the picture to ask about next; undefined if the page has asked about it already, or must not ask
      * now.
      */
-    private nextPixelToAskAbout(): Point | undefined {
+    private nextPixelToAskAbout(): AreaPoint | undefined {
         const { pointer, revision } = this;
         if (!pointer || revision === undefined || !this.isIdle(revision)) return undefined;
         const ratio = this.stage.size.height / this.drawing.clientHeight;
@@ -109,7 +109,7 @@ export class FramePointing {
     }
 
     /** Shows what is at a point, unless the picture has changed or the pointer has moved on. */
-    private answered(answer: At, at: Point): void {
+    private answered(answer: At, at: AreaPoint): void {
         const { pointer } = this;
         if (answer.revision !== this.revision || !pointer) return;
         const described = descriptionOf(answer);
@@ -162,7 +162,7 @@ export class FramePointing {
     }
 }
 
-function distance(a: Point, b: Point): number {
+function distance(a: AreaPoint, b: AreaPoint): number {
     return Math.hypot(a.x - b.x, a.y - b.y);
 }
 

@@ -5,7 +5,7 @@
 // of the matrix, dragging moves the focus point.
 
 import type { FocusPointDrag } from "./focus_point_drag";
-import type { Point } from "./hover";
+import type { AreaPoint } from "./hover";
 import type { OrbitControl } from "./orbit";
 import { type BallKind, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
@@ -23,9 +23,9 @@ export interface GestureTargets {
     rotation: RotationControl;
     focusPoint: FocusPointDrag;
     /** A click, or the tap of a finger, at a point of the drawing. */
-    click(at: Point, isTap: boolean): void;
+    click(at: AreaPoint, isTap: boolean): void;
     /** A click with the right button, or a long press of a finger, at a point. Resolves to whether a menu opened. */
-    highlightAndOpenMenu(at: Point): Promise<boolean>;
+    highlightAndOpenMenu(at: AreaPoint): Promise<boolean>;
 }
 
 export function listenForGestures(drawing: HTMLElement, targets: GestureTargets): void {
@@ -41,7 +41,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     const moved = new Set<number>(); // the fingers that have moved since the last call of moveGroup()
     let wheelAt = -Infinity; // time of the last wheel event that turned the polytope, in milliseconds
 
-    const placeOf = ({ clientX, clientY }: MouseEvent): Point => {
+    const placeOf = ({ clientX, clientY }: MouseEvent): AreaPoint => {
         const { left, top } = drawing.getBoundingClientRect();
         return { x: clientX - left, y: clientY - top };
     };

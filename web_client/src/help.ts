@@ -128,12 +128,13 @@ function commandSection(): HTMLElement {
 }
 
 /** A row of a table. filter() finds a topic in its texts and in `searchTerms`. */
-function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: RowOptions = {}): HTMLElement {
+function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: TableRowOptions = {}): HTMLElement {
     const head = element("th", { scope: "row" }, element(tag, {}, name));
     return element("tr", { "data-search-terms": searchTerms || undefined }, head, element("td", {}, text));
 }
 
-interface RowOptions {
+/** The tag of the name, and texts in which filter() also finds a topic. */
+interface TableRowOptions {
     tag?: "kbd" | "span";
     searchTerms?: string;
 }

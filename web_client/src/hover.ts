@@ -1,7 +1,7 @@
 // Tells where a mouse or pen hovers over a part of the page.
 
-/** A point of a part of the page: x to the right and y down from the part's upper left corner, in CSS pixels. */
-export interface Point {
+/** A point of an area of the page: x to the right and y down from the area's upper left corner, in CSS pixels. */
+export interface AreaPoint {
     x: number;
     y: number;
 }
@@ -10,7 +10,7 @@ export interface Point {
  * Calls `moved` with the place of the pointer in `area`, or with undefined if the pointer leaves `area`, has a button
  * down, or is a finger.
  */
-export function followHover(area: HTMLElement, moved: (at: Point | undefined) => void): void {
+export function followHover(area: HTMLElement, moved: (at: AreaPoint | undefined) => void): void {
     const follow = ({ pointerType, buttons, clientX, clientY }: PointerEvent): void => {
         const { left, top } = area.getBoundingClientRect();
         moved(pointerType === "touch" || buttons !== 0 ? undefined : { x: clientX - left, y: clientY - top });

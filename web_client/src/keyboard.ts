@@ -84,8 +84,8 @@ export class Keyboard {
     }
 
     /**
-     * Whether a key that has been typed, or that is held, is the second one of a sequence. A held key remains it when
-     * Shift is released.
+     * Whether a key that has been typed, or that is held, is the second one of a sequence. A held key remains the
+     * second one when Shift is released.
      */
     private isSecondOfSequence({ key, ctrl }: KeyStroke, held: boolean): boolean {
         if (ctrl) return false;

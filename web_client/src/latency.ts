@@ -9,7 +9,7 @@
 import { download } from "./download";
 import { byId } from "./element";
 import { readStored, writeStored } from "./storage";
-import type { Mode } from "./picture/stage";
+import type { RenderingMode } from "./picture/stage";
 
 export const kMeasure = "oval4d key to picture"; // name of the performance measures
 
@@ -23,7 +23,7 @@ interface LatencySample {
     milliseconds: number;
     revision: number;
     request: string;
-    drawnBy: Mode;
+    drawnBy: RenderingMode;
 }
 
 export class Latency {
@@ -32,7 +32,7 @@ export class Latency {
     private pending: Pick<LatencySample, "start" | "revision" | "request">[] = [];
     private presentedRevision = 0;
     private presentedAt = 0; // milliseconds, as in performance.now()
-    private presentedBy: Mode = "geometry";
+    private presentedBy: RenderingMode = "geometry";
 
     constructor() {
         this.output.hidden = readStored<boolean>(kShownKey) !== true;
@@ -56,7 +56,7 @@ export class Latency {
         this.completeSamples();
     }
 
-    picturePresented(revision: number, by: Mode): void {
+    picturePresented(revision: number, by: RenderingMode): void {
         this.presentedRevision = revision;
         this.presentedAt = performance.now();
         this.presentedBy = by;

@@ -4,15 +4,15 @@ import { kSchemeChoices, type SchemeChoice } from "./color_scheme";
 import { element } from "./element";
 import { capitalize } from "./format";
 import type { FullScreen } from "./full_screen";
-import type { Mode } from "./picture/stage";
+import type { RenderingMode } from "./picture/stage";
 import type { BallKind } from "./rolling_ball";
 import type { Tilt } from "./tilt";
 import type { ToolSection } from "./tools";
 
 export interface PageActions {
-    mode: Mode;
+    mode: RenderingMode;
     canDrawGeometry: boolean;
-    setMode(mode: Mode): void;
+    setMode(mode: RenderingMode): void;
     reset(): void;
     share(): void;
     shareWithPhone(): void;
@@ -43,7 +43,7 @@ const kTilts = new Map<BallKind, [string, string]>([
 ]);
 
 export function pageSections(actions: PageActions): ToolSection[] {
-    const renderer = (mode: Mode, label: string, title: string): HTMLElement => {
+    const renderer = (mode: RenderingMode, label: string, title: string): HTMLElement => {
         const made = button(mode, label, title, () => actions.setMode(mode));
         made.toggleAttribute("disabled", mode === "geometry" && !actions.canDrawGeometry);
         made.setAttribute("aria-pressed", String(actions.mode === mode));
@@ -107,7 +107,7 @@ export function pageSections(actions: PageActions): ToolSection[] {
 }
 
 /** Marks the button of the active mode as pressed. */
-export function showModePressed(mode: Mode): void {
+export function showModePressed(mode: RenderingMode): void {
     for (const name of ["geometry", "frames"]) {
         document.querySelector(`[data-page-tool="${name}"]`)?.setAttribute("aria-pressed", String(name === mode));
     }

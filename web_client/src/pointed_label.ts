@@ -7,7 +7,7 @@ import { byId } from "./element";
 import type { ElementMeasurements } from "./element_measurements";
 import type { FieldPoint, FieldSamples, LevelDescription } from "./field_samples";
 import { capitalize, formatCoordinate, formatFieldValue, formatLength } from "./format";
-import type { Point } from "./hover";
+import type { AreaPoint } from "./hover";
 import { spokenReferenceFrame } from "./reference_frame";
 
 /** An element, and what is known of its shape and its place. */
@@ -17,7 +17,7 @@ export interface ElementDescription extends PolytopeElement {
     /** Of a cell: the index of its kind in `polytope.kinds` of the state, if it is known without asking the server. */
     kind?: number | undefined;
     /**
-     * Of a vertex: x, y, z, w, after the rotation. Without them, the label of a vertex of a field's box has its
+     * Of a vertex: x, y, z, w, after the rotation. Without these, the label of a vertex of a field's box has its
      * coordinates in the box, which the server tells.
      */
     coordinates?: readonly number[] | undefined;
@@ -36,7 +36,7 @@ type Description = ElementDescription | LevelDescription;
 export class PointedLabel {
     private readonly label = byId("pointed");
     private shown: Description | undefined;
-    private pointer: Point = { x: 0, y: 0 };
+    private pointer: AreaPoint = { x: 0, y: 0 };
 
     /** `update` must be called when there is a new answer in `measurements` or `samples`. */
     constructor(
@@ -50,7 +50,7 @@ export class PointedLabel {
      * Shows the label of an element, or of a point of a field, beside the pointer. The label is complete when the server
      * has answered.
      */
-    show(described: Description, pointer: Point): void {
+    show(described: Description, pointer: AreaPoint): void {
         this.shown = described;
         this.pointer = pointer;
         this.label.hidden = false;
@@ -77,7 +77,7 @@ export class PointedLabel {
     }
 
     /** Places the label beside the pointer, within the drawing. */
-    place({ x, y }: Point): void {
+    place({ x, y }: AreaPoint): void {
         this.pointer = { x, y };
         const { offsetWidth: width, offsetHeight: height } = this.label;
         const { clientWidth, clientHeight } = this.drawing;

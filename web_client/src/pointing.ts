@@ -8,7 +8,7 @@ import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
 import type { ElementMeasurements } from "./element_measurements";
 import type { LevelDescription } from "./field_samples";
-import { followHover, type Point } from "./hover";
+import { followHover, type AreaPoint } from "./hover";
 import { originInFile } from "./origin";
 import { pointedElements } from "./picture/highlighted_elements";
 import { elementOfHit, type LevelHit } from "./picture/hit_test";
@@ -33,7 +33,7 @@ export function isElement(part: PointedPart): part is PointedElement {
 const kRest = 200;
 
 export class Pointing {
-    private at: Point | undefined;
+    private at: AreaPoint | undefined;
     private scheduled = false;
     private shown: PointedElement | undefined; // the element that is highlighted
     private isComplete = false; // whether everything that shows the element is highlighted
@@ -80,7 +80,7 @@ export class Pointing {
      * Shows the name of the element or the surface that a finger has tapped. The name stays until the next touch, even
      * if the picture changes, because the tap itself moves the focus slice.
      */
-    showName(tapped: PointedPart, hitTester: HitTester, at: Point): void {
+    showName(tapped: PointedPart, hitTester: HitTester, at: AreaPoint): void {
         this.isTapped = true;
         const described = isElement(tapped)
             ? this.descriptionOf(tapped, hitTester)
@@ -106,8 +106,8 @@ export class Pointing {
     }
 
     /**
-     * Shows the name of the element under the pointer, and lights it. Without an element, ends both. `isNew` tells that
-     * there is a new picture. Returns whether the picture must be drawn again.
+     * Shows the name of the element under the pointer, and lights the element. If there is none, hides the name and the
+     * light. `isNew` tells that there is a new picture. Returns whether the picture must be drawn again.
      */
     private updateElement(found: PointedElement | undefined, isNew: boolean): boolean {
         const { at, hitTester, shown } = this;
@@ -145,7 +145,7 @@ export class Pointing {
     }
 
     /** Names the level under the pointer; when the picture rests, the label also asks for the values at the point. */
-    private nameLevel(level: LevelHit, at: Point): void {
+    private nameLevel(level: LevelHit, at: AreaPoint): void {
         clearTimeout(this.resting);
         const remaining = this.restsAt - performance.now();
         this.label.show(descriptionOfLevel(level, this.hitTester!, this.state()!, remaining <= 0), at);
@@ -153,7 +153,7 @@ export class Pointing {
     }
 
     /** Records where the pointer is, and updates what is under it. */
-    private moveTo(at: Point | undefined): void {
+    private moveTo(at: AreaPoint | undefined): void {
         if (this.isTapped) this.label.hide();
         this.isTapped = false;
         if (!at && !this.at) return;

@@ -1,17 +1,18 @@
 // Who renders the pictures: this device from slices, or the server.
 
-import type { Mode, Stage } from "./picture/stage";
+import type { RenderingMode, Stage } from "./picture/stage";
 import { readStored, writeStored } from "./storage";
 
 const kModeKey = "oval4d.mode"; // storage key of the mode that the user has chosen
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 
 export class RenderingModeSwitch {
-    private chosen = readStored<Mode>(kModeKey) ?? "geometry"; // the user's choice, also while WebGL is unavailable
+    // The user's choice, also while WebGL is unavailable.
+    private chosen = readStored<RenderingMode>(kModeKey) ?? "geometry";
 
     constructor(
         private readonly stage: Stage,
-        private readonly actions: { changed: (mode: Mode) => void; tell: (message: string) => void },
+        private readonly actions: { changed: (mode: RenderingMode) => void; tell: (message: string) => void },
     ) {}
 
     /** Sets the mode for the first pictures. */
@@ -20,7 +21,7 @@ export class RenderingModeSwitch {
     }
 
     /** Sets the mode that the user has chosen; while WebGL is unavailable, refuses "geometry" with a message. */
-    choose(mode: Mode): void {
+    choose(mode: RenderingMode): void {
         if (mode === "geometry" && !this.stage.canDrawGeometry) return this.actions.tell(kNoGraphics);
         this.chosen = mode;
         writeStored(kModeKey, mode);
@@ -35,7 +36,7 @@ export class RenderingModeSwitch {
         this.set(isAvailable ? "geometry" : "frames");
     }
 
-    private set(mode: Mode): void {
+    private set(mode: RenderingMode): void {
         this.stage.mode = mode;
         this.actions.changed(mode);
     }

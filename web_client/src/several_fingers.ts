@@ -4,29 +4,30 @@
 const kMoveDeadZone = 16; // pixels
 const kTwistDeadZone = 0.15; // radians
 
+/** The place of a finger in the window, in CSS pixels. */
 export interface Finger {
     clientX: number;
     clientY: number;
 }
 
 /** A point or a vector in pixels, right and down. */
-interface Vector {
+interface ScreenVector {
     x: number;
     y: number;
 }
 
 interface FingerPlaces {
     /** The mean of the places of the fingers. */
-    center: Vector;
+    center: ScreenVector;
     /** From the center to each finger. */
-    arms: Vector[];
+    arms: ScreenVector[];
     /** The sum of the lengths of the arms; for two fingers, their distance. */
     extent: number;
 }
 
 export class SeveralFingers {
     private last: FingerPlaces;
-    private moved: Vector = { x: 0, y: 0 }; // since the fingers touched the drawing
+    private moved: ScreenVector = { x: 0, y: 0 }; // since the fingers touched the drawing
     private twisted = 0; // radians since the fingers touched the drawing
     private moves = false; // whether the movement has left its dead zone
     private twists = false; // whether the twist has left its dead zone
@@ -69,7 +70,7 @@ function placesOf(fingers: readonly Finger[]): FingerPlaces {
  * The clockwise angle of the rotation that leads from the old arms closest to the new ones, by least squares: with
  * vectors as complex numbers, the argument of the sum of all new · conjugate(old).
  */
-function rotationBetween(before: readonly Vector[], now: readonly Vector[]): number {
+function rotationBetween(before: readonly ScreenVector[], now: readonly ScreenVector[]): number {
     let [real, imaginary] = [0, 0];
     before.forEach((old, i) => {
         const { x, y } = now[i]!;

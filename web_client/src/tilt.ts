@@ -1,6 +1,7 @@
 // Turns the polytope as a phone is tilted and twisted, by the device orientation events of the W3C. The axes of a turn
 // are those of the screen as it was held at the start: a phone that is turned back to where it was has also turned each
-// slice back. Tilting turns in the planes of a drag, and twisting in that of a twist of the fingers.
+// slice back. Tilting the phone turns in the same planes as a drag, and twisting it in the same plane as a twist of the
+// fingers.
 
 import { type BallKind, turnsOfTilt } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
@@ -11,18 +12,19 @@ const kLeastTurn = 0.005;
 /** A unit quaternion: its real part, and its parts along x, y and z. */
 type Quaternion = readonly [number, number, number, number];
 
-interface Start {
+/** What a turn by tilting begins from. */
+interface TiltStart {
     /** The ball that is rolled. */
     ball: BallKind;
     /** Whether the next turn begins an undo step. */
     beginsStep: boolean;
-    /** How the screen was held at the first event, and the device at the last one that has turned the polytope. */
+    /** How the screen was held at the first event, and the device at the last event that has turned the polytope. */
     screen?: Quaternion;
     device?: Quaternion;
 }
 
 export class Tilt {
-    private on: Start | undefined;
+    private on: TiltStart | undefined;
 
     /** `changed` is called when `ball` has changed, and `failed` if the device does not tell how it is held. */
     constructor(

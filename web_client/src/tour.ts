@@ -103,7 +103,8 @@ function clampToWindow(value: number, max: number): number {
     return Math.max(kGap, Math.min(value, max));
 }
 
-interface Box {
+/** A box in the window, in CSS pixels from the window's upper left corner. */
+interface WindowBox {
     left: number;
     right: number;
     top: number;
@@ -111,7 +112,7 @@ interface Box {
 }
 
 /** Places the element `one` around a box, at the distance kRingGap, within the window. */
-function surround(one: HTMLElement, box: Box): void {
+function surround(one: HTMLElement, box: WindowBox): void {
     const left = Math.max(0, box.left - kRingGap);
     const top = Math.max(0, box.top - kRingGap);
     one.style.left = `${left}px`;

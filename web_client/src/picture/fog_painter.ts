@@ -113,7 +113,7 @@ const kTriangles = [
 ];
 
 /** The objects of one WebGL context. They are lost together with the context. */
-interface Resources {
+interface FogResources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
     arrays: WebGLVertexArrayObject;
@@ -127,7 +127,7 @@ type FogOccluders = "frame" | "surfaces";
 
 export class FogPainter {
     private picture: Slices | undefined; // the newest picture; undefined if it has no fog
-    private resources: Resources | undefined; // created when they are needed
+    private resources: FogResources | undefined; // created when they are needed
     // The depths of the occluders; created when they are needed.
     private targets: Record<FogOccluders, WebGLRenderTarget> | undefined;
     private readonly gl: WebGL2RenderingContext;
@@ -349,7 +349,7 @@ function makeTexture(gl: WebGL2RenderingContext, target: GLenum, filter: GLenum)
     return texture;
 }
 
-function makeResources(gl: WebGL2RenderingContext): Resources {
+function makeResources(gl: WebGL2RenderingContext): FogResources {
     const { program, uniforms } = makeProgram(gl, "fog", kVertexShader, kFragmentShader, kUniforms);
     const arrays = gl.createVertexArray();
     const buffers = [gl.createBuffer(), gl.createBuffer()] as const;

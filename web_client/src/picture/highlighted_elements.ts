@@ -18,8 +18,8 @@ export interface HighlightedElements {
 }
 
 /**
- * The parts of a picture that show the element under the pointer. `highlight` is what the server has answered about it;
- * until then, they are only those that were cut from the element itself.
+ * The parts of a picture that show the element under the pointer. `highlight` is the server's answer about the element;
+ * without it, the parts are only those that were cut from the element itself.
  */
 export function pointedElements(
     pointed: PolytopeElement,

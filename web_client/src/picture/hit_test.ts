@@ -14,7 +14,7 @@ import type { ViewCamera } from "./view_camera";
  * section has the kind `points`. An edge of a planar section has the kind `faces`: like a face of a slice, it is cut
  * from a cell.
  */
-export interface Hit {
+export interface ElementHit {
     kind: "vertices" | "edges" | "faces" | "points";
     /** The number in `of` (see Elements and PlanarSection), which identifies the element of the polytope. */
     source: number;
@@ -23,7 +23,7 @@ export interface Hit {
 }
 
 /** The element of the polytope that was hit. */
-export function elementOfHit({ kind, source }: Hit, counts: ElementCounts): PolytopeElement {
+export function elementOfHit({ kind, source }: ElementHit, counts: ElementCounts): PolytopeElement {
     if (kind === "points") {
         if (source < counts.faces) return { element: "face", number: source };
         return elementOfHit({ kind: "vertices", source: source - counts.faces }, counts);
@@ -76,11 +76,11 @@ interface PickableSurface {
 
 /** What was hit in a mesh, and its distance from the eye along the axis of the camera. */
 interface MeshHit {
-    hit: Hit | LevelHit;
+    hit: ElementHit | LevelHit;
     depth: number;
 }
 
-export const kReach = 4; // CSS pixels: the pointer hits a ball or bar within this distance, even if it is thinner
+export const kReach = 4; // CSS pixels: the pointer hits a ball or bar within this distance, even if they are thinner
 // For the hit test, balls and bars are moved toward the viewer by this many times their radii, so that a ball is nearer
 // than the faces around it and the bars that end in it.
 const kBallRise = 3;
@@ -106,7 +106,7 @@ export function hitAt(
     x: number,
     y: number,
     ratio: number,
-): Hit | LevelHit | undefined {
+): ElementHit | LevelHit | undefined {
     const meshes = pickableMeshes(picture, viewCamera);
     meshes.sort((a, b) => Number(!a.slice) - Number(!b.slice) || a.distance - b.distance);
     const isField = picture.scene.surfaces !== undefined;
@@ -169,7 +169,7 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
  */
 class MeshTest {
     private depth = Infinity;
-    private hit: Hit | LevelHit | undefined;
+    private hit: ElementHit | LevelHit | undefined;
 
     constructor(
         private readonly mesh: PickableMesh,
@@ -211,7 +211,7 @@ class MeshTest {
      * Keeps an element if it is the nearest so far; `depth` is the distance of the element from the eye, along the axis
      * of the camera.
      */
-    private keepIfNearest(kind: Hit["kind"], source: number, depth: number): void {
+    private keepIfNearest(kind: ElementHit["kind"], source: number, depth: number): void {
         if (depth >= this.depth) return;
         const { slice } = this.mesh;
         this.depth = depth;

@@ -3,7 +3,7 @@
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
 import { vertexInCoordinatesAt } from "./coordinates";
-import { type Hit, hitAt, kReach, type LevelHit } from "./hit_test";
+import { type ElementHit, hitAt, kReach, type LevelHit } from "./hit_test";
 import { hitInPanel } from "./matrix_hit";
 import { type MatrixPanel, panelAt } from "./matrix_panel";
 import { heightOfCoordinates } from "./overlay";
@@ -56,7 +56,7 @@ export class HitTester {
      * The element, or the surface or contour of a field, at a point of the picture, in pixels; undefined if there is
      * none. `ratio` is the number of these pixels per CSS pixel.
      */
-    hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): Hit | LevelHit | undefined {
+    hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): ElementHit | LevelHit | undefined {
         const { matrix, scene } = this.picture;
         const panel = this.panelAt(x, y, size);
         if (panel) return hitInPanel(panel, matrix!, scene, size, [x, y], kReach * ratio);

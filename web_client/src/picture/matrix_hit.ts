@@ -2,7 +2,7 @@
 
 import type { SceneDescription, SectionMatrix, Viewport } from "@oval4d/protocol";
 
-import type { Hit, LevelHit } from "./hit_test";
+import type { ElementHit, LevelHit } from "./hit_test";
 import type { MatrixPanel } from "./matrix_panel";
 
 type Pixel = readonly [x: number, y: number];
@@ -19,12 +19,12 @@ export function hitInPanel(
     { height }: Viewport,
     pixel: Pixel,
     reach: number,
-): Hit | LevelHit | undefined {
+): ElementHit | LevelHit | undefined {
     const { of, points, edges, seen, balls } = panel.section;
     const places = points.map((point) => panel.pixelOf(point));
-    let found: Hit | undefined;
+    let found: ElementHit | undefined;
     let nearest = Infinity;
-    const take = (distance: number, radius: number, hit: Hit): void => {
+    const take = (distance: number, radius: number, hit: ElementHit): void => {
         if (distance > Math.max(radius, reach) || distance >= nearest) return;
         [found, nearest] = [hit, distance];
     };

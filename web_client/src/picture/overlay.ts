@@ -45,7 +45,8 @@ function clearCoordinatesArea(pen: CanvasRenderingContext2D, scene: SceneDescrip
     pen.fillRect(0, viewport.height - top, viewport.width, top);
 }
 
-interface Label {
+/** The label of a slice, at its place in the picture. */
+interface OverlayLabel {
     slice: Slice;
     x: number;
     y: number;
@@ -68,7 +69,7 @@ function drawLabels(
     viewport: Viewport,
     leastText: number,
 ): void {
-    const placed: Label[] = [];
+    const placed: OverlayLabel[] = [];
     const bottom =
         scene.shown.coordinates && viewCamera.isMoved
             ? viewport.height - heightOfCoordinates(scene, viewport)
@@ -97,7 +98,7 @@ function drawLabels(
             label.x <= viewport.width - label.half &&
             label.y >= 0 &&
             label.y <= bottom - digits;
-        const apart = (other: Label): boolean =>
+        const apart = (other: OverlayLabel): boolean =>
             Math.abs(other.x - label.x) > other.room + label.room + digits / 2 ||
             Math.abs(other.y - label.y) > 1.1 * digits;
         if (slice.focus || (whole && placed.every(apart))) placed.push(label);
@@ -105,7 +106,7 @@ function drawLabels(
     for (const label of placed.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
 }
 
-function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: Label): void {
+function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: OverlayLabel): void {
     const { slice, digits } = label;
     const { focus } = slice;
     setFontAndMeasureDigits(pen, label.size);

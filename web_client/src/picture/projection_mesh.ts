@@ -24,10 +24,10 @@ const kCenter = 1;
 const kFarEnd = 2;
 const kNearEnd = 3;
 
-type Part = ObjectProjection["parts"][number];
+type ProjectionPart = ObjectProjection["parts"][number];
 
 /** The convex polygons that show the faces of a part. */
-interface Polygons {
+interface PartPolygons {
     /** x, y, z of each point. */
     points: Float32Array;
     /** As in Elements.faces, with indices in `points`. */
@@ -49,7 +49,7 @@ export class ProjectionMesh {
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // number of vertices in `shapes`
-    private polygons: Polygons[] = []; // of each part of the picture
+    private polygons: PartPolygons[] = []; // of each part of the picture
     // For each translucent shape: its first vertex, the number of its vertices, and what determines its depth.
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
@@ -199,9 +199,9 @@ export class ProjectionMesh {
     }
 
     private addPolygons(
-        { points, faces: { begin, corners }, seen }: Polygons,
+        { points, faces: { begin, corners }, seen }: PartPolygons,
         place: (points: Float32Array, p: number) => [number, number, number],
-        opacities: Opacities,
+        opacities: PartOpacities,
     ): void {
         for (let f = 0; f + 1 < begin.length; ++f) {
             if (opacities.ofPolygon(seen, f) === 0) continue;
@@ -223,7 +223,7 @@ export class ProjectionMesh {
         this.depthKind[this.count++] = depthKind;
     }
 
-    private resizeBuffers(parts: Part[], polygons: Polygons[]): void {
+    private resizeBuffers(parts: ProjectionPart[], polygons: PartPolygons[]): void {
         let [quads, faces, corners] = [0, 0, 0];
         for (const part of parts) quads += part.vertices.length / 3 + part.edges.length / 2;
         for (const { faces: own } of polygons) {
@@ -247,14 +247,14 @@ export class ProjectionMesh {
 }
 
 /** The opacities of the shapes of a part, 0 … 1; shapes with 0 are not drawn. */
-interface Opacities {
+interface PartOpacities {
     ofVertex(vertex: number): number;
     ofEdge(edge: number): number;
     /** `seen` has the visibility of each polygon. */
     ofPolygon(seen: Uint32Array | undefined, polygon: number): number;
 }
 
-function opacitiesOf({ balls, opacity, seen: visibility }: Part, { faded }: SceneDescription): Opacities {
+function opacitiesOf({ balls, opacity, seen: visibility }: ProjectionPart, { faded }: SceneDescription): PartOpacities {
     const opacities = [0, faded, 1];
     return {
         ofVertex: (v) => opacities[visibility?.vertices[v] ?? 2]! * (balls?.opacity[v] ?? 1),
@@ -264,12 +264,12 @@ function opacitiesOf({ balls, opacity, seen: visibility }: Part, { faded }: Scen
 }
 
 /** The polygons to draw: the faces of a part or, if these need not be convex, the convex polygons that fill them. */
-function polygonsOf({ vertices, faces, of, tints, seen, fill }: Part): Polygons {
+function polygonsOf({ vertices, faces, of, tints, seen, fill }: ProjectionPart): PartPolygons {
     return fill ? polygonsOfFill(fill) : { points: vertices, faces, tints: tints ?? of.faces, seen: seen?.faces };
 }
 
 /** Joins the triangles of each convex polygon of a fill (see Fill). */
-function polygonsOfFill({ points, triangles, tints, seen }: Fill): Polygons {
+function polygonsOfFill({ points, triangles, tints, seen }: Fill): PartPolygons {
     const begin = [0];
     const corners: number[] = [];
     const first: number[] = []; // the first triangle of each polygon

@@ -9,10 +9,10 @@ import type { ElementCounts, HighlightedElements } from "./highlighted_elements"
 import type { HitTester } from "./hit_tester";
 
 /** Where the slices are rendered: on this page, or on the server. */
-export type Mode = "geometry" | "frames";
+export type RenderingMode = "geometry" | "frames";
 
 export interface StageEvents {
-    presented(revision: number, by: Mode): void;
+    presented(revision: number, by: RenderingMode): void;
     resized(size: Viewport): void;
     /** Called before each scheduled drawing. */
     beforeDraw(): void;
@@ -46,7 +46,7 @@ function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels
 export class Stage {
     orbit: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
     size: Viewport = { width: 1280, height: 720 }; // the size of the picture, in device pixels
-    private currentMode: Mode = "frames";
+    private currentMode: RenderingMode = "frames";
     private readonly geometry: GeometryView | undefined;
     private isContextLost = false;
     private readonly frames: FrameView;
@@ -54,7 +54,7 @@ export class Stage {
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
     private isDraft = false; // whether a finer picture will follow the newest one
     private unpresentedRevision: number | undefined; // the revision of the new picture that the next drawing presents
-    private drawn: { revision: number; by: Mode } = { revision: 0, by: "frames" };
+    private drawn: { revision: number; by: RenderingMode } = { revision: 0, by: "frames" };
     // A message that is sent through this channel during a drawing arrives after the browser has rendered the page.
     private readonly afterRendering = new MessageChannel();
     private scheduled = false;
@@ -89,11 +89,11 @@ export class Stage {
         return this.geometry !== undefined && !this.isContextLost;
     }
 
-    get mode(): Mode {
+    get mode(): RenderingMode {
         return this.currentMode;
     }
 
-    set mode(mode: Mode) {
+    set mode(mode: RenderingMode) {
         this.currentMode = mode;
         this.root.dataset["mode"] = mode;
         this.unpresentedRevision = undefined;

@@ -65,7 +65,7 @@ const kBuffers = ["points", "normals", "colors", "capColors", "triangles"] as co
 type BufferName = (typeof kBuffers)[number];
 
 /** The objects of one WebGL context. They are lost together with the context. */
-interface Resources {
+interface SurfaceResources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
     arrays: WebGLVertexArrayObject;
@@ -90,7 +90,7 @@ export class SurfacePainter {
     private readonly spare: SliceSurfaces[] = [];
     private picture: Slices | undefined; // the newest picture; undefined if it has no surfaces
     private levels: SurfaceLevel[] = []; // from the innermost to the outermost
-    private resources: Resources | undefined; // created when they are needed
+    private resources: SurfaceResources | undefined; // created when they are needed
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
@@ -315,7 +315,7 @@ function emptySliceSurfaces(slice: Slice, surface: Surface): SliceSurfaces {
     return { slice, surface, ...place, groups, depth: 0, firstPoint: 0, firstByte: 0 };
 }
 
-function makeResources(gl: WebGL2RenderingContext): Resources {
+function makeResources(gl: WebGL2RenderingContext): SurfaceResources {
     const { program, uniforms } = makeProgram(gl, "surfaces", kVertexShader, kFragmentShader, kUniforms);
     const arrays = gl.createVertexArray();
     gl.bindVertexArray(arrays);
@@ -323,5 +323,5 @@ function makeResources(gl: WebGL2RenderingContext): Resources {
     gl.enableVertexAttribArray(1);
     gl.bindVertexArray(null);
     const buffers = Object.fromEntries(kBuffers.map((name) => [name, { buffer: gl.createBuffer(), size: 0 }]));
-    return { program, uniforms, arrays, buffers } as Resources;
+    return { program, uniforms, arrays, buffers } as SurfaceResources;
 }
