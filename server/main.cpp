@@ -10,8 +10,8 @@
 #include "cli/render_command.hpp"
 #include "file_reading/file_reader_service.hpp"
 #include "net/confinement.hpp"
-#include "net/options.hpp"
 #include "net/server.hpp"
+#include "net/server_options.hpp"
 #include "parallel/fork_join.hpp"
 #include "process/child_process.hpp"
 #include "process/process_heap.hpp"
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
         "Without a subcommand it runs the server; each option of the server can also be set by an environment "
         "variable."};
     app.set_version_flag("--version", "oval4d " OVAL4D_VERSION);
-    oval4d::net::Options options;
+    oval4d::net::ServerOptions options;
     options.webRoot = OVAL4D_WEB_ROOT;
     oval4d::net::addOptions(app, options);
     app.add_subcommand("serve", "Run the server of the page, the API and the sessions (the default)")->fallthrough();

@@ -19,7 +19,7 @@
 
 namespace oval4d::net {
 
-/// Maximum values for one client. The limits for all clients together are in Options.
+/// Maximum values for one client. The limits for all clients together are in ServerOptions.
 struct ClientLimits {
     std::size_t connections = 2048;                  ///< open connections
     std::size_t sessions = 2500;                     ///< open sessions, and closed ones that have not expired

@@ -12,7 +12,7 @@ constexpr std::size_t kOwnFiles = 16;
 
 /// Returns `options.drawMemory` or, if this is 0, an upper bound of the memory that a rasterizer process needs for
 /// pictures within the limits, in bytes. Most of that memory is never touched.
-std::size_t drawMemory(const Options& options) {
+std::size_t drawMemory(const ServerOptions& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // In bytes. kOwn: for llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
     // for each pixel, sixteen buffers of four bytes. kEachSliceEdge: for each edge of the slices and the shapes that
@@ -22,14 +22,14 @@ std::size_t drawMemory(const Options& options) {
     return kOwn + kEachPixel * pixels + kEachSliceEdge * options.picture.sliceEdges + options.polytopeCache;
 }
 
-bool filtersSystemCalls(const Options& options) {
+bool filtersSystemCalls(const ServerOptions& options) {
     std::string why;
     return process::shouldSandbox(options.sandbox, why);
 }
 
 }  // namespace
 
-std::vector<std::string> childEnvironment(const Options& options, std::size_t workers, std::string& warning) {
+std::vector<std::string> childEnvironment(const ServerOptions& options, std::size_t workers, std::string& warning) {
     std::string why;
     const bool sandboxed = process::shouldSandbox(options.sandbox, why);
     if (!sandboxed && options.sandbox == SandboxMode::automatic)
@@ -39,13 +39,13 @@ std::vector<std::string> childEnvironment(const Options& options, std::size_t wo
             "OVAL4D_LOAD_MEMORY=" + std::to_string(options.loadMemory), "OVAL4D_WORKERS=" + std::to_string(workers)};
 }
 
-process::Confinement rasterizerConfinement(const Options& options) {
+process::Confinement rasterizerConfinement(const ServerOptions& options) {
     // In addition to kOwnFiles, a rasterizer process needs one descriptor for each worker: that of the memory into
     // which it draws the worker's pictures.
     return {filtersSystemCalls(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 
-process::Confinement fileReaderConfinement(const Options& options) {
+process::Confinement fileReaderConfinement(const ServerOptions& options) {
     return {filtersSystemCalls(options), options.loadMemory, kOwnFiles};
 }
 

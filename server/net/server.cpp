@@ -54,7 +54,7 @@ void raiseFileLimit() {
     setrlimit(RLIMIT_NOFILE, &limit);
 }
 
-store::StoreOptions storeOptions(const Options& options) {
+store::StoreOptions storeOptions(const ServerOptions& options) {
     return {options.store, std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry),
             std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout), options.storeQuota};
 }
@@ -83,7 +83,7 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
 /// Returns one acceptor for each address, all on the same port. Skips addresses that this machine does not have, such
 /// as ::1 if IPv6 is off. Throws std::runtime_error if no address is left, or if binding an address fails for any other
 /// reason.
-std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& options) {
+std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const ServerOptions& options) {
     constexpr int kAttempts = 20;  // attempts to find a port that is free at every address, if options.port is 0
     for (int attempt = 1;; ++attempt) {
         std::vector<tcp::acceptor> acceptors;
@@ -116,7 +116,7 @@ std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const Options& op
 /// The server: owns all services and runs them until a signal stops it.
 class Server {
   public:
-    Server(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
+    Server(ServerOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
     void run();
 
   private:
@@ -128,7 +128,7 @@ class Server {
     asio::awaitable<void> stopOnSignal();
     void stopWorkers();
 
-    Options options_;
+    ServerOptions options_;
     Clients clients_;
     FieldCacheFiles fieldCacheFiles_;  // outlives all fields; declared before io_, whose handlers may hold fields
     ConnectionRegistry connections_;   // outlives all registrations; declared before io_, whose coroutines own them
@@ -155,7 +155,7 @@ class Server {
     Routes routes_;
 };
 
-Server::Server(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap)
+Server::Server(ServerOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap)
     : options_(std::move(options)),
       clients_(options_.client, options_.trustedProxies, options_.maxBytes),
       fieldCacheFiles_(options_.fieldCacheFolder, options_.fieldCache),
@@ -302,7 +302,7 @@ asio::awaitable<void> Server::stopOnSignal() {
 
 }  // namespace
 
-void runServer(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap) {
+void runServer(ServerOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap) {
     if (options.open && !options.token.empty())
         throw std::invalid_argument(
             "--open (OVAL4D_OPEN) lets everyone in without a token, so --token (OVAL4D_TOKEN) would protect nothing; "

@@ -1,7 +1,7 @@
 #pragma once
 // The function that runs the whole server until a signal stops it.
 
-#include "net/options.hpp"
+#include "net/server_options.hpp"
 #include "parallel/fork_join.hpp"
 #include "process/process_heap.hpp"
 
@@ -11,6 +11,6 @@ namespace oval4d::net {
 /// connections, and returns. WebSockets are closed with code 1012, so that clients reconnect at once, to this or
 /// another server. Throws an exception derived from std::exception if the server cannot start, for example because it
 /// cannot listen, or because the options contradict each other. `forkJoin` and `heap`: see pipeline::PipelinePool.
-void runServer(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
+void runServer(ServerOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
 
 }  // namespace oval4d::net

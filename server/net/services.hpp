@@ -10,7 +10,7 @@
 #include "net/data_folder.hpp"
 #include "net/field_cache_files.hpp"
 #include "net/metrics.hpp"
-#include "net/options.hpp"
+#include "net/server_options.hpp"
 #include "parallel/worker_pool.hpp"
 #include "pipeline/pipeline_pool.hpp"
 #include "polytopes/catalogue/polytope_cache.hpp"
@@ -35,7 +35,7 @@ inline const Error kTooManyJobs{ErrorCode::too_many,
 
 /// References to the shared services, which outlive every connection and session.
 struct Services {
-    const Options& options;
+    const ServerOptions& options;
     boost::asio::io_context& io;
     pipeline::PipelinePool& pictureWorkers;  ///< threads that slice and draw pictures
     parallel::WorkerPool& exportWorkers;     ///< threads that make exported files (slower than pictures)

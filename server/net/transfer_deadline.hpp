@@ -6,21 +6,21 @@
 #include <cstddef>
 
 #include "net/clock.hpp"
-#include "net/options.hpp"
+#include "net/server_options.hpp"
 
 namespace oval4d::net {
 
 /// Computes the timeouts that enforce a minimum rate while one message or reply is written, or one body is read.
 /// Without a minimum rate, a very slow client could make the server hold the data for hours. Each fragment must be
-/// transferred within Options::writeTimeout. In addition, when n bytes have been transferred, the next fragment must be
-/// transferred within n / Options::minReadRate + 2 · Options::writeTimeout after the start. If Options::minReadRate is
-/// 0, only the first limit applies.
+/// transferred within ServerOptions::writeTimeout. In addition, when n bytes have been transferred, the next fragment
+/// must be transferred within n / ServerOptions::minReadRate + 2 · ServerOptions::writeTimeout after the start. If
+/// ServerOptions::minReadRate is 0, only the first limit applies.
 class TransferDeadline {
   public:
     using Clock = TimerClock::Clock;
 
     /// `clock` must outlive this object.
-    TransferDeadline(const Options& options, const TimerClock& clock)
+    TransferDeadline(const ServerOptions& options, const TimerClock& clock)
         : clock_(clock), grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
 
     /// Counts bytes that the client has accepted or sent.

@@ -24,7 +24,7 @@ void runJob(const WorkerPool::Job& job, std::size_t worker) {
 
 }  // namespace
 
-WorkerPool::WorkerPool(Options options) : options_(std::move(options)), queue_(options_.threads, options_.limits) {
+WorkerPool::WorkerPool(PoolOptions options) : options_(std::move(options)), queue_(options_.threads, options_.limits) {
     for (std::size_t i = 0; i < options_.threads; ++i) threads_.emplace_back([this, i] { run(i); });
 }
 

@@ -22,8 +22,8 @@ class QueueFull : public std::runtime_error {
 };
 
 /// A pool of worker threads that run jobs in the order of a FairQueue. Each job receives the index of its worker, from
-/// 0 to Options::threads − 1, so that it can use data that belongs to the worker. Thread-safe. However, while stop()
-/// runs, neither size() nor stop() may be called.
+/// 0 to PoolOptions::threads − 1, so that it can use data that belongs to the worker. Thread-safe. However, while
+/// stop() runs, neither size() nor stop() may be called.
 class WorkerPool {
   public:
     using JobArgument = std::size_t;  ///< the type of a job's argument: the index of the worker
@@ -35,7 +35,7 @@ class WorkerPool {
     using JobQueuePtr = FairQueue::JobQueuePtr;
     using Limits = FairQueue::Limits;
 
-    struct Options {
+    struct PoolOptions {
         std::size_t threads = 1;                 ///< number of worker threads
         Limits limits = {};                      ///< limits on the numbers of waiting jobs
         Job onThreadStart = [](std::size_t) {};  ///< called once by each worker before its other jobs
@@ -48,17 +48,17 @@ class WorkerPool {
     };
     static constexpr std::chrono::seconds kIdleDelay{3};
 
-    explicit WorkerPool(Options options);
+    explicit WorkerPool(PoolOptions options);
     ~WorkerPool();
 
     /// Queues `job` in `jobQueue`. `cost` is the estimated running time of the job. If `jobQueue` is null, queues the
     /// job in one job queue that all such jobs share. A job must not throw, except Canceled after stop(). Returns
-    /// false, and drops the job, if a limit on the number of waiting jobs is reached (see Options::limits). After
+    /// false, and drops the job, if a limit on the number of waiting jobs is reached (see PoolOptions::limits). After
     /// stop(), drops the job and returns true, because no such limit is the cause.
     [[nodiscard]] bool post(Job job, JobQueuePtr jobQueue, Seconds cost);
 
-    /// Makes one worker call Options::whenIdle after the worker has been idle for kIdleDelay, even if it has run no job
-    /// since its last call of `whenIdle`.
+    /// Makes one worker call PoolOptions::whenIdle after the worker has been idle for kIdleDelay, even if it has run no
+    /// job since its last call of `whenIdle`.
     void cleanUpWhenIdle();
 
     /// Drops the waiting jobs, requests the running jobs to stop, and waits until all threads have ended.
@@ -80,7 +80,7 @@ class WorkerPool {
     void run(std::size_t worker);
     void waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
-    const Options options_;
+    const PoolOptions options_;
     const JobQueuePtr common_ = std::make_shared<JobQueue>(std::make_shared<ClientFlow>());  // for all jobs without one
     std::stop_source stopSource_;
     mutable std::mutex mutex_;

@@ -4,7 +4,7 @@
 
 namespace oval4d::pipeline {
 
-PipelinePool::PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap)
+PipelinePool::PipelinePool(PoolOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap)
     : pipelines_(options.threads),
       workers_({.threads = options.threads,
                 .limits = options.limits,

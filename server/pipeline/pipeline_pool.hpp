@@ -18,7 +18,7 @@ class PipelinePool {
     using JobArgument = Pipeline&;  ///< the type of the parameter of a job
     using Job = std::function<void(Pipeline&)>;
 
-    struct Options {
+    struct PoolOptions {
         std::size_t threads = 1;                   ///< number of workers
         parallel::WorkerPool::Limits limits = {};  ///< maximum numbers of waiting jobs
         PictureWorkLimits pictures = {};
@@ -29,7 +29,7 @@ class PipelinePool {
 
     /// The pipelines use `forkJoin`. Idle workers free the memory of their pipelines, and return it to the operating
     /// system through `heap`. `forkJoin` and `heap` must outlive the pool.
-    PipelinePool(Options options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
+    PipelinePool(PoolOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
 
     /// Queues a job; returns false, and drops the job, if a limit on waiting jobs is reached. See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::JobQueuePtr jobQueue, parallel::WorkerPool::Seconds cost);

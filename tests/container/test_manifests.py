@@ -87,7 +87,7 @@ def test_memory_limits_cover_what_the_servers_may_use():
         needed = (230 << 20) + held + quota + load_workers * load_memory + 512 * edges * (workers + 1 + drawing) \
             + 64 * pixels * drawing + (64 << 10) * connections
         assert 0.9 * bytes_of(limit) < needed < bytes_of(limit)
-    help_text = (ROOT / "server/net/options.cpp").read_text(encoding="utf-8")
+    help_text = (ROOT / "server/net/server_options.cpp").read_text(encoding="utf-8")
     for name in {*in_pod, *service["environment"]}:
         assert f'"--{name.removeprefix("OVAL4D_").lower().replace("_", "-")}"' in help_text
 

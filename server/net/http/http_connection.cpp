@@ -83,7 +83,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     void startDeadline(TimerClock::Clock::duration timeout);
     void endDeadline();
 
-    const Options& options() const { return context_.services.options; }
+    const ServerOptions& options() const { return context_.services.options; }
     const TimerClock& clock() const { return context_.services.clock; }
 
     beast::tcp_stream stream_;

@@ -19,7 +19,7 @@ namespace {
 
 const Error kTakenOver{ErrorCode::internal, "another server has taken over this session; try again"};
 
-store::WriteBehindStore::WriteBehindSettings settingsFrom(const Options& options) {
+store::WriteBehindStore::WriteBehindSettings settingsFrom(const ServerOptions& options) {
     return {std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry), options.keptUndo,
             options.storeQuota};
 }
@@ -82,7 +82,7 @@ WriteBehindStore::Listener SessionManager::listener() {
 /// if there is no session to evict. Requires that mutex_ is held.
 std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& client) {
     const auto now = services_.clock.now();
-    const Options& options = services_.options;
+    const ServerOptions& options = services_.options;
     // The session to evict is determined here, but evicted only when no limit can refuse the new session anymore.
     std::optional<std::string> evicted;
     if (byClient_.countSessionsOf(client.name(), now) >= options.client.sessions) {

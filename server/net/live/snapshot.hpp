@@ -11,7 +11,7 @@
 #include <string>
 
 #include "net/live/message.hpp"
-#include "net/options.hpp"
+#include "net/server_options.hpp"
 #include "net/shared_bytes.hpp"
 #include "pipeline/pipeline.hpp"
 #include "session/session.hpp"

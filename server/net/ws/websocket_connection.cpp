@@ -247,7 +247,7 @@ asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text
     }
 }
 
-/// Parses a message. If it has more than Options::maxRequestBytes bytes, a worker parses it.
+/// Parses a message. If it has more than ServerOptions::maxRequestBytes bytes, a worker parses it.
 asio::awaitable<ParseResult> WebSocketConnection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);

@@ -14,7 +14,7 @@ class TransferDeadlines : public testing::Test {
     TransferDeadlines() { options.writeTimeout = 10s; }
     void pass(TimerClock::Clock::duration time) { clock.advanceTo(clock.now() + time); }
 
-    Options options;
+    ServerOptions options;
     VirtualTimerClock clock;
 };
 

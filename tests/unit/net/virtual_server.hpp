@@ -28,11 +28,11 @@ class VirtualServer {
     process::ProcessHeap heap_;
 
   public:
-    explicit VirtualServer(Options serverOptions = {}) : options(std::move(serverOptions)) {}
+    explicit VirtualServer(ServerOptions serverOptions = {}) : options(std::move(serverOptions)) {}
     VirtualServer(const VirtualServer&) = delete;
     VirtualServer& operator=(const VirtualServer&) = delete;
 
-    const Options options;
+    const ServerOptions options;
     VirtualTimerClock clock;
     ByteBudget budget{options.maxBytes};
     Clients clients{options.client, options.trustedProxies, options.maxBytes};
@@ -45,13 +45,14 @@ class VirtualServer {
     DataFolder data{options.data, options.dataCache, fieldCacheFiles};
     slicing::CriticalSectionsCache critical{options.criticalCache};
     pipeline::PipelinePool pictureWorkers{
-        pipeline::PipelinePool::Options{
+        pipeline::PipelinePool::PoolOptions{
             .limits = options.jobs,
             .pictures = options.picture,
             .makeRasterizer =
                 [](const std::stop_token& /*stop*/) { return std::make_unique<raster::LocalRasterizer>(); }},
         forkJoin_, heap_};
-    parallel::WorkerPool exportWorkers{parallel::WorkerPool::Options{}}, loadWorkers{parallel::WorkerPool::Options{}};
+    parallel::WorkerPool exportWorkers{parallel::WorkerPool::PoolOptions{}},
+        loadWorkers{parallel::WorkerPool::PoolOptions{}};
     const Services services{options, io,        pictureWorkers, exportWorkers,   metrics,  clients, loadWorkers,
                             readers, polytopes, data,           fieldCacheFiles, critical, clock};
     const AddressAccountPtr account =

@@ -33,7 +33,7 @@ class WorkerPools : public testing::Test {
     }
 
     /// Returns options of a pool in which only the jobs of busy() take time.
-    WorkerPool::Options options(std::size_t threads) const {
+    WorkerPool::PoolOptions options(std::size_t threads) const {
         return {.threads = threads, .now = clock_.now<FairQueue::Clock>()};
     }
 

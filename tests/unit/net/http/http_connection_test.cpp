@@ -27,8 +27,8 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using namespace std::chrono_literals;
 
-Options optionsWithDeadlines() {
-    Options options;
+ServerOptions optionsWithDeadlines() {
+    ServerOptions options;
     options.helloTimeout = 10s;
     options.idleTimeout = 30s;
     return options;

@@ -21,8 +21,8 @@ namespace {
 namespace asio = boost::asio;
 using namespace std::chrono_literals;
 
-Options optionsWithTwoSessionsOfAClient() {
-    Options options;
+ServerOptions optionsWithTwoSessionsOfAClient() {
+    ServerOptions options;
     options.sessionExpiry = 1h;
     options.client.sessions = 2;
     return options;

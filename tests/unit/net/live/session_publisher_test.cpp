@@ -37,7 +37,7 @@ session::Set turning(bool on) {
 
 class SessionPublisherTest : public testing::Test {
   protected:
-    explicit SessionPublisherTest(const Options& options = {}) : server(options) {
+    explicit SessionPublisherTest(const ServerOptions& options = {}) : server(options) {
         publisher->whenMoved([this] { ++steps; });
     }
 
@@ -253,8 +253,8 @@ TEST_F(PictureStreamsTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
     EXPECT_FALSE(stateAfter(kRotation)) << "another section";
 }
 
-Options optionsWithOneWaitingJob() {
-    Options options;
+ServerOptions optionsWithOneWaitingJob() {
+    ServerOptions options;
     options.jobs.total = 1;
     return options;
 }

@@ -41,8 +41,8 @@ std::string clientFrame(std::uint8_t opcode, const std::string& content) {
     return frame + std::string(4, '\0') + content;
 }
 
-Options optionsWithRarePings() {
-    Options options;
+ServerOptions optionsWithRarePings() {
+    ServerOptions options;
     options.pingInterval = 24h;  // Beast measures it with the system's clock
     options.helloTimeout = 10s;
     options.writeTimeout = 10s;

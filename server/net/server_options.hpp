@@ -25,7 +25,7 @@ namespace oval4d::net {
 using Seconds = std::chrono::duration<double>;
 
 /// The options of the server, with their defaults. Sizes are in bytes unless noted.
-struct Options {
+struct ServerOptions {
     std::vector<std::string> hosts{"127.0.0.1", "::1"};  ///< addresses to listen on
     std::uint16_t port = 8080;                           ///< 0: any free port
     std::string webRoot;                                 ///< folder of the built web client
@@ -86,9 +86,9 @@ struct Options {
 
 /// Adds the options of the server to `app`. Parsing a command line with `app` then writes the values to `options`. Each
 /// option can also be set by an environment variable OVAL4D_….
-void addOptions(CLI::App& app, Options& options);
+void addOptions(CLI::App& app, ServerOptions& options);
 
 /// Returns a JSON object with the limits that clients need to know, for the `welcome` message.
-std::string limitsJson(const Options& options);
+std::string limitsJson(const ServerOptions& options);
 
 }  // namespace oval4d::net

@@ -1,4 +1,4 @@
-#include "net/options.hpp"
+#include "net/server_options.hpp"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -50,7 +50,7 @@ std::string checkNetwork(const std::string& text) {
     }
 }
 
-void addServing(CLI::App& app, Options& options) {
+void addServing(CLI::App& app, ServerOptions& options) {
     add(app, "--host", options.hosts,
         "Address or name to listen on; may be repeated. With any address other than loopback, clients need a token")
         ->delimiter(',');
@@ -69,7 +69,7 @@ void addServing(CLI::App& app, Options& options) {
         ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error", "critical", "off"}));
 }
 
-void addAccess(CLI::App& app, Options& options) {
+void addAccess(CLI::App& app, ServerOptions& options) {
     add(app, "--allow-host", options.allowedHosts,
         "Host name that clients may use for the server, * for any; may be repeated. "
         "Default: the loopback names on a loopback address, otherwise any")
@@ -89,7 +89,7 @@ void addAccess(CLI::App& app, Options& options) {
         ->envname("OVAL4D_OPEN");
 }
 
-void addStore(CLI::App& app, Options& options) {
+void addStore(CLI::App& app, ServerOptions& options) {
     add(app, "--store", options.store,
         "Where sessions are stored: memory; sqlite:PATH, a file that outlives the server; or "
         "redis://[user:password@]host[:port][/database], from which other servers can resume them");
@@ -102,7 +102,7 @@ void addStore(CLI::App& app, Options& options) {
                "Redis counts as failed if it does not answer within this time");
 }
 
-void addData(CLI::App& app, Options& options) {
+void addData(CLI::App& app, ServerOptions& options) {
     add(app, "--data", options.data,
         "Folder of arrays (npy, netcdf, hdf5, nifti, zarr) that all clients may open; a folder in it is a series with "
         "one "
@@ -124,7 +124,7 @@ void addFileLimits(CLI::App& app, exports::ExportLimits& limits) {
     addSeconds(app, "--max-file-time", limits.time, "Maximum time to make a file");
 }
 
-void addClientLimits(CLI::App& app, Options& options) {
+void addClientLimits(CLI::App& app, ServerOptions& options) {
     const CLI::Range atLeastOne(1, 1'000'000'000);
     ClientLimits& client = options.client;
     add(app, "--max-client-connections", client.connections, "Maximum number of open connections from one address")
@@ -151,7 +151,7 @@ void addClientLimits(CLI::App& app, Options& options) {
         "Folder for responses that clients have not yet received; if empty, the system's temporary folder is used");
 }
 
-void addSandbox(CLI::App& app, Options& options) {
+void addSandbox(CLI::App& app, ServerOptions& options) {
     using process::SandboxMode;
     app.add_option(
            "--sandbox", options.sandbox,
@@ -170,7 +170,7 @@ void addSandbox(CLI::App& app, Options& options) {
         ->check(enough);
 }
 
-void addLimits(CLI::App& app, Options& options) {
+void addLimits(CLI::App& app, ServerOptions& options) {
     const CLI::Range atLeastOne(1, 1'000'000'000);
     addBytes(app, "--max-message", options.maxLoadMessageBytes,
              "Maximum size of a `load` message; a larger one closes the connection with code 1009");
@@ -233,7 +233,7 @@ void addLimits(CLI::App& app, Options& options) {
         "Maximum number of cells of the convex hull of loaded points");
 }
 
-void addTimes(CLI::App& app, Options& options) {
+void addTimes(CLI::App& app, ServerOptions& options) {
     addSeconds(app, "--session-expiry", options.sessionExpiry,
                "Time after which a session that nobody has open is deleted");
     addSeconds(
@@ -256,7 +256,7 @@ void addTimes(CLI::App& app, Options& options) {
 
 }  // namespace
 
-void addOptions(CLI::App& app, Options& options) {
+void addOptions(CLI::App& app, ServerOptions& options) {
     addServing(app, options);
     addAccess(app, options);
     addStore(app, options);
@@ -267,7 +267,7 @@ void addOptions(CLI::App& app, Options& options) {
     addTimes(app, options);
 }
 
-std::string limitsJson(const Options& options) {
+std::string limitsJson(const ServerOptions& options) {
     return nlohmann::json{{"message", options.maxLoadMessageBytes},
                           {"request_bytes", options.maxRequestBytes},
                           {"upload", options.maxUpload},
