@@ -11,11 +11,11 @@ ConnectionRegistry::Registration::Registration(ConnectionRegistry& connections, 
     const std::lock_guard lock(connections_.mutex_);
     number_ = ++connections_.last_;
     ++connections_.counts_[client.get()];
-    connections_.entries_.emplace(number_, Entry{std::move(client), nullptr});
+    connections_.entries_.emplace(number_, RegisteredConnection{std::move(client), nullptr});
 }
 
 ConnectionRegistry::Registration::~Registration() {
-    Entry gone;  // destroyed after the lock is released, because it may own the connection
+    RegisteredConnection gone;  // destroyed after the lock is released, because it may own the connection
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
     if (found == connections_.entries_.end()) return;  // the connection was evicted

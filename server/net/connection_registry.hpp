@@ -65,12 +65,13 @@ class ConnectionRegistry {
     void stopAll();
 
   private:
-    struct Entry {
+    // A connection, as its Registration has recorded it.
+    struct RegisteredConnection {
         AddressAccountPtr client;
         EndHandler end;
         bool inUse = false;
     };
-    using Entries = std::map<std::uint64_t, Entry>;
+    using ConnectionsByNumber = std::map<std::uint64_t, RegisteredConnection>;
 
     // The next three functions require that mutex_ is held.
     std::size_t countOf(const AddressAccount* client) const;
@@ -79,7 +80,7 @@ class ConnectionRegistry {
 
     const std::size_t maxConnections_, maxPerClient_;
     mutable std::mutex mutex_;
-    Entries entries_;  // by registration number, the oldest first; guarded by mutex_
+    ConnectionsByNumber entries_;  // by registration number, the oldest first; guarded by mutex_
     std::map<const AddressAccount*, std::size_t> counts_;  // number of connections of each client; guarded by mutex_
     std::uint64_t last_ = 0;                               // number of the newest registration; guarded by mutex_
     bool stopping_ = false;                                // guarded by mutex_

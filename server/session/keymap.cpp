@@ -31,18 +31,18 @@ Key normalized(Key key) {
 }
 
 // One row of the key table.
-struct Entry {
+struct KeyTableRow {
     Key key;
     std::string first;  // in a sequence of two keys, the first one (`key` is the second); else empty
     Binding binding{};
     bool client = false;  // whether only the client handles this key
 };
 
-std::vector<Entry> readTable() {
-    std::vector<Entry> table;
+std::vector<KeyTableRow> readTable() {
+    std::vector<KeyTableRow> table;
     const nlohmann::json keymap = nlohmann::json::parse(protocol_data::embeddedFile("keymap.json"));
     for (const nlohmann::json& row : keymap.at("keys")) {
-        Entry entry;
+        KeyTableRow entry;
         std::string keys = row.at("key");
         if (keys.size() == 2) {
             entry.first = keys.substr(0, 1);
@@ -73,8 +73,8 @@ std::vector<Entry> readTable() {
     return table;
 }
 
-const std::vector<Entry>& table() {
-    static const std::vector<Entry> entries = readTable();
+const std::vector<KeyTableRow>& table() {
+    static const std::vector<KeyTableRow> entries = readTable();
     return entries;
 }
 
@@ -83,7 +83,7 @@ const std::vector<Entry>& table() {
 Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending) {
     const Key wanted = normalized(key);
     bool begins = false;
-    for (const Entry& entry : table()) {
+    for (const KeyTableRow& entry : table()) {
         const bool same =
             entry.key.key == wanted.key && entry.key.shift == wanted.shift && entry.key.ctrl == wanted.ctrl;
         if (same && entry.first == pending) {

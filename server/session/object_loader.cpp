@@ -34,9 +34,9 @@ CriticalSearchArguments criticalSearchArguments(const State& state) {
 }
 
 ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache)
-    : ObjectLoader(limits, cache, Mode::immediate, readObject) {}
+    : ObjectLoader(limits, cache, LoadingMode::immediate, readObject) {}
 
-ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
+ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, LoadingMode mode, FileReader reader,
                            CriticalSearchOptions search)
     : limits_(limits), cache_(&cache), mode_(mode), reader_(std::move(reader)), search_(search) {}
 
@@ -51,7 +51,7 @@ Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
 }
 
 Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design) {
-    if (mode_ == Mode::immediate) return build(design);
+    if (mode_ == LoadingMode::immediate) return build(design);
     if (built_ && builtName_ == design.name) return *built_;
     if (auto ready = cache_->find(design)) {
         built_ = Result<slicing::Object>(slicing::Object(std::move(ready)));
@@ -66,7 +66,7 @@ Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
     if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // never deferred, because it is fast
-    if (mode_ == Mode::deferred) {
+    if (mode_ == LoadingMode::deferred) {
         // The command line makes a load anew whenever it parses a line. Such a load is small, unlike one with data.
         ofDataFolder_ = load.dataName.empty() ? nullptr : std::make_shared<const LoadObject>(load);
         pending_ = ofDataFolder_ ? ofDataFolder_.get() : &load;
@@ -76,7 +76,7 @@ Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
 }
 
 Result<slicing::Object> ObjectLoader::fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added) {
-    if (mode_ == Mode::immediate) return appendTimeSteps(field, added, limits_);
+    if (mode_ == LoadingMode::immediate) return appendTimeSteps(field, added, limits_);
     if (extended_ && extendedFrom_ == field) return *extended_;
     pending_ = TimeStepsToAppend{field, added};
     return kLater;
@@ -84,7 +84,8 @@ Result<slicing::Object> ObjectLoader::fieldWithTimeSteps(const slicing::Object& 
 
 Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& source,
                                                     const geometry::ReferenceFrame& frame) {
-    if (mode_ == Mode::immediate || frame == geometry::ReferenceFrame{}) return slicing::transformedTo(source, frame);
+    if (mode_ == LoadingMode::immediate || frame == geometry::ReferenceFrame{})
+        return slicing::transformedTo(source, frame);
     const auto made = std::ranges::find_if(objectsInFrames_, [&](const ObjectInReferenceFrame& each) {
         return each.source == source && each.frame == frame;
     });
@@ -118,13 +119,14 @@ Result<slicing::CriticalSectionsPtr> ObjectLoader::criticalSections(const State&
     const bool isField = slicing::fieldIn(state.object) != nullptr;
     if (search_.cache != nullptr) {
         if (auto known = search_.cache->find(arguments.object, arguments.orientation, arguments.settings)) {
-            if (mode_ == Mode::immediate) return known;
+            if (mode_ == LoadingMode::immediate) return known;
             critical_ = Result<slicing::CriticalSectionsPtr>(std::move(known));
             searched_ = state.object;
             return *critical_;
         }
     }
-    if (mode_ == Mode::immediate || (!isField && elementsOf(state.object) <= kSmall)) return search(arguments, {});
+    if (mode_ == LoadingMode::immediate || (!isField && elementsOf(state.object) <= kSmall))
+        return search(arguments, {});
     pending_ = std::move(arguments);
     return kLater;
 }

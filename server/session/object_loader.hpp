@@ -44,20 +44,21 @@ struct CriticalSearchArguments {
 /// Returns the arguments that determine the critical values of w of the object that the state shows.
 CriticalSearchArguments criticalSearchArguments(const State& state);
 
-/// Provides the objects that one command needs, and the critical values of w of an object. With Mode::immediate,
-/// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With Mode::deferred,
-/// they return an error if the object is not available yet, and the object becomes pending. needsLoading() calls them
-/// to find what a command needs; the caller must call completePending(), on any thread, and needsLoading() again, until
-/// nothing is pending. What was available once stays available, even if a cache drops it in the meantime. A loader can
-/// be moved, also while something is pending.
+/// Provides the objects that one command needs, and the critical values of w of an object. With LoadingMode::immediate,
+/// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With
+/// LoadingMode::deferred, they return an error if the object is not available yet, and the object becomes pending.
+/// needsLoading() calls them to find what a command needs; the caller must call completePending(), on any thread, and
+/// needsLoading() again, until nothing is pending. What was available once stays available, even if a cache drops it in
+/// the meantime. A loader can be moved, also while something is pending.
 class ObjectLoader {
   public:
-    enum class Mode : bool { immediate, deferred };
+    /// Whether slow work is done at once, or by completePending().
+    enum class LoadingMode : bool { immediate, deferred };
 
-    /// Creates a loader with Mode::immediate that reads files in the calling process.
+    /// Creates a loader with LoadingMode::immediate that reads files in the calling process.
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache);
     /// Creates a loader that reads files with `reader`.
-    ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, Mode mode, FileReader reader,
+    ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, LoadingMode mode, FileReader reader,
                  CriticalSearchOptions search = {});
 
     /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if the
@@ -69,8 +70,8 @@ class ObjectLoader {
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
     /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is
-    /// transformed at once even with Mode::deferred. With this mode, the loader keeps the results and transforms an
-    /// object to a frame only once.
+    /// transformed at once even with LoadingMode::deferred. With this mode, the loader keeps the results and transforms
+    /// an object to a frame only once.
     Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
     /// Returns the result of session::appendTimeSteps().
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
@@ -119,7 +120,7 @@ class ObjectLoader {
 
     Limits limits_;
     polytopes::PolytopeCache* cache_;
-    Mode mode_;
+    LoadingMode mode_;
     FileReader reader_;
     CriticalSearchOptions search_;
     // Time steps to append: those of the array `added`, at the end of the array `field`.

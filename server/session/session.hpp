@@ -202,9 +202,9 @@ bool needsLoading(const Session& session, const Command& command, const Limits& 
 /// Applies a command to the session. After an error, the session is unchanged, except that a key whose action is
 /// refused ends the sequence to which it belongs (see Session::pendingKey). Every change adds an undo step, except
 /// moves of the camera, the end of continuous turning or of playing, commands with `continues`, and added time steps;
-/// see history.hpp. `loader` builds polytopes and reads files. If it has Mode::deferred, needsLoading() must have
-/// returned false for this session, this command and this loader. `outcome`: what needsLoading() has computed, if the
-/// session has not changed since; then this is not computed again.
+/// see history.hpp. `loader` builds polytopes and reads files. If it has LoadingMode::deferred, needsLoading() must
+/// have returned false for this session, this command and this loader. `outcome`: what needsLoading() has computed, if
+/// the session has not changed since; then this is not computed again.
 Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
                              ComputedOutcome outcome = {});
 

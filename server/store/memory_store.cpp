@@ -7,7 +7,7 @@
 
 namespace oval4d::store {
 
-std::size_t MemoryStore::Entry::bytes() const {
+std::size_t MemoryStore::StoredSession::bytes() const {
     constexpr std::size_t kOverhead = 512;  // estimated memory of a map entry, in bytes
     std::size_t bytes = kOverhead + tokenHash.size() + whole.size() + head.size();
     for (const auto& [key, object] : objects) bytes += kOverhead + object.size();
@@ -19,14 +19,14 @@ std::optional<std::string> MemoryStore::tokenHash(const std::string& id) {
     return found == entries_.end() ? std::nullopt : std::optional(found->second.tokenHash);
 }
 
-std::optional<Record> MemoryStore::read(const std::string& id) {
+std::optional<SessionRecord> MemoryStore::read(const std::string& id) {
     const auto found = entries_.find(id);
     if (found == entries_.end()) return std::nullopt;
-    const Entry& entry = found->second;
-    return Record{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, entry.fence, {}};
+    const StoredSession& entry = found->second;
+    return SessionRecord{entry.whole, entry.head, {entry.objects.begin(), entry.objects.end()}, entry.fence, {}};
 }
 
-std::optional<Record> MemoryStore::claim(const std::string& id) {
+std::optional<SessionRecord> MemoryStore::claim(const std::string& id) {
     const auto found = entries_.find(id);
     if (found == entries_.end()) return std::nullopt;
     found->second.touched = now_();
@@ -55,7 +55,7 @@ std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates)
             continue;
         }
         results.push_back(SaveResult::saved);
-        Entry& entry = entries_[update.credentials.id];
+        StoredSession& entry = entries_[update.credentials.id];
         if (known) bytes_ -= entry.bytes();
         if (!known) entry.tokenHash = hashToken(update.credentials.token);
         entry.fence = update.fence;
@@ -70,14 +70,14 @@ std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates)
     return results;
 }
 
-MemoryStore::Entries::iterator MemoryStore::erase(Entries::iterator entry) {
+MemoryStore::SessionsById::iterator MemoryStore::erase(SessionsById::iterator entry) {
     bytes_ -= entry->second.bytes();
     return entries_.erase(entry);
 }
 
 std::size_t MemoryStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
     if (bytesWith(updates) <= quota_) return 0;
-    std::vector<Entries::iterator> candidates;
+    std::vector<SessionsById::iterator> candidates;
     std::size_t evictable = 0;
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
         if (isPinned(entry->first)) continue;

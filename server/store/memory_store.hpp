@@ -19,8 +19,8 @@ class MemoryStore final : public Store {
     WritePolicy writePolicy() const override { return WritePolicy::at_close; }
     std::string name() const override { return "memory"; }
     std::optional<std::string> tokenHash(const std::string& id) override;
-    std::optional<Record> read(const std::string& id) override;
-    std::optional<Record> claim(const std::string& id) override;
+    std::optional<SessionRecord> read(const std::string& id) override;
+    std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
     void remove(std::span<const std::string> ids) override;
@@ -30,7 +30,8 @@ class MemoryStore final : public Store {
     std::size_t size() const override { return entries_.size(); }
 
   private:
-    struct Entry {
+    // A session as it is stored; `touched` is the time of its last use.
+    struct StoredSession {
         std::string tokenHash, whole, head;
         std::map<std::string, std::string> objects;
         Fence fence = 0;
@@ -39,15 +40,15 @@ class MemoryStore final : public Store {
 
         std::size_t bytes() const;
     };
-    using Entries = std::map<std::string, Entry>;
+    using SessionsById = std::map<std::string, StoredSession>;
 
     std::size_t bytesWith(std::span<const RecordUpdate> updates) const;
-    Entries::iterator erase(Entries::iterator entry);
+    SessionsById::iterator erase(SessionsById::iterator entry);
 
     const std::size_t quota_;
     const ClockFunction<Clock> now_;
-    std::size_t bytes_ = 0;  // total size of all records, as in Entry::bytes()
-    Entries entries_;
+    std::size_t bytes_ = 0;  // total size of all records, as in StoredSession::bytes()
+    SessionsById entries_;
 };
 
 }  // namespace oval4d::store

@@ -118,9 +118,9 @@ std::string textOf(const redisReply& reply) {
 }
 
 // Returns the record in the reply of kRead or kClaim.
-std::optional<Record> recordIn(const redisReply& reply) {
+std::optional<SessionRecord> recordIn(const redisReply& reply) {
     if (reply.type != REDIS_REPLY_ARRAY || reply.elements != 4) return std::nullopt;
-    Record record{
+    SessionRecord record{
         textOf(*reply.element[1]), textOf(*reply.element[2]), {}, static_cast<Fence>(reply.element[0]->integer), {}};
     const redisReply& polytopes = *reply.element[3];
     for (std::size_t i = 0; i + 1 < polytopes.elements; i += 2) {
@@ -275,12 +275,12 @@ std::optional<std::string> RedisStore::tokenHash(const std::string& id) {
     return made;
 }
 
-std::optional<Record> RedisStore::read(const std::string& id) {
+std::optional<SessionRecord> RedisStore::read(const std::string& id) {
     if (!context_) connect();
     return recordIn(*ask(readScript_, id, {}));
 }
 
-std::optional<Record> RedisStore::claim(const std::string& id) {
+std::optional<SessionRecord> RedisStore::claim(const std::string& id) {
     if (!context_) connect();
     return recordIn(*ask(claimScript_, id, {self_, std::to_string(expiry_.count()), id}));
 }

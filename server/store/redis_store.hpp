@@ -28,8 +28,8 @@ class RedisStore final : public Store {
     WritePolicy writePolicy() const override { return WritePolicy::at_once; }
     std::string name() const override;
     std::optional<std::string> tokenHash(const std::string& id) override;
-    std::optional<Record> read(const std::string& id) override;
-    std::optional<Record> claim(const std::string& id) override;
+    std::optional<SessionRecord> read(const std::string& id) override;
+    std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     /// Does nothing and returns 0: Redis has its own quota, `maxmemory`.
     std::size_t evict(std::span<const RecordUpdate> /*updates*/, const IsPinned& /*isPinned*/) override { return 0; }

@@ -274,7 +274,7 @@ bool SqliteStore::isDamaged(const std::string& id) {
     });
 }
 
-std::optional<Record> SqliteStore::claim(const std::string& id) {
+std::optional<SessionRecord> SqliteStore::claim(const std::string& id) {
     runAfterPendingRepair([&] {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
@@ -286,13 +286,14 @@ std::optional<Record> SqliteStore::claim(const std::string& id) {
     return read(id);
 }
 
-std::optional<Record> SqliteStore::read(const std::string& id) {
-    return runAfterPendingRepair([&]() -> std::optional<Record> {
+std::optional<SessionRecord> SqliteStore::read(const std::string& id) {
+    return runAfterPendingRepair([&]() -> std::optional<SessionRecord> {
         Statement statement(*database_,
                             "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
                             "head_digest = digest_of(id, head) FROM session WHERE id = ?");
         if (!statement.text(id).step()) return std::nullopt;
-        Record record{statement.bytesAt(0), statement.bytesAt(1), {}, static_cast<Fence>(statement.numberAt(2)), {}};
+        SessionRecord record{
+            statement.bytesAt(0), statement.bytesAt(1), {}, static_cast<Fence>(statement.numberAt(2)), {}};
         if (statement.numberAt(3) == 0) record.damage = "its record in the store is damaged";
         Statement polytopes(
             *database_, "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");

@@ -32,8 +32,8 @@ class SqliteStore final : public Store {
     std::string name() const override { return "sqlite:" + path_; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     bool isDamaged(const std::string& id) override;
-    std::optional<Record> read(const std::string& id) override;
-    std::optional<Record> claim(const std::string& id) override;
+    std::optional<SessionRecord> read(const std::string& id) override;
+    std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
     void remove(std::span<const std::string> ids) override;

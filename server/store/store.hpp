@@ -35,7 +35,7 @@ using Fence = std::uint64_t;
 inline constexpr Fence kFirstFence = 1;
 
 /// A session as read() and claim() return it from the store.
-struct Record {
+struct SessionRecord {
     /// `whole`: the whole session, encoded by encodeWhole() (session_codec.hpp). `head`: the state and the revision
     /// after a later change, encoded by encodeHead(); empty if `whole` is the newest state.
     std::string whole, head;
@@ -49,8 +49,8 @@ struct Record {
 struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
-    std::string head;   ///< replaces Record::head, even if it is empty; must not be empty if `whole` is
-    std::string whole;  ///< replaces Record::whole, unless it is empty
+    std::string head;   ///< replaces SessionRecord::head, even if it is empty; must not be empty if `whole` is
+    std::string whole;  ///< replaces SessionRecord::whole, unless it is empty
     std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
     std::vector<std::string> dropped;                          ///< keys of objects to remove
     bool closed = false;                                       ///< whether no client has the session open anymore
@@ -115,11 +115,11 @@ class Store {
     virtual bool isDamaged(const std::string& /*id*/) { return false; }
 
     /// Returns the record of a session, and changes nothing; an empty optional if the session is not stored.
-    virtual std::optional<Record> read(const std::string& id) = 0;
+    virtual std::optional<SessionRecord> read(const std::string& id) = 0;
 
     /// Makes this server the owner of a session, taking it over from another server if necessary. Returns the session's
     /// record; an empty optional if the session is not stored.
-    virtual std::optional<Record> claim(const std::string& id) = 0;
+    virtual std::optional<SessionRecord> claim(const std::string& id) = 0;
 
     /// Applies the updates as one batch, and returns one result for each update, in the same order. An update with
     /// `whole` creates the record if the store has none for the session. Throws NotWritable if the batch would exceed

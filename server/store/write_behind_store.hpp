@@ -61,7 +61,7 @@ class WriteBehindStore {
     /// `record.fence` is the fence to pass to save().
     struct FetchedSession {
         std::optional<session::Session> session;
-        Record record;
+        SessionRecord record;
     };
     using FetchResult = Result<FetchedSession>;
     /// The part of a session to save: the result of encodeHead() or of encodeWhole() (session_codec.hpp).

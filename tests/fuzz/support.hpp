@@ -192,7 +192,7 @@ inline void requireSentence(const Error& error) {
 inline void execute(session::Session& session, const session::Command& command) {
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
-    session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::Mode::deferred, session::readObject);
+    session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::LoadingMode::deferred, session::readObject);
     session::ComputedOutcome outcome;
     for (int orders = 0; session::needsLoading(session, command, kLimits, loader, outcome); ++orders) {
         require(session == before, "what is not ready yet changes nothing");

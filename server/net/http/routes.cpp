@@ -174,7 +174,7 @@ asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters q
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
-        limits, services_.polytopes, session::ObjectLoader::Mode::deferred, session::FileReader());
+        limits, services_.polytopes, session::ObjectLoader::LoadingMode::deferred, session::FileReader());
     for (;;) {
         auto state = session::stateFromQuery(query, limits, *loader, session::initialState(), others);
         if (!loader->isPending()) co_return state;

@@ -14,7 +14,7 @@ namespace asio = boost::asio;
 
 session::ObjectLoader ObjectLoading::makeLoader() const {
     const session::CriticalSearchOptions search{&services_.critical, services_.options.file.time};
-    return {services_.options.session, services_.polytopes, session::ObjectLoader::Mode::deferred,
+    return {services_.options.session, services_.polytopes, session::ObjectLoader::LoadingMode::deferred,
             session::FileReader(), search};
 }
 

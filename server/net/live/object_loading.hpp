@@ -26,7 +26,7 @@ class ObjectLoading {
                   std::shared_ptr<SessionPublisher> publisher)
         : services_(services), metered_(std::move(metered)), publisher_(std::move(publisher)) {}
 
-    /// Returns a loader that defers slow work (ObjectLoader::Mode::deferred). Allocates no memory, because most
+    /// Returns a loader that defers slow work (ObjectLoader::LoadingMode::deferred). Allocates no memory, because most
     /// commands load nothing.
     session::ObjectLoader makeLoader() const;
 

@@ -28,7 +28,7 @@ store::WriteBehindStore::WriteBehindSettings settingsFrom(const ServerOptions& o
 /// of the decoded objects.
 class RecordObjectDecoder {
   public:
-    RecordObjectDecoder(const store::Record& record, store::DataFolderReader open) : open_(std::move(open)) {
+    RecordObjectDecoder(const store::SessionRecord& record, store::DataFolderReader open) : open_(std::move(open)) {
         for (const auto& [key, bytes] : record.objects) bytes_[key] = bytes;
     }
     std::optional<slicing::Object> operator()(const std::string& key) {
@@ -51,7 +51,7 @@ class RecordObjectDecoder {
 };
 
 /// Returns the estimated time to decode a record.
-Seconds decodingCost(const store::Record& record) {
+Seconds decodingCost(const store::SessionRecord& record) {
     constexpr double kByte = 1e-7;
     std::size_t bytes = record.whole.size() + record.head.size();
     for (const auto& [key, object] : record.objects) bytes += object.size();
@@ -166,12 +166,13 @@ void SessionManager::onRead(const PendingJoin& pending, WriteBehindStore::FetchR
     } else if (fetch->session) {
         finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
     } else {
-        startDecoding(pending, std::make_shared<const store::Record>(std::move(fetch->record)), Ownership::unclaimed);
+        startDecoding(pending, std::make_shared<const store::SessionRecord>(std::move(fetch->record)),
+                      Ownership::unclaimed);
     }
 }
 
 /// Makes a worker decode a record, because decoding would block the thread of the write-behind store.
-void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<const store::Record> record,
+void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<const store::SessionRecord> record,
                                    Ownership ownership) {
     const Seconds cost = decodingCost(*record);
     // A record that refers to a file of the data folder goes to a load worker, because opening this file may take long.
@@ -187,9 +188,9 @@ void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<c
     finishOpening(pending, kTooManyJobs);
 }
 
-void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<const store::Record>& stored,
+void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<const store::SessionRecord>& stored,
                             Ownership ownership) {
-    const store::Record& record = *stored;
+    const store::SessionRecord& record = *stored;
     const std::string& id = pending.credentials.id;
     bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be read later
     try {
@@ -256,13 +257,13 @@ void SessionManager::onClaimed(const PendingJoin& pending, const DecodedRecord& 
         finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
         return;
     }
-    store::Record& claimed = fetch->record;
+    store::SessionRecord& claimed = fetch->record;
     if (claimed.whole == decoded.record->whole && claimed.head == decoded.record->head) {
         writeBehind_.setStoredKeys(pending.credentials.id, decoded.keys);
         finishOpening(pending, decoded.value, claimed.fence);
         return;
     }
-    startDecoding(pending, std::make_shared<const store::Record>(std::move(claimed)), Ownership::claimed);
+    startDecoding(pending, std::make_shared<const store::SessionRecord>(std::move(claimed)), Ownership::claimed);
 }
 
 /// Passes the session, or the error, to the client that asked first. If another server has taken over the session in

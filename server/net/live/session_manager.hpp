@@ -66,15 +66,17 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void evict(const std::string& id);
     // The record of a session in the store, and what it contains.
     struct DecodedRecord {
-        std::shared_ptr<const store::Record> record;
+        std::shared_ptr<const store::SessionRecord> record;
         session::Session value;
         store::KeysBySerial keys;
     };
     enum class Ownership : std::uint8_t { unclaimed, claimed };  // whether this server has claimed a record's session
 
     void onRead(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
-    void startDecoding(const PendingJoin& pending, std::shared_ptr<const store::Record> record, Ownership ownership);
-    void decode(const PendingJoin& pending, const std::shared_ptr<const store::Record>& stored, Ownership ownership);
+    void startDecoding(const PendingJoin& pending, std::shared_ptr<const store::SessionRecord> record,
+                       Ownership ownership);
+    void decode(const PendingJoin& pending, const std::shared_ptr<const store::SessionRecord>& stored,
+                Ownership ownership);
     void claim(const PendingJoin& pending, const std::shared_ptr<const DecodedRecord>& decoded);
     void onClaimed(const PendingJoin& pending, const DecodedRecord& decoded,
                    store::WriteBehindStore::FetchResult fetch);

@@ -14,7 +14,8 @@ namespace oval4d::render {
 /// Sorts shapes from far to near by a radix sort. Reuses its memory.
 class DepthOrder {
   public:
-    struct Entry {
+    /// A shape of the list, with the key by which it is sorted.
+    struct KeyedShape {
         std::uint32_t key;    ///< ascends as the depth descends
         std::uint32_t index;  ///< of the shape in the list
     };
@@ -22,7 +23,7 @@ class DepthOrder {
     /// Returns the order of `shapes`, a random-access range, by their member `depth`, a float: from the greatest depth
     /// to the least; shapes at the same depth in the order of the list. The result is valid until the next call.
     template <typename Shapes>
-    std::span<const Entry> farToNear(const Shapes& shapes) {
+    std::span<const KeyedShape> farToNear(const Shapes& shapes) {
         entries_.clear();
         for (const auto& shape : shapes)
             entries_.push_back({keyOf(shape.depth), static_cast<std::uint32_t>(entries_.size())});
@@ -48,7 +49,7 @@ class DepthOrder {
     void sort() {
         if (entries_.empty()) return;
         std::array<std::array<std::uint32_t, std::size_t{1} << kDigitBits>, kDigits> counts{};
-        for (const Entry& entry : entries_)
+        for (const KeyedShape& entry : entries_)
             for (std::size_t digit = 0; digit < kDigits; ++digit) ++counts[digit][digitOf(entry.key, digit)];
         sorted_.resize(entries_.size());
         for (std::size_t digit = 0; digit < kDigits; ++digit) {
@@ -56,12 +57,12 @@ class DepthOrder {
             if (places[digitOf(entries_.front().key, digit)] == entries_.size()) continue;  // all are equal
             std::uint32_t next = 0;
             for (std::uint32_t& place : places) next += std::exchange(place, next);
-            for (const Entry& entry : entries_) sorted_[places[digitOf(entry.key, digit)]++] = entry;
+            for (const KeyedShape& entry : entries_) sorted_[places[digitOf(entry.key, digit)]++] = entry;
             entries_.swap(sorted_);
         }
     }
 
-    std::vector<Entry> entries_, sorted_;
+    std::vector<KeyedShape> entries_, sorted_;
 };
 
 }  // namespace oval4d::render

@@ -37,7 +37,7 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     for (auto& [items, shapes] : {std::tie(solid_, out.solid), std::tie(translucent_, out.translucent)}) {
         shapes.begin(scene.style());
         shapes.setProjection(Projection::of(scene.camera, scene.viewport));
-        for (const DepthOrder::Entry& entry : order_.farToNear(items)) addShape(scene, items[entry.index], shapes);
+        for (const DepthOrder::KeyedShape& entry : order_.farToNear(items)) addShape(scene, items[entry.index], shapes);
     }
 }
 

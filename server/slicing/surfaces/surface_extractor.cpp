@@ -421,10 +421,10 @@ bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level,
     // Describes a row of lattice points along x. Each member has a byte for each of the four cubes along the row, and
     // in this byte a bit for each level, as in inside_.
     constexpr std::size_t kRows = kBlock + 1;
-    struct Row {
+    struct CornerPairs {
         std::uint32_t some, all;  // whether any, and whether both, of the cube's two corners in this row are inside
     };
-    const auto rowAt = [&](std::uint32_t at) -> Row {
+    const auto rowAt = [&](std::uint32_t at) -> CornerPairs {
         std::array<std::uint32_t, 2> ends{};
         for (std::size_t i = 0; i < 2; ++i) std::memcpy(&ends[i], &inside_[at + i], kBlock);
         return {ends[0] | ends[1], ends[0] & ends[1]};
@@ -436,14 +436,14 @@ bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level,
         const glm::ivec3 first =
             glm::ivec3(n % blockCount_.x, n / blockCount_.x % blockCount_.y, n / (blockCount_.x * blockCount_.y)) *
             kBlock;
-        std::array<std::array<Row, kRows>, kRows> rows{};
+        std::array<std::array<CornerPairs, kRows>, kRows> rows{};
         for (std::size_t k = 0; k < kRows; ++k) {
             const auto layer = index(first) + static_cast<std::uint32_t>(k) * nextLayer;
             for (std::size_t j = 0; j < kRows; ++j) rows[k][j] = rowAt(layer + static_cast<std::uint32_t>(j) * nextRow);
         }
         for (std::size_t k = 0; k < kBlock; ++k) {
             for (std::size_t j = 0; j < kBlock; ++j) {
-                const Row &a = rows[k][j], &b = rows[k][j + 1], &c = rows[k + 1][j], &d = rows[k + 1][j + 1];
+                const CornerPairs &a = rows[k][j], &b = rows[k][j + 1], &c = rows[k + 1][j], &d = rows[k + 1][j + 1];
                 std::uint32_t crossed =
                     ((a.some | b.some | c.some | d.some) ^ (a.all & b.all & c.all & d.all)) & levelBits;
                 for (; crossed != 0; crossed &= crossed - 1)

@@ -159,14 +159,14 @@ TEST(Load, MayBeReadAhead) {
     Session session;
     Result<std::monostate> done = std::monostate{};
     const Command load = LoadObject{"mine", "points", "0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n.1 .1 .1 .1\n"};
-    ObjectLoader reader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader reader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, load, reader, done), 1);
     EXPECT_TRUE(done);
     EXPECT_EQ(reader.warnings().size(), 1U);
     EXPECT_EQ(infoOf(session.current).name, "mine");
     EXPECT_EQ(slicing::elementCounts(session.current.object)[3], 5U);
 
-    ObjectLoader refuser(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader refuser(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, LoadObject{"other", "points", "1 2 3\n"}, refuser, done), 1);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::bad_polytope);
@@ -176,23 +176,23 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     Session session;
     Result<std::monostate> done = std::monostate{};
     const Command unusual = CommandLine{"polytope 17,19-duoprism"};
-    ObjectLoader first(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader first(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, unusual, first, done), 1);
     EXPECT_TRUE(done);
     EXPECT_EQ(infoOf(session.current).name, "17,19-duoprism");
     Session other;
-    ObjectLoader second(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader second(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(other, unusual, second, done), 0);
     EXPECT_EQ(other.current.object, session.current.object);
 
-    ObjectLoader turner(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader turner(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, Key{"y", false, false}, turner, done), 0);
-    ObjectLoader walker(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader walker(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
     // The elements of this polytope coincide, which is found only when it is built.
-    ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);
 }
@@ -203,7 +203,7 @@ TEST(Load, FilesThatWouldBeRefusedAreNotRead) {
     const FileReader reader = [](const LoadObject&, const Limits&) -> Result<ObjectWithWarnings> {
         return Error{ErrorCode::internal, "the test does not read"};
     };
-    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
+    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, reader);
     const Limits full{.maxLoaded = 1};
     LoadObject load{"b", "off", kPentachoron};
     ComputedOutcome outcome;
@@ -433,13 +433,13 @@ TEST(Load, ReadsByWhatItIsGivenAndOnlyWhatItMayRead) {
         seen = load.name + ": " + load.data;
         return Error{ErrorCode::too_large, "so"};
     };
-    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
+    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::immediate, reader);
     Session session;
     const auto done = apply(session, LoadObject{"mine", "points", "1 2 3"}, Limits{}, loader);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().message, "so");
     EXPECT_EQ(seen, "mine: 1 2 3");
-    ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
+    ObjectLoader other(Limits{}, support::cache(), ObjectLoader::LoadingMode::immediate, reader);
     EXPECT_FALSE(apply(session, LoadObject{"tesseract", "points", "4 5 6"}, Limits{}, other));
     EXPECT_EQ(seen, "mine: 1 2 3");
 }

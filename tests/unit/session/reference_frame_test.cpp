@@ -177,7 +177,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     line(session, "set pace=2");
     for (const char* name : {"120-cell", "24-cell"}) (void)support::shared(name);  // in the cache
     const Session before = session;
-    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     const CommandLine both{"set polytope=120-cell boost=0.5,0,0"};
     ComputedOutcome outcome;
     int images = 0;
@@ -194,7 +194,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     EXPECT_EQ(images, 2) << "in the old frame and in the new one";
     EXPECT_EQ(infoOf(session.current).name, "120-cell");
     EXPECT_EQ(session.current.referenceFrame, (geometry::ReferenceFrame{2, {}, {0.5, 0, 0}}));
-    ObjectLoader other(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+    ObjectLoader other(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     const CommandLine small{"polytope 24-cell"};
     EXPECT_FALSE(needsLoading(session, small, Limits{}, other, outcome)) << "small images are made at once";
     const auto image = other.transformedTo(support::shared("24-cell"), session.current.referenceFrame);

@@ -45,7 +45,7 @@ TEST(Regions, TheCommandLoadsOneOfTheArrayOfTheField) {
             loads.push_back(load);
             return ObjectWithWarnings{partOfArray(), {}};
         };
-        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
+        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, reader);
         Result<std::monostate> done = std::monostate{};
         EXPECT_EQ(ordersOf(session, CommandLine{text}, loader, done), 1);
         ASSERT_TRUE(done) << done.error().message;
@@ -81,7 +81,7 @@ TEST(Regions, AnotherOneKeepsTheSettingsOfTheField) {
         const FileReader reader = [](const LoadObject&, const Limits&) -> Result<ObjectWithWarnings> {
             return ObjectWithWarnings{partOfArray(10), {}};
         };
-        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
+        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::immediate, reader);
         LoadObject load{"run", "", {}};
         load.dataName = "large.zarr";
         load.axes = "tzyx";

@@ -75,7 +75,7 @@ TEST(Load, TheHistoryGrowsWithTheField) {
     };
     Session session;
     const auto execute = [&](const LoadObject& load) {
-        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, reader);
+        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, reader);
         Result<std::monostate> done = std::monostate{};
         EXPECT_EQ(ordersOf(session, load, loader, done), load.append ? 2 : 1);
         EXPECT_TRUE(done);

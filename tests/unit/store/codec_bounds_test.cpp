@@ -82,7 +82,8 @@ TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
             Session session;
             session::LoadObject load{"run", "npy", ""};
             const auto execute = [&] {
-                session::ObjectLoader loader({}, support::cache(), session::ObjectLoader::Mode::deferred, reader);
+                session::ObjectLoader loader({}, support::cache(), session::ObjectLoader::LoadingMode::deferred,
+                                             reader);
                 Result<std::monostate> done = std::monostate{};
                 session::ordersOf(session, load, loader, done);
                 EXPECT_TRUE(done);

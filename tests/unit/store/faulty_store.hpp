@@ -44,10 +44,10 @@ class FaultyStore final : public Store {
     std::optional<std::string> tokenHash(const std::string& id) override {
         return attempt([&](MemoryStore& kept) { return kept.tokenHash(id); });
     }
-    std::optional<Record> read(const std::string& id) override {
+    std::optional<SessionRecord> read(const std::string& id) override {
         return attempt([&](MemoryStore& kept) { return kept.read(id); });
     }
-    std::optional<Record> claim(const std::string& id) override {
+    std::optional<SessionRecord> claim(const std::string& id) override {
         return attempt([&](MemoryStore& kept) { return kept.claim(id); });
     }
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override {

@@ -90,7 +90,7 @@ TEST(SqliteStore, FilesArePrivate) {
 }
 
 /// Claims a session. If the first attempt finds damage, makes a second one, which first repairs the file.
-std::optional<Record> claimed(SqliteStore& store, const std::string& id) {
+std::optional<SessionRecord> claimed(SqliteStore& store, const std::string& id) {
     try {
         return store.claim(id);
     } catch (const CorruptDatabase&) {

@@ -18,7 +18,7 @@ struct Shape {
 
 std::vector<std::uint32_t> sorted(DepthOrder& order, const std::vector<Shape>& shapes) {
     std::vector<std::uint32_t> indices;
-    for (const DepthOrder::Entry& entry : order.farToNear(shapes)) indices.push_back(entry.index);
+    for (const DepthOrder::KeyedShape& entry : order.farToNear(shapes)) indices.push_back(entry.index);
     return indices;
 }
 
