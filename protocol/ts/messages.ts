@@ -1484,7 +1484,7 @@ export interface ShownParts {
      */
     cells?: boolean;
     /**
-     * Whether the projection shows elements that belong only to cells turned away from the 4-D eye. Of a convex polytope, these are all that the eye cannot see; of any other, cells that face the eye stay even where nearer cells hide them.
+     * Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it and, of a polytope that is not convex, elements that lie wholly behind other cells.
      */
     back?: boolean;
     /**

@@ -18,23 +18,30 @@ namespace {
 
 using geometry::kNone;
 
-// The elements of a cell complex that are written to part 0 of the output (see Projector::project()): those of the
-// selected cells, or all elements.
-struct CellSelection {
-    const std::vector<bool>* facing;  // per cell: whether it is selected; null if all elements are selected
+// The elements of a cell complex that are written to part 0 of the output (see Projector::project()).
+struct ElementSelection {
+    const DrawnElements* unhidden;    // the selected elements; null if they are not listed
+    const std::vector<bool>* facing;  // otherwise, per cell: whether its elements are selected; null if all are
     bool face(const geometry::CellComplex& p, std::size_t f) const {
+        if (unhidden != nullptr) return unhidden->faces[f];
         return facing == nullptr || (*facing)[p.faceCells[f][0]] || (*facing)[p.faceCells[f][1]];
     }
 };
 
-// Numbers the vertices and edges of the selected 2-faces: writes their indices in part 0, or kNone for all others.
-void numberElements(const geometry::CellComplex& p, const CellSelection& selection,
+// Numbers the selected vertices and edges: writes their indices in part 0, or kNone for all others.
+void numberElements(const geometry::CellComplex& p, const ElementSelection& selection,
                     std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
     edges.assign(p.edges.size(), kNone);
-    for (std::size_t f = 0; f < p.faces.size(); ++f) {
-        if (!selection.face(p, f)) continue;
-        for (const std::uint32_t e : p.faceEdges[f]) edges[e] = 0;
+    if (selection.unhidden != nullptr) {
+        const DrawnElements& drawn = *selection.unhidden;
+        for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] = drawn.vertices[v] ? 0 : kNone;
+        for (std::size_t e = 0; e < edges.size(); ++e) edges[e] = drawn.edges[e] ? 0 : kNone;
+    } else {
+        for (std::size_t f = 0; f < p.faces.size(); ++f) {
+            if (!selection.face(p, f)) continue;
+            for (const std::uint32_t e : p.faceEdges[f]) edges[e] = 0;
+        }
     }
     std::uint32_t count = 0;
     for (std::size_t e = 0; e < edges.size(); ++e) {
@@ -83,7 +90,9 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
         const bool culled = options.culled && cells > 0, drawn = options.cells;
         if (cells > 0 && (culled || drawn)) findFacingCells(object, orientation, projection);
-        const CellSelection selection{culled ? &cellIsFacing_ : nullptr};
+        const bool mayHideItself = culled && !infoOf(object).convex;
+        const ElementSelection selection{mayHideItself ? findUnhidden(p, orientation, slices, options) : nullptr,
+                                         culled ? &cellIsFacing_ : nullptr};
         numberElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;
@@ -172,6 +181,24 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
             kOnPlaneTolerance * glm::length(normals_[c]);  // so that a cell seen edge-on does not face the eye
         cellIsFacing_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
     }
+}
+
+// Returns the elements of a nonconvex object that do not lie wholly behind its cells, or null if options.occlusionSteps
+// are too few to find them. Expects that cellIsFacing_ is valid.
+const DrawnElements* Projector::findUnhidden(const geometry::CellComplex& complex,
+                                             const geometry::Rotation& orientation, const SliceSet& slices,
+                                             const Options& options) {
+    const OcclusionInput input{complex.serial, orientation, options.projection, options.cells, options.occlusionSteps};
+    if (occlusionInput_ != input) {
+        occlusionInput_.reset();
+        images_.clear();
+        for (const glm::dvec4& vertex : slices.rotatedVertices)
+            images_.push_back(options.projection.withHeight(vertex));
+        occlusionFound_ =
+            occlusion_.find(complex, images_, cellIsFacing_, options.cells, options.occlusionSteps, unhidden_);
+        occlusionInput_ = input;
+    }
+    return occlusionFound_ ? &unhidden_ : nullptr;
 }
 
 }  // namespace oval4d::slicing

@@ -1,7 +1,9 @@
 #pragma once
 // Projections of an object and of its slices from four to three dimensions.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -9,6 +11,7 @@
 
 #include "geometry/rotation.hpp"
 #include "slicing/object.hpp"
+#include "slicing/occlusion.hpp"
 #include "slicing/slice_set.hpp"
 
 namespace oval4d::slicing {
@@ -24,10 +27,14 @@ struct ProjectionToHyperplane {
     double magnification(double w) const { return 1 / (1 - w * inverseDistance); }
     /// Returns the projection of a point.
     glm::dvec3 operator()(const glm::dvec4& p) const { return glm::dvec3(p) * magnification(p.w); }
+    /// Returns the projection of a point, and as the fourth coordinate a height that increases toward the eye along
+    /// each line of sight (see ProjectedCells).
+    glm::dvec4 withHeight(const glm::dvec4& p) const { return p * magnification(p.w); }
+    bool operator==(const ProjectionToHyperplane&) const = default;
 };
 
-/// Projects an object together with some of its slices. Caches the hyperplanes of the cells of the last object, and
-/// reuses its memory. Only one thread at a time may use a projector.
+/// Projects an object together with some of its slices. Caches the hyperplanes of the cells of the last object and what
+/// is hidden of it, and reuses its memory. Only one thread at a time may use a projector.
 class Projector {
   public:
     struct ProjectionOptions {
@@ -36,11 +43,14 @@ class Projector {
         /// loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat; FaceFiller
         /// fills it.
         bool cells = false;
-        /// Whether to leave out the elements that belong only to cells whose outer sides are turned away from the 4-D
-        /// eye. Of a convex object, these are exactly the elements that the eye cannot see. Of any other, the eye does
-        /// not see all that is left, because cells that face it may lie behind others. Leaves out nothing if the object
-        /// has no cells.
+        /// Whether to leave out what the 4-D eye cannot see: the elements that belong only to cells whose outer sides
+        /// are turned away from it, which are all of a convex object, and of any other object also those that lie
+        /// wholly behind other cells and bound no element that is drawn (see OcclusionFinder::find()). Leaves out
+        /// nothing if the object has no cells.
         bool culled = false;
+        /// The maximum number of steps to find what lies behind other cells. If they are too few, only what belongs to
+        /// cells turned away is left out.
+        std::size_t occlusionSteps = OcclusionFinder::kDefaultSteps;
         int firstSlice = 0, endSlice = 0;  ///< the slices to project are firstSlice … endSlice − 1 of the set
     };
 
@@ -57,8 +67,20 @@ class Projector {
                  const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
   private:
+    // All that determines what is hidden.
+    struct OcclusionInput {
+        std::uint64_t object = 0;  // the serial number
+        geometry::Rotation orientation;
+        ProjectionToHyperplane projection;
+        bool withFaces = false;
+        std::size_t steps = 0;
+        bool operator==(const OcclusionInput&) const = default;
+    };
+
     void findFacingCells(const Object& object, const geometry::Rotation& orientation,
                          const ProjectionToHyperplane& projection);
+    const DrawnElements* findUnhidden(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
+                                      const SliceSet& slices, const Options& options);
     void addSlice(const SliceSet& slices, int slice, const ProjectionToHyperplane& projection, SliceSet& out,
                   std::vector<std::uint32_t>& faceCells);
 
@@ -68,6 +90,12 @@ class Projector {
     std::vector<bool> cellIsFacing_;         // per cell: whether its outer side is turned toward the eye
     std::vector<std::uint32_t> number_;      // per vertex of the object: its index in part 0, or kNone
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
+
+    OcclusionFinder occlusion_;
+    std::optional<OcclusionInput> occlusionInput_;  // of unhidden_ and occlusionFound_; empty if they are not valid
+    bool occlusionFound_ = false;                   // whether the steps were enough
+    DrawnElements unhidden_;                        // valid only if occlusionFound_ is true
+    std::vector<glm::dvec4> images_;
 };
 
 }  // namespace oval4d::slicing

@@ -374,9 +374,8 @@ class StateShown(_StateShown, total=False):
     labels: bool
     # Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
     cells: bool
-    # Whether the projection shows elements that belong only to cells turned away from the 4-D eye. Of a convex
-    # polytope, these are all that the eye cannot see; of any other, cells that face the eye stay even where nearer
-    # cells hide them.
+    # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it
+    # and, of a polytope that is not convex, elements that lie wholly behind other cells.
     back: bool
     # Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
     sections: bool
@@ -1008,9 +1007,8 @@ class ShownParts(TypedDict, total=False):
     labels: bool
     # Whether the projection of the whole polytope shows the 2-faces that bound its cells, or those of a surface.
     cells: bool
-    # Whether the projection shows elements that belong only to cells turned away from the 4-D eye. Of a convex
-    # polytope, these are all that the eye cannot see; of any other, cells that face the eye stay even where nearer
-    # cells hide them.
+    # Whether the projection shows what the 4-D eye cannot see: elements that belong only to cells turned away from it
+    # and, of a polytope that is not convex, elements that lie wholly behind other cells.
     back: bool
     # Whether the projection shows the sections of all hyperplanes, not only that of the focus slice.
     sections: bool

@@ -1,0 +1,289 @@
+#include "slicing/occlusion.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace oval4d::slicing {
+
+namespace {
+
+// Lengths, relative to the size of the projection. They are large compared with ProjectedCells::kTinyShift.
+constexpr double kBesideLine =
+    1e-7;  // the distance of a tested line in a 2-face from a line that may bound visible parts
+constexpr double kShortest = 2e-6;  // shorter parts of such lines are not tested
+
+double crossProduct(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+// Returns the winding number of a loop around a point.
+int windingOfLoop(std::span<const glm::dvec2> loop, const glm::dvec2& point) {
+    int winding = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i)
+        winding += windingOfSide(loop[i] - point, loop[(i + 1) % loop.size()] - point);
+    return winding;
+}
+
+}  // namespace
+
+glm::dvec2 OcclusionFinder::FacePlane::coordinatesOf(const glm::dvec4& point) const {
+    const glm::dvec3 from(point - origin);
+    return {glm::dot(from, glm::dvec3(right)), glm::dot(from, glm::dvec3(up))};
+}
+
+bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
+                           const std::vector<bool>& facing, bool withFaces, std::size_t steps, DrawnElements& out) {
+    complex_ = &complex;
+    out.vertices.assign(complex.vertices.size(), false);
+    out.edges.assign(complex.edges.size(), false);
+    out.faces.assign(complex.faces.size(), false);
+
+    std::vector<std::uint32_t> faces;
+    std::vector<bool> mayShowVertex(complex.vertices.size()), mayShowEdge(complex.edges.size());
+    for (std::uint32_t f = 0; f < complex.faces.size(); ++f) {
+        const auto [first, second] = complex.faceCells[f];
+        if (!facing[first] && !facing[second]) continue;
+        faces.push_back(f);
+        for (const std::uint32_t v : complex.faces[f]) mayShowVertex[v] = true;
+        for (const std::uint32_t e : complex.faceEdges[f]) mayShowEdge[e] = true;
+    }
+    const std::size_t tested = static_cast<std::size_t>(std::count(mayShowEdge.begin(), mayShowEdge.end(), true)) +
+                               (withFaces ? faces.size() : 0);
+    if (tested > steps / complex.cells.size()) return false;
+    cells_.place(complex, images, steps);
+    if (withFaces) findContourFaces();
+
+    for (const std::uint32_t f : faces) {
+        if (cells_.isExhausted()) return false;
+        if (!withFaces || isFaceHidden(f)) continue;
+        out.faces[f] = true;
+        for (const std::uint32_t e : complex.faceEdges[f]) out.edges[e] = true;
+    }
+    const std::vector<glm::dvec4>& points = cells_.points();
+    for (std::uint32_t e = 0; e < complex.edges.size(); ++e) {
+        if (cells_.isExhausted()) return false;
+        const auto [a, b] = complex.edges[e];
+        if (mayShowEdge[e] && !out.edges[e]) {
+            cells_.exclude(cells_.cellsOfEdge(e));
+            out.edges[e] = !cells_.isHidden({points[a], points[b]}, cells_.allOccluders());
+        }
+        if (out.edges[e]) out.vertices[a] = out.vertices[b] = true;
+    }
+    for (std::uint32_t v = 0; v < complex.vertices.size(); ++v) {
+        if (cells_.isExhausted()) return false;
+        if (!mayShowVertex[v] || out.vertices[v]) continue;
+        cells_.exclude(cells_.cellsOfVertex(v));
+        out.vertices[v] = !cells_.isHidden({points[v], points[v]}, cells_.allOccluders());
+    }
+    return !cells_.isExhausted();
+}
+
+// Divides the projection of a cell into the tetrahedra between its center, the centers of its 2-faces and their sides.
+// Returns the common sign of their volumes, or 0 if the signs differ. If they agree, the winding number of the boundary
+// of the cell has this sign at all points of the projection.
+int OcclusionFinder::sideOfCell(std::uint32_t cell) const {
+    const auto centerOf = [this](std::span<const std::uint32_t> loop) {
+        glm::dvec3 sum(0);
+        for (const std::uint32_t v : loop) sum += glm::dvec3(cells_.points()[v]);
+        return sum / static_cast<double>(loop.size());
+    };
+    const geometry::CellComplex& p = *complex_;
+    const std::uint32_t begin = p.cells.begin[cell], end = p.cells.begin[cell + 1];
+    glm::dvec3 center(0);
+    for (const std::uint32_t f : p.cells[cell]) center += centerOf(p.faces[f]) / static_cast<double>(end - begin);
+    const double least = 1e-15 * cells_.size() * cells_.size() * cells_.size();
+    bool positive = false, negative = false;
+    for (std::uint32_t at = begin; at < end; ++at) {
+        const auto loop = p.faces[p.cells.items[at]];
+        const glm::dvec3 middle = centerOf(loop) - center;
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            const glm::dvec3 a(cells_.points()[loop[i]]), b(cells_.points()[loop[(i + 1) % loop.size()]]);
+            const double volume = p.cellSigns[at] * glm::dot(middle, glm::cross(a - center, b - center));
+            positive = positive || volume > least;
+            negative = negative || volume < -least;
+        }
+    }
+    return static_cast<int>(positive) - static_cast<int>(negative);
+}
+
+// If the projections of the two cells of a 2-face have the same sign (see sideOfCell()), they lie on its two sides, so
+// that beyond the 2-face the one cell hides what the other one hid before.
+void OcclusionFinder::findContourFaces() {
+    const geometry::CellComplex& p = *complex_;
+    contourFaces_.clear();
+    std::vector<int> side(p.cells.size(), 0);
+    for (const Occluder& occluder : cells_.occluders()) {
+        cells_.spend(p.cells[occluder.cell].size());
+        side[occluder.cell] = sideOfCell(occluder.cell);
+    }
+    for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
+        const auto [first, second] = p.faceCells[f];
+        if (side[first] != 0 && side[first] == side[second]) continue;
+        const glm::dvec4& start = cells_.points()[p.faces[f][0]];
+        ContourFace face{f, {glm::dvec3(start), glm::dvec3(start)}, start.w};
+        for (const std::uint32_t v : p.faces[f]) {
+            face.box.include(glm::dvec3(cells_.points()[v]));
+            face.top = std::max(face.top, cells_.points()[v].w);
+        }
+        contourFaces_.push_back(face);
+    }
+}
+
+bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
+    const geometry::CellComplex& p = *complex_;
+    const auto loop = p.faces[face];
+    cells_.exclude(p.faceCells[face]);
+    const glm::dvec4& start = cells_.points()[loop[0]];
+    Box box{glm::dvec3(start), glm::dvec3(start)};
+    double lowest = start.w;
+    for (const std::uint32_t v : loop) {
+        box.include(glm::dvec3(cells_.points()[v]));
+        lowest = std::min(lowest, cells_.points()[v].w);
+    }
+    cells_.spend(cells_.occluders().size());
+    candidates_.clear();
+    for (std::uint32_t i = 0; i < cells_.occluders().size(); ++i) {
+        const Occluder& o = cells_.occluders()[i];
+        if (!cells_.isExcluded(o.cell) && o.top > lowest && o.box.meets(box)) candidates_.push_back(i);
+    }
+    if (candidates_.empty()) return false;
+    if (!findFacePlane(loop)) {  // edge-on: all of it that can be seen are its sides
+        for (std::size_t i = 0; i < loop.size(); ++i) {
+            if (!cells_.isHidden({cells_.points()[loop[i]], cells_.points()[loop[(i + 1) % loop.size()]]}, candidates_))
+                return false;
+        }
+        return true;
+    }
+    outline_.clear();
+    for (const std::uint32_t v : loop) outline_.push_back(plane_.coordinatesOf(cells_.points()[v]));
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+        if (isSeenBeside(outline_[i], outline_[(i + 1) % outline_.size()])) return false;
+    }
+    for (const std::uint32_t i : candidates_) {
+        if (cells_.isExhausted() || isSeenAlongHyperplane(cells_.occluders()[i])) return false;
+    }
+    cells_.spend(contourFaces_.size());
+    for (const ContourFace& other : contourFaces_) {
+        if (other.face == face || other.top <= lowest || !other.box.meets(box)) continue;
+        const auto corners = p.faces[other.face];
+        cells_.spend(corners.size());
+        for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+            if (cells_.isExhausted() || isSeenAlongTriangle({corners[0], corners[i], corners[i + 1]})) return false;
+        }
+    }
+    return true;
+}
+
+// Sets plane_ to the plane of a 2-face. Returns false if the projection of the 2-face has no area.
+bool OcclusionFinder::findFacePlane(std::span<const std::uint32_t> loop) {
+    plane_.origin = cells_.points()[loop[0]];
+    const auto findAxis = [&](glm::dvec4& axis, auto rejected) {
+        glm::dvec4 longest(0);
+        double most = 0;
+        for (const std::uint32_t v : loop) {
+            const glm::dvec4 rest = rejected(cells_.points()[v] - plane_.origin);
+            if (const double length = glm::length(glm::dvec3(rest)); length > most) {
+                most = length;
+                longest = rest;
+            }
+        }
+        if (most <= kShortest * cells_.size()) return false;
+        axis = longest / most;
+        return true;
+    };
+    return findAxis(plane_.right, [](const glm::dvec4& vector) { return vector; }) &&
+           findAxis(plane_.up, [this](const glm::dvec4& vector) {
+               return vector - glm::dot(glm::dvec3(vector), glm::dvec3(plane_.right)) * plane_.right;
+           });
+}
+
+// Returns whether a part of the tested 2-face is seen beside the line in which the hyperplane of a cell cuts it.
+bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
+    const glm::dvec2 gradient(-glm::dot(occluder.normal, plane_.right), -glm::dot(occluder.normal, plane_.up));
+    const double atOrigin = occluder.depthOf(plane_.origin);
+    glm::dvec2 least = outline_[0], most = outline_[0];
+    bool above = false, below = false;
+    for (const glm::dvec2& corner : outline_) {
+        least = glm::min(least, corner);
+        most = glm::max(most, corner);
+        (atOrigin + glm::dot(gradient, corner) > 0 ? below : above) = true;
+    }
+    const double slope = glm::length(gradient);
+    if (!above || !below || slope == 0) return false;
+    const glm::dvec2 middle = (least + most) / 2.0, across = gradient / slope;
+    const glm::dvec2 onLine = middle - (atOrigin + glm::dot(gradient, middle)) / slope * across;
+    const glm::dvec2 reach = glm::length(most - least) * glm::dvec2(-across.y, across.x);
+    const glm::dvec2 from = onLine - reach, to = onLine + reach;
+    // The part of the line in the box of the cell.
+    const glm::dvec3 start(plane_.at(from)), way = glm::dvec3(plane_.at(to)) - start;
+    double first = 0, last = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double low = occluder.box.least[axis] - start[axis], high = occluder.box.most[axis] - start[axis];
+        if (way[axis] == 0) {
+            if (low > 0 || high < 0) return false;
+            continue;
+        }
+        const auto [enters, leaves] = std::minmax({low / way[axis], high / way[axis]});
+        first = std::max(first, enters);
+        last = std::min(last, leaves);
+    }
+    return first < last && isSeenBeside(glm::mix(from, to, first), glm::mix(from, to, last));
+}
+
+// Returns whether a part of the tested 2-face is seen beside the line in which a projected triangle cuts its
+// projection, or beside sides of the triangle that lie in its plane.
+bool OcclusionFinder::isSeenAlongTriangle(const Triangle& triangle) {
+    const glm::dvec3 normal = glm::cross(glm::dvec3(plane_.right), glm::dvec3(plane_.up));
+    std::array<glm::dvec2, 3> corners{};
+    std::array<double, 3> heights{};  // above the plane, in R³
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec4& point = cells_.points()[triangle[i]];
+        corners[i] = plane_.coordinatesOf(point);
+        heights[i] = glm::dot(normal, glm::dvec3(point - plane_.origin));
+    }
+    std::array<glm::dvec2, 2> ends{};
+    std::size_t found = 0;
+    const double same = ProjectedCells::kTinyShift * cells_.size();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t next = (i + 1) % 3;
+        const double a = heights[i], b = heights[next];
+        if (std::abs(a) <= same && std::abs(b) <= same && isSeenBeside(corners[i], corners[next])) return true;
+        if ((a > 0) != (b > 0) && found < 2) ends[found++] = glm::mix(corners[i], corners[next], a / (a - b));
+    }
+    return found == 2 && isSeenBeside(ends[0], ends[1]);
+}
+
+// Returns whether a part of the tested 2-face is seen next to a line in its plane, on either side.
+bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to) {
+    const glm::dvec2 along = to - from;
+    const double length = glm::length(along);
+    if (length <= kShortest * cells_.size()) return false;
+    cells_.spend(outline_.size());
+    places_.assign({0, 1});
+    for (std::size_t i = 0; i < outline_.size(); ++i) {
+        const glm::dvec2 corner = outline_[i], side = outline_[(i + 1) % outline_.size()] - corner;
+        const double turn = crossProduct(along, side);
+        if (std::abs(turn) <= ProjectedCells::kTinyShift * length * glm::length(side)) continue;  // parallel
+        const double place = crossProduct(corner - from, side) / turn;
+        const double onSide = crossProduct(corner - from, along) / turn;
+        if (place > 0 && place < 1 && onSide >= -kBesideLine && onSide <= 1 + kBesideLine) places_.push_back(place);
+    }
+    std::ranges::sort(places_);
+    const glm::dvec2 across = kBesideLine * cells_.size() / length * glm::dvec2(-along.y, along.x);
+    const double margin =
+        8 * kBesideLine * cells_.size() / length;  // because next to a corner, the line leaves the 2-face
+    for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
+        if ((places_[i + 1] - places_[i]) * length <= kShortest * cells_.size()) continue;
+        for (const double sign : {1.0, -1.0}) {
+            const glm::dvec2 start = from + (places_[i] + margin) * along + sign * across;
+            const glm::dvec2 end = from + (places_[i + 1] - margin) * along + sign * across;
+            if (windingOfLoop(outline_, (start + end) / 2.0) == 0) continue;
+            if (!cells_.isHidden({plane_.at(start), plane_.at(end)}, candidates_)) return true;
+        }
+    }
+    return false;
+}
+
+}  // namespace oval4d::slicing

@@ -1,0 +1,89 @@
+#pragma once
+// Which elements of an object lie wholly behind its cells, as an eye in four dimensions sees them.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include "geometry/cell_complex.hpp"
+#include "slicing/projected_cells.hpp"
+
+namespace oval4d::slicing {
+
+/// The elements of a cell complex that are drawn: whether each vertex, edge and 2-face is. Whatever bounds an element
+/// that is drawn is drawn, too.
+struct DrawnElements {
+    std::vector<bool> vertices, edges, faces;
+};
+
+/// Finds the elements of a cell complex that lie wholly behind its cells. A cell does not hide the elements that it
+/// contains; ProjectedCells describes which other points it hides. Reuses its memory. Only one thread at a time may use
+/// an occlusion finder.
+class OcclusionFinder {
+  public:
+    /// The default limit of steps. So many take a few tenths of a second.
+    static constexpr std::size_t kDefaultSteps = 50'000'000;
+
+    /// Finds what is drawn of `complex`, whose cells `facing` says to be turned toward the eye; `images` has the image
+    /// of each vertex, as ProjectedCells describes it. Only elements of cells that face the eye are drawn, and of
+    /// these:
+    /// - if `withFaces`, the 2-faces that are not wholly hidden, and what bounds them; otherwise, no 2-face;
+    /// - the edges that are not wholly hidden, and their ends;
+    /// - the vertices that are not hidden.
+    ///
+    /// An edge is divided where a cell begins or ceases to hide it, so that the result is exact. In a 2-face, the
+    /// visible parts are bounded by its sides, by the lines in which cells pass through it, and by the projections of
+    /// 2-faces at which the boundary of the body turns away from the eye; the 2-face is hidden if both sides of all
+    /// these lines are. Visible parts that are less than about 10⁻⁶ of the size of the projection wide may be
+    /// overlooked.
+    ///
+    /// `steps` limits the time. A step is the comparison of a part of an element with a cell or with a triangle of the
+    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If they are fewer than the
+    /// pairs of a cell and of an element to be tested, returns false at once.
+    bool find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const std::vector<bool>& facing,
+              bool withFaces, std::size_t steps, DrawnElements& out);
+
+  private:
+    using Box = ProjectedCells::Box;
+    using Occluder = ProjectedCells::Occluder;
+    using Triangle = ProjectedCells::Triangle;
+
+    // A 2-face at which cells may begin or cease to hide what is below: its two cells do not lie, in the projection, on
+    // its two sides.
+    struct ContourFace {
+        std::uint32_t face;
+        Box box;
+        double top;
+    };
+    // The image of the plane of a 2-face: the point at (x, y) is origin + x · right + y · up. `right` and `up` are
+    // orthonormal if their fourth coordinates are left out.
+    struct FacePlane {
+        glm::dvec4 origin, right, up;
+        glm::dvec4 at(const glm::dvec2& p) const { return origin + p.x * right + p.y * up; }
+        glm::dvec2 coordinatesOf(const glm::dvec4& point) const;
+    };
+
+    void findContourFaces();
+    int sideOfCell(std::uint32_t cell) const;
+
+    bool isFaceHidden(std::uint32_t face);
+    bool findFacePlane(std::span<const std::uint32_t> loop);
+    bool isSeenAlongHyperplane(const Occluder& occluder);
+    bool isSeenAlongTriangle(const Triangle& triangle);
+    bool isSeenBeside(const glm::dvec2& from, const glm::dvec2& to);
+
+    const geometry::CellComplex* complex_ = nullptr;  // the argument of find(), whose cells cells_ has
+    ProjectedCells cells_;
+    std::vector<ContourFace> contourFaces_;
+
+    FacePlane plane_{};                      // of the tested 2-face
+    std::vector<glm::dvec2> outline_;        // its loop
+    std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of it
+    std::vector<double> places_;             // where a line crosses the outline
+};
+
+}  // namespace oval4d::slicing

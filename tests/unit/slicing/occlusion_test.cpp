@@ -1,0 +1,361 @@
+// What the projection of a nonconvex object leaves out because it lies wholly behind other cells.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "slicing/projector.hpp"
+#include "slicing/slicer.hpp"
+#include "unit/slicing/support.hpp"
+
+namespace oval4d::slicing {
+namespace {
+
+using polytopes::Polytope;
+using support::named;
+using support::objectOf;
+
+// A box with sides parallel to the axes.
+struct TestBox {
+    glm::dvec4 least, most;
+};
+
+TestBox cubeAt(const glm::dvec4& center, double halfEdge) { return {center - halfEdge, center + halfEdge}; }
+
+/// Returns boxes as one polytope. Box i has the vertices 16 i … 16 i + 15, the 2-faces 24 i … 24 i + 23 and 8 cells.
+Polytope boxes(const std::vector<TestBox>& all) {
+    const support::Polygon square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const Polytope tesseract = support::product(square, square);
+    std::vector<glm::dvec4> vertices;
+    geometry::JaggedArray faces, cells;
+    for (const TestBox& box : all) {
+        const auto firstVertex = static_cast<std::uint32_t>(vertices.size());
+        const auto firstFace = static_cast<std::uint32_t>(faces.size());
+        const auto shifted = [](std::span<const std::uint32_t> row, std::uint32_t by) {
+            std::vector<std::uint32_t> out(row.begin(), row.end());
+            for (std::uint32_t& item : out) item += by;
+            return out;
+        };
+        for (const glm::dvec4& v : tesseract.vertices) {
+            glm::dvec4 corner(0);
+            for (int i = 0; i < 4; ++i) corner[i] = v[i] > 0 ? box.most[i] : box.least[i];
+            vertices.push_back(corner);
+        }
+        for (std::size_t f = 0; f < tesseract.faces.size(); ++f) faces.add(shifted(tesseract.faces[f], firstVertex));
+        for (std::size_t c = 0; c < tesseract.cells.size(); ++c) cells.add(shifted(tesseract.cells[c], firstFace));
+    }
+    return polytopes::makePolytope("boxes", std::move(vertices), std::move(faces), std::move(cells));
+}
+
+/// The drawn elements of an object.
+struct Drawn {
+    std::set<std::uint32_t> vertices, edges, faces;
+    bool operator==(const Drawn&) const = default;
+};
+
+Drawn drawnWith(Projector& projector, const Polytope& p, const geometry::Rotation& turn,
+                const Projector::Options& options) {
+    SliceSet slices, parts;
+    std::vector<std::uint32_t> faceCells;
+    Slicer().sliceWithoutSurfaces(objectOf(p), turn, {0, 1, 1}, slices);
+    projector.project(objectOf(p), turn, slices, options, parts, faceCells);
+    const auto vertices = static_cast<std::uint32_t>(p.edges.size()),
+               edges = static_cast<std::uint32_t>(p.faces.size()), faces = static_cast<std::uint32_t>(p.cells.size());
+    Drawn out;
+    for (const std::uint32_t source : parts.vertexSource) out.vertices.insert(source - vertices);
+    for (const std::uint32_t source : parts.edgeSource) out.edges.insert(source - edges);
+    for (const std::uint32_t source : parts.faceSource) out.faces.insert(source - faces);
+    return out;
+}
+
+Drawn drawn(const Polytope& p, const geometry::Rotation& turn, const Projector::Options& options) {
+    Projector projector;
+    return drawnWith(projector, p, turn, options);
+}
+
+/// Returns a random rotation that maps the w axis to itself.
+geometry::Rotation randomRotationOfSpace(std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
+    const glm::dquat q = glm::normalize(glm::dquat(w, x, y, z));
+    return {q, glm::conjugate(q)};
+}
+
+/// Returns how many vertices of each box are drawn.
+std::vector<std::size_t> verticesOfBoxes(const Drawn& seen, std::size_t boxCount) {
+    std::vector<std::size_t> counts(boxCount, 0);
+    for (const std::uint32_t v : seen.vertices) ++counts[v / 16];
+    return counts;
+}
+
+TEST(Occlusion, LeavesOutABodyBehindALargerOne) {
+    const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({0.1, 0.2, -0.1, -3}, 0.5)});
+    ASSERT_FALSE(p.convex);
+    std::mt19937 random(21);
+    for (const double inverse : {0.0, 1 / (3 * p.circumradius)}) {
+        for (int round = 0; round < 4; ++round) {
+            const geometry::Rotation turn = round == 0 ? geometry::Rotation() : randomRotationOfSpace(random);
+            for (const bool cells : {false, true}) {
+                const Drawn seen = drawn(p, turn, {.projection = {inverse}, .cells = cells, .culled = true});
+                if (inverse == 0) {  // of the nearer one, the eye at infinity sees the upper cell
+                    EXPECT_EQ(seen.vertices.size(), 8U);
+                    EXPECT_EQ(seen.edges.size(), 12U);
+                    EXPECT_EQ(seen.faces.size(), cells ? 6U : 0U);
+                }
+                const auto counts = verticesOfBoxes(seen, 2);
+                EXPECT_GE(counts[0], 8U);
+                EXPECT_EQ(counts[1], 0U);
+            }
+        }
+    }
+    const Drawn whole = drawn(p, {}, {.projection = {0.0}});
+    EXPECT_EQ(whole.vertices.size(), 32U);
+}
+
+TEST(Occlusion, KeepsABodyBehindASmallerOne) {
+    const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({0, 0, 0, -3}, 1.5)});
+    const Drawn seen = drawn(p, {}, {.projection = {0.0}, .cells = true, .culled = true});
+    EXPECT_EQ(seen.vertices.size(), 16U);
+    EXPECT_EQ(seen.edges.size(), 24U);
+    EXPECT_EQ(seen.faces.size(), 12U);
+}
+
+// In the projection, the nearer cube has |x|, |y|, |z| ≤ 1, and the farther one 0.5 ≤ x ≤ 1.5 and |y|, |z| ≤ 0.5.
+TEST(Occlusion, DividesEdgesWhereTheyVanishBehindACell) {
+    const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({1, 0, 0, -3}, 0.5)});
+    std::mt19937 random(22);
+    for (int round = 0; round < 4; ++round) {
+        const geometry::Rotation turn = round == 0 ? geometry::Rotation() : randomRotationOfSpace(random);
+        const Drawn bars = drawn(p, turn, {.projection = {0.0}, .culled = true});
+        // The four edges with x = 0.5 are hidden. Four others are hidden only in part, so that both ends are drawn.
+        EXPECT_EQ(bars.edges.size(), 12U + 8U);
+        EXPECT_EQ(bars.vertices.size(), 8U + 8U);
+        // Only the square with x = 0.5 is wholly hidden. The other squares are drawn with all their sides.
+        const Drawn cells = drawn(p, turn, {.projection = {0.0}, .cells = true, .culled = true});
+        EXPECT_EQ(cells.faces.size(), 6U + 5U);
+        EXPECT_EQ(cells.edges.size(), 12U + 12U);
+        EXPECT_EQ(cells.vertices.size(), 8U + 8U);
+    }
+}
+
+// Boxes in pairs side by side hide what lies behind their common boundary, also if it runs along this boundary.
+TEST(Occlusion, HasNoGapsBetweenNeighboringCells) {
+    const Polytope p = boxes({{{-2, -2, -2, 2}, {0, 2, 2, 3}},
+                              {{0, -2, -2, 2}, {2, 2, 2, 3}},
+                              cubeAt({0, 0, 0, -3}, 1),
+                              cubeAt({0.5, 0, 0, -6}, 0.5)});  // it has edges with x = 0
+    for (const bool cells : {false, true}) {
+        const auto counts = verticesOfBoxes(drawn(p, {}, {.projection = {0.0}, .cells = cells, .culled = true}), 4);
+        EXPECT_EQ(counts[0], 8U);
+        EXPECT_EQ(counts[1], 8U);
+        EXPECT_EQ(counts[2], 0U);
+        EXPECT_EQ(counts[3], 0U);
+    }
+}
+
+// Four bars hide the sides of the square z = 2 of a cube, but not its middle, until a lid covers it.
+TEST(Occlusion, KeepsAFaceThatIsSeenThroughAWindow) {
+    std::vector<TestBox> parts{cubeAt({0, 0, 0, -8}, 2),
+                               {{-3, -3, 1, 0}, {3, -1, 3, 1}},
+                               {{-3, 1, 1, 0}, {3, 3, 3, 1}},
+                               {{-3, -3, 1, 3}, {-1, 3, 3, 4}},
+                               {{1, -3, 1, 3}, {3, 3, 3, 4}}};
+    const auto squareIsDrawn = [](const Polytope& p, const geometry::Rotation& turn) {
+        const Drawn seen = drawn(p, turn, {.projection = {0.0}, .cells = true, .culled = true});
+        const auto isSquare = [&](std::uint32_t f) {
+            return f < 24 && std::ranges::all_of(
+                                 p.faces[f],
+                                 [&](std::uint32_t v) {
+                                     return std::abs(p.vertices[v].z - 2) < 1e-9 &&
+                                            std::abs(p.vertices[v].w + 6) < 1e-9;
+                                 });
+        };
+        return std::ranges::any_of(seen.faces, isSquare);
+    };
+    std::mt19937 random(23);
+    const geometry::Rotation turn = randomRotationOfSpace(random);
+    const Polytope open = boxes(parts);
+    EXPECT_TRUE(squareIsDrawn(open, {}));
+    EXPECT_TRUE(squareIsDrawn(open, turn));
+    parts.push_back({{-1.5, -1.5, 1, 6}, {1.5, 1.5, 3, 7}});
+    const Polytope closed = boxes(parts);
+    EXPECT_FALSE(squareIsDrawn(closed, {}));
+    EXPECT_FALSE(squareIsDrawn(closed, turn));
+}
+
+TEST(Occlusion, LeavesOutOnlyCellsTurnedAwayIfStepsAreTooFew) {
+    const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({0, 0, 0, -3}, 0.5)});
+    for (const std::size_t steps : {0U, 10U, 500U}) {
+        const Drawn seen = drawn(p, {}, {.projection = {0.0}, .cells = true, .culled = true, .occlusionSteps = steps});
+        EXPECT_EQ(seen.vertices.size(), 16U) << steps;
+        EXPECT_EQ(seen.edges.size(), 24U) << steps;
+        EXPECT_EQ(seen.faces.size(), 12U) << steps;
+    }
+}
+
+TEST(Occlusion, IsNotSoughtForConvexPolytopes) {
+    std::mt19937 random(24);
+    for (const char* name : {"tesseract", "600-cell", "3,5-duoprism"}) {
+        const Polytope& p = named(name);
+        const geometry::Rotation turn = support::randomRotation(random);
+        for (const bool cells : {false, true}) {
+            const Projector::Options options{
+                .projection = {0.5 / p.circumradius}, .cells = cells, .culled = true, .occlusionSteps = 0};
+            Projector::Options unlimited = options;
+            unlimited.occlusionSteps = ~std::size_t{0};
+            EXPECT_EQ(drawn(p, turn, options), drawn(p, turn, unlimited)) << name;
+        }
+    }
+}
+
+/// Returns the winding number of the boundary of a cell around a point, both projected, as a sum of solid angles: see
+/// A. Van Oosterom and J. Strackee, "The solid angle of a plane triangle", 1983.
+int windingBySolidAngle(const Polytope& p, std::size_t cell, const std::vector<glm::dvec3>& projected,
+                        const glm::dvec3& point) {
+    double sum = 0;
+    for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
+        const auto loop = p.faces[p.cells.items[at]];
+        for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+            const glm::dvec3 a = projected[loop[0]] - point, b = projected[loop[i]] - point,
+                             c = projected[loop[i + 1]] - point;
+            const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
+            const double angle =
+                2 * std::atan2(glm::dot(a, glm::cross(b, c)),
+                               la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
+            sum += p.cellSigns[at] * angle;
+        }
+    }
+    return static_cast<int>(std::lround(sum / (4 * std::numbers::pi)));
+}
+
+/// Looks along rays at points of the elements of a star, without the code under test.
+class RayCaster {
+  public:
+    RayCaster(const Polytope& p, const geometry::Rotation& turn, double inverseDistance)
+        : p_(p), inverseDistance_(inverseDistance) {
+        for (const glm::dvec4& v : p.vertices) {
+            turned_.push_back(turn(v));
+            projected_.push_back(ProjectionToHyperplane{inverseDistance}(turned_.back()));
+        }
+        findCellHyperplanes(objectOf(p), normals_, offsets_);
+        for (glm::dvec4& normal : normals_) normal = turn(normal);
+    }
+
+    const glm::dvec4& vertex(std::uint32_t v) const { return turned_[v]; }
+
+    /// Returns whether no cell but those in `own` is between the point and the eye.
+    bool sees(const glm::dvec4& point, const std::set<std::uint32_t>& own) const {
+        const bool perspective = inverseDistance_ > 0;
+        const glm::dvec4 up(0, 0, 0, 1), way = perspective ? up / inverseDistance_ - point : up;
+        const glm::dvec3 at = ProjectionToHyperplane{inverseDistance_}(point);
+        for (std::uint32_t c = 0; c < p_.cells.size(); ++c) {
+            const double speed = glm::dot(normals_[c], way);
+            if (own.contains(c) || speed == 0) continue;
+            const double when = (offsets_[c] - glm::dot(normals_[c], point)) / speed;
+            if (when > 1e-6 && windingBySolidAngle(p_, c, projected_, at) != 0) return false;
+        }
+        return true;
+    }
+
+  private:
+    const Polytope& p_;
+    double inverseDistance_;
+    std::vector<glm::dvec4> turned_, normals_;
+    std::vector<glm::dvec3> projected_;
+    std::vector<double> offsets_;
+};
+
+TEST(Occlusion, NeverLeavesOutWhatARaySees) {
+    std::mt19937 random(25);
+    std::uniform_real_distribution<double> part(0.01, 0.99);
+    std::size_t seenPoints = 0, hiddenPoints = 0;
+    for (const char* name : {"small stellated 120-cell", "grand 600-cell"}) {
+        SCOPED_TRACE(name);
+        const Polytope& p = named(name);
+        std::vector<std::set<std::uint32_t>> cellsOfEdge(p.edges.size());
+        for (std::size_t f = 0; f < p.faces.size(); ++f) {
+            for (const std::uint32_t e : p.faceEdges[f])
+                cellsOfEdge[e].insert(p.faceCells[f].begin(), p.faceCells[f].end());
+        }
+        for (const double inverse : {0.0, 0.5 / p.circumradius}) {
+            const geometry::Rotation turn = support::randomRotation(random);
+            const RayCaster rays(p, turn, inverse);
+            const Drawn cells = drawn(p, turn, {.projection = {inverse}, .cells = true, .culled = true});
+            const Drawn bars = drawn(p, turn, {.projection = {inverse}, .culled = true});
+            EXPECT_TRUE(std::ranges::includes(cells.edges, bars.edges));
+            for (int sample = 0; sample < (support::kSanitized ? 20 : 100); ++sample) {
+                const auto e = static_cast<std::uint32_t>(random() % p.edges.size());
+                const auto [a, b] = p.edges[e];
+                const double t = part(random);
+                const bool edgeIsSeen = rays.sees((1 - t) * rays.vertex(a) + t * rays.vertex(b), cellsOfEdge[e]);
+                ++(edgeIsSeen ? seenPoints : hiddenPoints);
+                ASSERT_TRUE(!edgeIsSeen || (bars.edges.contains(e) && bars.vertices.contains(a))) << e;
+
+                const auto f = static_cast<std::uint32_t>(random() % p.faces.size());
+                const auto loop = p.faces[f];
+                glm::dvec4 middle(0);
+                for (const std::uint32_t v : loop) middle += rays.vertex(v) / static_cast<double>(loop.size());
+                const std::size_t side = random() % loop.size();
+                const double outward = std::sqrt(part(random)), along = part(random);
+                const glm::dvec4 onSide =
+                    (1 - along) * rays.vertex(loop[side]) + along * rays.vertex(loop[(side + 1) % loop.size()]);
+                const bool faceIsSeen =
+                    rays.sees(middle + outward * (onSide - middle), {p.faceCells[f].begin(), p.faceCells[f].end()});
+                ++(faceIsSeen ? seenPoints : hiddenPoints);
+                ASSERT_TRUE(!faceIsSeen || cells.faces.contains(f)) << f;
+            }
+        }
+    }
+    EXPECT_GT(seenPoints, 0U);
+    EXPECT_GT(hiddenPoints, 0U);
+}
+
+TEST(Occlusion, DoesNotDependOnHowTheProjectionIsTurned) {
+    std::mt19937 random(26);
+    const Polytope& p = named("great stellated 120-cell");
+    const geometry::Rotation turn = support::randomRotation(random);
+    for (const double inverse : {0.0, 0.4 / p.circumradius}) {
+        const Projector::Options options{.projection = {inverse}, .cells = true, .culled = true};
+        const Drawn seen = drawn(p, turn, options);
+        EXPECT_FALSE(seen.faces.empty());
+        for (int round = 0; round < 2; ++round)
+            EXPECT_EQ(drawn(p, randomRotationOfSpace(random) * turn, options), seen);
+    }
+}
+
+TEST(Occlusion, IsFoundAnewWhenAnythingChanges) {
+    const Polytope behind = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({0, 0, 0, -3}, 0.5)});
+    const Polytope beside = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({5, 0, 0, -3}, 0.5)});
+    std::mt19937 random(27);
+    const geometry::Rotation turn = support::randomRotation(random);
+    Projector projector;
+    for (const Polytope* p : {&behind, &beside, &behind}) {
+        for (const double inverse : {0.0, 0.5 / p->circumradius}) {
+            for (const geometry::Rotation& orientation : {geometry::Rotation(), turn}) {
+                for (const bool cells : {true, false}) {
+                    for (const std::size_t steps : {OcclusionFinder::kDefaultSteps, std::size_t{0}}) {
+                        const Projector::Options options{
+                            .projection = {inverse}, .cells = cells, .culled = true, .occlusionSteps = steps};
+                        EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
+                        EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
+                    }
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace oval4d::slicing
