@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "slicing/occlusion.hpp"
+
 namespace oval4d::exports {
 
 /// The limits of one export.
@@ -23,6 +25,9 @@ struct ExportLimits {
     std::function<bool(std::size_t)> grantTotalBytes = nullptr;
     /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
     std::size_t sliceEdges = std::numeric_limits<std::size_t>::max();
+    /// The maximum number of steps to find what lies behind other cells in the projection of the object (see
+    /// slicing::OcclusionFinder::find()).
+    std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
     /// The maximum number of slices that ExportRequest::chosenW or ExportRequest::fittedSlices may choose.
     int slices = 201;
     /// Returns the time by which `time` is measured. Tests pass a function that returns a virtual time. Thread-safe.

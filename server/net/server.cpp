@@ -166,7 +166,7 @@ Server::Server(ServerOptions options, parallel::ForkJoin& forkJoin, process::Pro
       childEnvironment_(childEnvironment(options_, workers_, sandboxWarning_)),
       readiness_(workers_),
       sharedRasterizer_(usableProcessorCount(),
-                        {{options_.picture.fillSteps, options_.polytopeCache},
+                        {{options_.picture.fillSteps, options_.polytopeCache, options_.picture.occlusionSteps},
                          options_.drawTimeout,
                          [this](const process::ProcessLoss& loss) { onRasterizerLost(loss); },
                          childEnvironment_},

@@ -82,17 +82,20 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
 }
 
 // Returns a set whose only slice is the projection of the whole object, to be exported instead of `slices`. The
-// projection is orthogonal if the picture shows an orthogonal projection, else perspective.
-slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slicing::SliceSet& slices) {
+// projection is orthogonal if the picture shows an orthogonal projection, else perspective. `occlusionSteps`: see
+// slicing::Projector::ProjectionOptions.
+slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slicing::SliceSet& slices,
+                               std::size_t occlusionSteps) {
     const scene::ProjectionSettings& settings = picture.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
     const double radius = slicing::infoOf(picture.object).circumradius;
     slicing::SliceSet projected;
     std::vector<std::uint32_t> faceCells;
-    slicing::Projector().project(
-        picture.object, picture.orientation, slices,
-        {.projection = {parallel ? 0 : 1 / (settings.eye * radius)}, .culled = !picture.look.parts.back}, projected,
-        faceCells);
+    slicing::Projector().project(picture.object, picture.orientation, slices,
+                                 {.projection = {parallel ? 0 : 1 / (settings.eye * radius)},
+                                  .culled = !picture.look.parts.back,
+                                  .occlusionSteps = occlusionSteps},
+                                 projected, faceCells);
     projected.planes = slices.planes;
     projected.rotatedVertices = slices.rotatedVertices;
     return projected;
@@ -151,7 +154,8 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
         }
         slicing::Slicer().slice(picture.object, picture.orientation, planes, picture.look.field, detail, slices);
     }
-    if (request.contents == exports::ExportContentsKind::projection && !drawing) slices = projectionOf(picture, slices);
+    if (request.contents == exports::ExportContentsKind::projection && !drawing)
+        slices = projectionOf(picture, slices, limits.occlusionSteps);
     scene::Look look;
     if (hasOwnLook) {
         look = picture.look;
@@ -177,6 +181,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFaceFilling(PictureWorkLimits().fillSteps);
+    composer.limitOcclusion(limits.occlusionSteps);
     // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size,
     // with width and height exchanged for a tall view.
     const bool isSquare = showsSlices && request.contents == exports::ExportContentsKind::focus;

@@ -52,6 +52,7 @@ void Pipeline::writeSlices(const scene::PictureRequest& picture, const slicing::
                            std::string& out) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
     workspace_.composer.limitFaceFilling(limits_.fillSteps);
+    workspace_.composer.limitOcclusion(limits_.occlusionSteps);
     times_.compose = measureSeconds([&] {
         workspace_.composer.compose(picture.object, picture.orientation, slices, picture.focus, picture.look,
                                     picture.viewport, workspace_.scene, picture.quality);
@@ -63,6 +64,7 @@ void Pipeline::writeSlices(const scene::PictureRequest& picture, const slicing::
 std::string Pipeline::describePoint(const scene::PictureRequest& picture, std::uint64_t revision,
                                     std::optional<double> id, glm::dvec2 point) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
+    workspace_.composer.limitOcclusion(limits_.occlusionSteps);
     workspace_.composer.compose(picture.object, picture.orientation, sliceToPointAt(picture), picture.focus,
                                 picture.look, picture.viewport, workspace_.scene, picture.quality,
                                 scene::ScenePurpose::pointing);

@@ -15,6 +15,7 @@
 #include "raster/rasterizer.hpp"
 #include "scene/composer.hpp"
 #include "scene/picture_request.hpp"
+#include "slicing/occlusion.hpp"
 #include "slicing/slicer.hpp"
 #include "wire/encoding.hpp"
 #include "wire/slices_message.hpp"
@@ -31,6 +32,8 @@ struct PictureTimes : raster::DrawTimes {
 struct PictureWorkLimits {
     std::size_t fillSteps = 20'000'000;  ///< steps to fill self-intersecting faces (see slicing::FaceFiller::fill())
     std::size_t sliceEdges = 5'000'000;  ///< edges of all slices together (see slicing::checkSliceEdges())
+    /// Steps to find what lies behind other cells (see slicing::OcclusionFinder::find()).
+    std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 
 /// Makes of a picture's description what a client displays: a `slices` message (picture → slices → scene → message) or
@@ -39,8 +42,8 @@ struct PictureWorkLimits {
 class Pipeline {
   public:
     /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores, and must
-    /// outlive this object; if it is null, one core is used. PictureWorkLimits::fillSteps limits only messages; the
-    /// rasterizer has a limit of its own.
+    /// outlive this object; if it is null, one core is used. PictureWorkLimits::fillSteps and
+    /// PictureWorkLimits::occlusionSteps limit only messages; the rasterizer has limits of its own.
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              PictureWorkLimits limits = {});
 

@@ -16,6 +16,7 @@ void LocalRasterizer::draw(const scene::PictureRequest& picture, std::span<std::
     warmUp();
     Workspace& m = workspace_;
     m.composer.limitFaceFilling(fillSteps_);
+    m.composer.limitOcclusion(occlusionSteps_);
     times.slice = measureSeconds([&] {
         m.composer.layOutAndChooseDetail(picture.object, picture.planes, picture.focus, picture.look, picture.viewport,
                                          picture.quality, m.scene, m.detail);

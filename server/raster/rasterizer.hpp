@@ -48,6 +48,9 @@ class LocalRasterizer : public Rasterizer {
     /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
     /// slicing::FaceFiller::fill()).
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
+    /// Limits the time for finding what lies behind other cells in each picture to `steps` steps (see
+    /// slicing::OcclusionFinder::find()).
+    void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 
     void warmUp() override;
     std::span<const std::uint8_t> draw(const scene::PictureRequest& picture, DrawTimes& times) override;
@@ -73,6 +76,7 @@ class LocalRasterizer : public Rasterizer {
 
     parallel::ForkJoin* forkJoin_;
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
+    std::size_t occlusionSteps_ = slicing::OcclusionFinder::kDefaultSteps;
     std::optional<render::Renderer> renderer_;  // created on first use
     Workspace workspace_;
 };

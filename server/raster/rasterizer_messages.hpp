@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "scene/picture_request.hpp"
+#include "slicing/occlusion.hpp"
 
 namespace oval4d::raster {
 
@@ -14,6 +15,8 @@ namespace oval4d::raster {
 struct RasterizerLimits {
     std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::FaceFiller::fill()
     std::size_t objectBytes = 0;  ///< the maximum size of the cache of objects; the latest object may exceed it
+    /// The maximum number of steps in one picture; see slicing::OcclusionFinder::find().
+    std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 
 /// The request for one picture.

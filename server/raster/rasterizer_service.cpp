@@ -126,6 +126,7 @@ class RasterizerService {
 
     void draw() {
         rasterizer_.limitFaceFilling(request_.limits.fillSteps);
+        rasterizer_.limitOcclusion(request_.limits.occlusionSteps);
         DrawTimes times;
         const std::size_t size = image::byteCount(request_.picture.viewport.width, request_.picture.viewport.height);
         rasterizer_.draw(request_.picture, pixelFiles_.at(currentFile_)->remap(size), times);

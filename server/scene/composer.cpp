@@ -246,6 +246,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const slicing::Projector::ProjectionOptions options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
                                                         .cells = look.parts.projectionFaces,
                                                         .culled = !look.parts.back,
+                                                        .occlusionSteps = occlusionSteps_,
                                                         .firstSlice = all ? 0 : focusSlice,
                                                         .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;

@@ -38,6 +38,9 @@ class Composer {
     /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::FaceFiller::fill()
     /// for the slices, and what they leave for the projection of the object. By default, there is no limit.
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
+    /// Limits the work of finding what lies behind other cells in the projection of the object (see
+    /// slicing::Projector::Options::occlusionSteps).
+    void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
     /// index n of the focus slice (see SlicePlacement::index). `quality` is the quality of the contours of a field in
@@ -102,6 +105,7 @@ class Composer {
     void measureFieldHistograms(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
+    std::size_t occlusionSteps_ = slicing::OcclusionFinder::kDefaultSteps;
     CellPainter cellPainter_;
     slicing::FaceFiller filler_;
     std::uint64_t object_ = 0;       // the serial number of the object of the last call

@@ -265,6 +265,7 @@ OVAL4D_FUZZER(slices) {
     const session::State& state = session.current;
     slicer.sliceWithoutSurfaces(state.object, state.orientation, state.hyperplanes(), slices);
     composer.limitFaceFilling(100'000);
+    composer.limitOcclusion(100'000);
     composer.compose(state.object, state.orientation, slices, state.slices.focus, state.look, viewport, scene);
     writer.write(scene, session.revision, 3, wire::Encoding::json, text);
     const json one = fromJson(text);

@@ -11,6 +11,7 @@ import pytest
 import websockets
 from harness import DEADLINE, Server, run_oval4d
 from png import pixels
+from test_import import get_file, tesseract_file
 from test_pacing import masked_frame, open_nonreading_socket
 from wire import Client, Refused, connect, credentials_of, handshake_status
 
@@ -104,6 +105,48 @@ async def test_faces_beyond_the_fill_limit_are_filled_approximately():
         assert total_area(roughly) > 1.01 * total_area(triangles), "the cores of the stars are covered more than once"
     failed = run_oval4d("--max-fill", "0")
     assert failed.returncode != 0 and b"max-fill" in failed.stderr + failed.stdout
+
+
+def two_tesseracts():
+    """Returns a tesseract, and behind it, at smaller w, one half as large, as 4OFF."""
+    lines = tesseract_file().splitlines()
+
+    def moved(size, w):
+        for point in lines[2:18]:
+            *xyz, own = (size * float(x) for x in point.split())
+            yield " ".join(map(str, [*xyz, own + w]))
+
+    def renumbered(records, by):
+        for count, *items in (map(int, record.split()) for record in records):
+            yield " ".join(map(str, [count, *(i + by for i in items)]))
+
+    faces, cells = lines[18:42], lines[42:50]
+    records = [*moved(1, 3), *moved(0.5, -3), *faces, *renumbered(faces, 16), *cells, *renumbered(cells, 24)]
+    return "\n".join(["4OFF", "32 48 64 16", *records]) + "\n"
+
+
+async def test_beyond_the_limit_of_occlusion_only_cells_turned_away_are_left_out():
+    async def made(server):
+        """Returns how many elements the projection has, a picture, a drawing and a mesh."""
+        async with Client(server) as client:
+            await client.request("load", name="boxes", format="off", data=two_tesseracts())
+            await client.request("set", projection="orthogonal", shown={"back": False, "cells": True},
+                                 orientation=[[int(i == j) for j in range(4)] for i in range(4)])
+            part = (await client.request("get", what="slices"))["projection"]["parts"][0]
+            return ([len(part[kind]) for kind in ("vertices", "edges", "faces")],
+                    pixels(await client.request_frame(width=320, height=180)),
+                    await get_file(client, format="svg", of="projection"),
+                    await get_file(client, format="stl", of="projection", body="skeleton"))
+
+    with Server() as server:
+        visible = await made(server)
+    with Server("--max-occlusion", 1) as server:
+        facing = await made(server)
+    assert visible[0] == [8, 12, 6], "the upper cell of the nearer tesseract"
+    assert facing[0] == [16, 24, 12], "and that of the farther one"
+    assert all(one != other for one, other in zip(visible, facing))
+    failed = run_oval4d("--max-occlusion", "0")
+    assert failed.returncode != 0 and b"max-occlusion" in failed.stderr + failed.stdout
 
 
 async def test_the_number_of_sessions_is_limited():

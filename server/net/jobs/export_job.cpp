@@ -39,6 +39,7 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
         exports::ExportLimits limits = services.options.file;
         limits.slices = services.options.session.maxSlices;
         limits.sliceEdges = services.options.picture.sliceEdges;
+        limits.occlusionSteps = services.options.picture.occlusionSteps;
         limits.grantTotalBytes = [&held](std::size_t bytes) { return bytes <= held.size() || held.growTo(bytes); };
         auto made = pipeline::exportFile(picture, request, limits, services.exportWorkers.stopToken());
         if (!made) {

@@ -17,7 +17,7 @@ TEST(PictureRequest, ComesToTheRasterizerAsItWas) {
         const scene::PictureRequest picture =
             session::pictureOf(sessionWith(setting).current, {640, 360}, slicing::Quality::draft);
         std::string bytes;
-        raster::encodeRequest(picture, {7, 8}, bytes);
+        raster::encodeRequest(picture, {7, 8, 9}, bytes);
         raster::DrawRequest order;
         raster::decodeRequest(bytes, order);
         EXPECT_EQ(order.source, slicing::infoOf(picture.source).serial);
@@ -27,6 +27,7 @@ TEST(PictureRequest, ComesToTheRasterizerAsItWas) {
         EXPECT_TRUE(order.picture == picture);
         EXPECT_EQ(order.limits.fillSteps, 7U);
         EXPECT_EQ(order.limits.objectBytes, 8U);
+        EXPECT_EQ(order.limits.occlusionSteps, 9U);
     }
 }
 

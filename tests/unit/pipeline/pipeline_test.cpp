@@ -1,14 +1,19 @@
 #include "pipeline/pipeline.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "pipeline/cost.hpp"
 #include "scene/pick_level.hpp"
+#include "slicing/projector.hpp"
 #include "slicing/slice_edges.hpp"
+#include "slicing/slicer.hpp"
 #include "unit/polytopes/support.hpp"
 #include "unit/slicing/field_support.hpp"
 
@@ -91,6 +96,34 @@ TEST(Pipeline, NamesTheFocusSectionOnce) {
     expectNamedAnew("turned", [&](scene::PictureRequest& p) { p.orientation = support::randomRotation(random); });
     expectNamedAnew("another focus", [](scene::PictureRequest& p) { p.focus = 1; });
     expectNamedAnew("another object", [](scene::PictureRequest& p) { p.object = support::shared("16-cell"); });
+}
+
+TEST(Pipeline, LeavesOutWhatLiesBehindOtherCellsUpToTheLimit) {
+    scene::PictureRequest picture = pictureOf(support::shared("small stellated 120-cell"));
+    std::mt19937 random(6);
+    picture.orientation = support::randomRotation(random);
+    picture.look.projection.kind = scene::ProjectionKind::perspective;
+    picture.look.parts.back = false;
+    const slicing::Object& object = picture.object;
+    const double circumradius = slicing::infoOf(object).circumradius;
+    slicing::SliceSet slices, parts;
+    slicing::Slicer().sliceWithoutSurfaces(object, picture.orientation, picture.planes, slices);
+    for (const std::size_t steps : {std::size_t{1}, slicing::OcclusionFinder::kDefaultSteps}) {
+        std::vector<std::uint32_t> cells;
+        slicing::Projector().project(
+            object, picture.orientation, slices,
+            {.projection = {1 / (picture.look.projection.eye * circumradius)}, .culled = true, .occlusionSteps = steps},
+            parts, cells);
+        Pipeline pipeline(nullptr, nullptr, {.occlusionSteps = steps});
+        std::string text;
+        pipeline.writeSlices(picture, slices, 1, {}, wire::Encoding::json, text);
+        const nlohmann::json message = nlohmann::json::parse(text);
+        const auto& whole = message["projection"]["parts"][0];
+        EXPECT_EQ(whole["vertices"].size(), parts.vertexCount(0));
+        EXPECT_EQ(whole["edges"].size(), parts.edgeCount(0));
+        Pipeline pointing(nullptr, nullptr, {.occlusionSteps = steps});
+        EXPECT_EQ(answersAt(pointing, picture), answersAt(pipeline, picture));
+    }
 }
 
 // A point of a field is found on one ray, without the surfaces of the picture, and contours are kept for the next
