@@ -250,6 +250,12 @@ export interface ObjectProjection {
      * at position + surface_scale · p. Absent otherwise.
      */
     surface_scale?: number;
+    /**
+     * Whether the search for what lies behind other cells was given up, because it takes more steps than the server
+     * allows, so that without shown.back only the elements of cells turned away from the 4-D eye are left out. Absent
+     * otherwise.
+     */
+    only_turned_away?: boolean;
     /** The whole object; then the section by the focus hyperplane or, if shown.sections is true, by each hyperplane. */
     parts: (Elements & ProjectionLook)[];
 }

@@ -251,6 +251,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                                         .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
+    projection.onlyTurnedAwayLeftOut = projector_.lacksSteps();
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     if (!isSurface) {
         // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.

@@ -44,6 +44,7 @@ struct ObjectProjection {
     std::vector<std::uint32_t> faceCells;
     std::vector<ProjectionPartLook> parts;  ///< for each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
+    bool onlyTurnedAwayLeftOut = false;     ///< see slicing::Projector::lacksSteps()
     /// The filled faces of the parts whose pieces are drawn instead of their polygons: of part 0 if its polygons need
     /// not be convex, and of the section of the focus slice if Scene::fill has the faces of this slice.
     slicing::FilledFaces fill;

@@ -83,6 +83,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
                         const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells) {
     clear(out);
     faceCells.clear();
+    lacksSteps_ = false;
     const ProjectionToHyperplane& projection = options.projection;
     const auto addComplex = [&](const geometry::CellComplex& p) {
         const auto edges = static_cast<std::uint32_t>(p.edges.size());
@@ -93,6 +94,7 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const bool mayHideItself = culled && !infoOf(object).convex;
         const ElementSelection selection{mayHideItself ? findUnhidden(p, orientation, slices, options) : nullptr,
                                          culled ? &cellIsFacing_ : nullptr};
+        lacksSteps_ = mayHideItself && selection.unhidden == nullptr;
         numberElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;

@@ -66,6 +66,10 @@ class Projector {
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
+    /// Returns whether Options::occlusionSteps were too few in the last project(), so that it left out only elements of
+    /// cells turned away.
+    bool lacksSteps() const { return lacksSteps_; }
+
   private:
     // All that determines what is hidden.
     struct OcclusionInput {
@@ -91,6 +95,7 @@ class Projector {
     std::vector<std::uint32_t> number_;      // per vertex of the object: its index in part 0, or kNone
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
 
+    bool lacksSteps_ = false;  // see lacksSteps()
     OcclusionFinder occlusion_;
     std::optional<OcclusionInput> occlusionInput_;  // of unhidden_ and occlusionFound_; empty if they are not valid
     bool occlusionFound_ = false;                   // whether the steps were enough

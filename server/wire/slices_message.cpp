@@ -262,6 +262,7 @@ void SlicesMessageWriter::writeProjection(W& w, const Scene& scene) {
     writeNumbers(w, "position", {position.x, position.y, position.z});
     w.member("scale", scene.projection.scale);
     if (scene.projection.focusSurface) w.member("surface_scale", scene.projection.focusSurface->scale);
+    if (scene.projection.onlyTurnedAwayLeftOut) w.member("only_turned_away", true);
     w.key("parts");
     list_.writeProjection(w, scene);
     w.endObject();

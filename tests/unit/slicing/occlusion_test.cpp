@@ -197,12 +197,21 @@ TEST(Occlusion, KeepsAFaceThatIsSeenThroughAWindow) {
 
 TEST(Occlusion, LeavesOutOnlyCellsTurnedAwayIfStepsAreTooFew) {
     const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({0, 0, 0, -3}, 0.5)});
+    Projector projector;
     for (const std::size_t steps : {0U, 10U, 500U}) {
-        const Drawn seen = drawn(p, {}, {.projection = {0.0}, .cells = true, .culled = true, .occlusionSteps = steps});
+        const Drawn seen =
+            drawnWith(projector, p, {}, {.projection = {0.0}, .cells = true, .culled = true, .occlusionSteps = steps});
+        EXPECT_TRUE(projector.lacksSteps()) << steps;
         EXPECT_EQ(seen.vertices.size(), 16U) << steps;
         EXPECT_EQ(seen.edges.size(), 24U) << steps;
         EXPECT_EQ(seen.faces.size(), 12U) << steps;
     }
+    drawnWith(projector, p, {}, {.projection = {0.0}, .cells = true, .occlusionSteps = 0});
+    EXPECT_FALSE(projector.lacksSteps()) << "nothing is to be left out";
+    drawnWith(projector, p, {}, {.projection = {0.0}, .cells = true, .culled = true});
+    EXPECT_FALSE(projector.lacksSteps());
+    drawnWith(projector, named("tesseract"), {}, {.projection = {0.0}, .culled = true, .occlusionSteps = 0});
+    EXPECT_FALSE(projector.lacksSteps()) << "a convex polytope needs no steps";
 }
 
 TEST(Occlusion, IsNotSoughtForConvexPolytopes) {
