@@ -39,7 +39,7 @@ class Composer {
     /// for the slices, and what they leave for the projection of the object. By default, there is no limit.
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
     /// Limits the work of finding what lies behind other cells in the projection of the object (see
-    /// slicing::Projector::Options::occlusionSteps).
+    /// slicing::Projector::ProjectionOptions::occlusionSteps).
     void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 
     /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the

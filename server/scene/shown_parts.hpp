@@ -15,7 +15,8 @@ struct ShownParts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
     /// In the projection of the whole object: the 2-faces, which bound the projected cells or form the surface.
     bool projectionFaces = false;
-    bool back = true;  ///< in the projection: what the 4-D eye cannot see (see slicing::Projector::Options::culled)
+    bool back =
+        true;  ///< in the projection: what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled)
     bool allSections = false;  ///< in the projection: the sections of all slices, not only of the focus slice
     bool operator==(const ShownParts&) const = default;
 };

@@ -115,7 +115,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
         std::vector<StreamKey> wanted;                 // the pictures to make
-        std::optional<slicing::NamedSection> section;  // PictureStreams::section_ when the job was created
+        std::optional<slicing::NamedSection> section;  // SessionPublisher::section_ when the job was created
     };
     // The result of a RevisionPicturesJob: the pictures of a revision that it has made, and those that have failed.
     struct RevisionPictures {

@@ -66,7 +66,7 @@ struct Drawn {
 };
 
 Drawn drawnWith(Projector& projector, const Polytope& p, const geometry::Rotation& turn,
-                const Projector::Options& options) {
+                const Projector::ProjectionOptions& options) {
     SliceSet slices, parts;
     std::vector<std::uint32_t> faceCells;
     Slicer().sliceWithoutSurfaces(objectOf(p), turn, {0, 1, 1}, slices);
@@ -80,7 +80,7 @@ Drawn drawnWith(Projector& projector, const Polytope& p, const geometry::Rotatio
     return out;
 }
 
-Drawn drawn(const Polytope& p, const geometry::Rotation& turn, const Projector::Options& options) {
+Drawn drawn(const Polytope& p, const geometry::Rotation& turn, const Projector::ProjectionOptions& options) {
     Projector projector;
     return drawnWith(projector, p, turn, options);
 }
@@ -220,9 +220,9 @@ TEST(Occlusion, IsNotSoughtForConvexPolytopes) {
         const Polytope& p = named(name);
         const geometry::Rotation turn = support::randomRotation(random);
         for (const bool cells : {false, true}) {
-            const Projector::Options options{
+            const Projector::ProjectionOptions options{
                 .projection = {0.5 / p.circumradius}, .cells = cells, .culled = true, .occlusionSteps = 0};
-            Projector::Options unlimited = options;
+            Projector::ProjectionOptions unlimited = options;
             unlimited.occlusionSteps = ~std::size_t{0};
             EXPECT_EQ(drawn(p, turn, options), drawn(p, turn, unlimited)) << name;
         }
@@ -336,7 +336,7 @@ TEST(Occlusion, DoesNotDependOnHowTheProjectionIsTurned) {
     const Polytope& p = named("great stellated 120-cell");
     const geometry::Rotation turn = support::randomRotation(random);
     for (const double inverse : {0.0, 0.4 / p.circumradius}) {
-        const Projector::Options options{.projection = {inverse}, .cells = true, .culled = true};
+        const Projector::ProjectionOptions options{.projection = {inverse}, .cells = true, .culled = true};
         const Drawn seen = drawn(p, turn, options);
         EXPECT_FALSE(seen.faces.empty());
         for (int round = 0; round < 2; ++round)
@@ -355,7 +355,7 @@ TEST(Occlusion, IsFoundAnewWhenAnythingChanges) {
             for (const geometry::Rotation& orientation : {geometry::Rotation(), turn}) {
                 for (const bool cells : {true, false}) {
                     for (const std::size_t steps : {OcclusionFinder::kDefaultSteps, std::size_t{0}}) {
-                        const Projector::Options options{
+                        const Projector::ProjectionOptions options{
                             .projection = {inverse}, .cells = cells, .culled = true, .occlusionSteps = steps};
                         EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
                         EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));

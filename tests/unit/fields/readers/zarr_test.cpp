@@ -380,7 +380,7 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
     EXPECT_EQ(named->imageLevel, (ImageLevel{1, 2}));
     EXPECT_TRUE(left.isPart);
     const FieldArray first =
-        *readFiles(files, ReadOptions{.region = Box{{0, 0, 0, 0}, {3, 3, 0, 0}}, .maxInFirstLevel = 15});
+        *readFiles(files, FieldReadOptions{.region = Box{{0, 0, 0, 0}, {3, 3, 0, 0}}, .maxInFirstLevel = 15});
     EXPECT_EQ(first.imageLevel, (ImageLevel{1, 2, 1}));
     EXPECT_EQ(first.shape, (Shape{3, 2, 1, 1}));
     EXPECT_NE(first.warnings.at(0).find("'1' is shown first; finer ones follow"), std::string::npos);
@@ -414,19 +414,19 @@ TEST(Zarr, ReadsALevelByItsNumberAndSaysHowManyFinerOnesFollow) {
           Case{8, 99, {}, {1, 4, 0}}, Case{8, 1, {}, {3, 4, 2}}, Case{1, 1, {}, {3, 4, 0}}, Case{8, 4, 1U, {1, 4, 0}},
           Case{16, 4, 1U, {1, 4, 1}}, Case{16, 4, 0U, {0, 4, 0}}}) {
         const auto field = readFiles(
-            files, ReadOptions{.maxInMemory = maxInMemory, .maxInFirstLevel = maxInFirstLevel, .level = level});
+            files, FieldReadOptions{.maxInMemory = maxInMemory, .maxInFirstLevel = maxInFirstLevel, .level = level});
         ASSERT_TRUE(field) << field.error().message;
         EXPECT_EQ(field->imageLevel, expected) << maxInMemory << ' ' << maxInFirstLevel;
         EXPECT_EQ(field->shape[0], 16U >> expected.level);
         EXPECT_EQ(field->isPart, expected.level > 0);
     }
-    const auto large = readFiles(files, ReadOptions{.maxInMemory = 8, .level = 0U});
+    const auto large = readFiles(files, FieldReadOptions{.maxInMemory = 8, .level = 0U});
     ASSERT_FALSE(large);
     EXPECT_EQ(large.error().code, ErrorCode::too_large);
-    const auto missing = readFiles(files, ReadOptions{.level = 4U});
+    const auto missing = readFiles(files, FieldReadOptions{.level = 4U});
     ASSERT_FALSE(missing);
     EXPECT_EQ(missing.error().code, ErrorCode::not_found);
-    const auto array = readFiles(Files{{".zarray", zarray("[2]", "[2]")}}, ReadOptions{.level = 0U});
+    const auto array = readFiles(Files{{".zarray", zarray("[2]", "[2]")}}, FieldReadOptions{.level = 0U});
     EXPECT_TRUE(array) << "the folder is an array";
 }
 
