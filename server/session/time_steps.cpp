@@ -9,7 +9,7 @@
 
 #include "fields/array_field.hpp"
 #include "fields/formula_field.hpp"
-#include "fields/readers/read_field.hpp"
+#include "fields/readers/field_array.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::session {
