@@ -202,7 +202,10 @@ inline void execute(session::Session& session, const session::Command& command) 
     require(!loader.isPending(), "a command needs nothing that was not found before");
     if (!done) {
         requireSentence(done.error());
-        require(session == before, "an error leaves the session as it was:", done.error().message);
+        session::Session expected = before;
+        // A refused key ends the sequence that has begun.
+        if (std::holds_alternative<session::Key>(command) && session.pendingKey.empty()) expected.pendingKey.clear();
+        require(session == expected, "an error leaves the session as it was:", done.error().message);
     } else {
         requireSound(session, kLimits);
         require(session.current == before.current || session.revision == before.revision + 1, "a change counts once");
