@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -68,7 +67,7 @@ class RayCaster {
             castAll(rays, element ? element->depth : kInf);
         }
         field_.function->releasePages();
-        if (field_.isLost()) throw std::runtime_error("the file of the field can no longer be read");
+        field_.requireReadable();
         return found_;
     }
 
