@@ -88,14 +88,8 @@ Result<Command> regionLine(std::string_view rest, const Words& /*words*/, const 
         return bad(ErrorCode::out_of_range, text::inQuotes(slicing::infoOf(state.source).name) +
                                                 " is not a part of a larger array in the data folder of the server");
     }
-    const fields::FileSource& source = *field->source;
-    LoadObject load{field->name, source.format, {}};
-    load.dataName = source.dataName;
-    load.axes = source.axes;
-    load.box = source.box;
-    load.variable = source.variable;
-    load.secondFormula = source.secondFormula;
-    load.secondVariable = source.secondVariable;
+    LoadObject load = loadOf(field->name, *field->source);
+    load.region.reset();
     if (rest != "all") {
         const auto region = parseBox(rest, "region");
         if (!region) return region.error();

@@ -303,6 +303,19 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
     return row == nullptr ? Result<ObjectWithWarnings>(unsupported(load.format)) : row->read(load, limits);
 }
 
+LoadObject loadOf(const std::string& name, const fields::FileSource& source) {
+    const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
+    LoadObject load{name, format, {}};
+    load.dataName = dataName;
+    load.axes = axes;
+    load.variable = variable;
+    load.secondFormula = secondFormula;
+    load.secondVariable = secondVariable;
+    load.box = box;
+    load.region = region;
+    return load;
+}
+
 Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
     const fields::Box box = load.box.value_or(fields::kFormulaBox);
     constexpr fields::Shape kAnyNumberOfSamples{2, 2, 2, 2};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "errors/error.hpp"
+#include "fields/field.hpp"
 #include "fields/readers/file_contents.hpp"
 #include "fields/readers/read_field.hpp"
 #include "fields/readers/zarr.hpp"
@@ -31,6 +32,9 @@ struct ObjectWithWarnings {
 /// samples. Ignores `append`, `folder` and `dataName`. Errors: `unsupported_format`, `bad_polytope` (with the line
 /// number, if the fault is in a line), `too_large`, and those of readFormula() and readArray().
 Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limits);
+
+/// Returns the command that reads a field with this name from its file in the data folder again.
+LoadObject loadOf(const std::string& name, const fields::FileSource& source);
 
 /// Makes a field from the formula in `load`. Takes less than a millisecond. Errors: those of
 /// fields::fieldFromFormula().

@@ -17,6 +17,7 @@
 #include "geometry/point_cloud.hpp"
 #include "geometry/surface_mesh.hpp"
 #include "polytopes/polytope.hpp"
+#include "session/load.hpp"
 #include "store/cbor.hpp"
 #include "store/member_codec.hpp"
 #include "store/object_record_v1.hpp"
@@ -41,20 +42,10 @@ bool namesFile(const fields::FieldDefinition& field) { return field.source.has_v
 bool namesFile(const geometry::ObjectInfo& /*object*/) { return false; }
 
 slicing::Object openFile(const std::string& name, const fields::FileSource& source, const DataFolderReader& open) {
-    session::LoadObject load;
-    load.name = name;
-    const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
-    load.dataName = dataName;
-    load.format = format;
-    load.axes = axes;
-    load.variable = variable;
-    load.secondFormula = secondFormula;
-    load.secondVariable = secondVariable;
-    load.box = box;
-    load.region = region;
-    const auto object = open ? open(load) : Error{ErrorCode::not_found, "there is no data folder"};
+    const auto object =
+        open ? open(session::loadOf(name, source)) : Error{ErrorCode::not_found, "there is no data folder"};
     if (!object)
-        throwUnreadable("its field " + text::inQuotes(load.dataName) + " cannot be read: " + object.error().message);
+        throwUnreadable("its field " + text::inQuotes(source.dataName) + " cannot be read: " + object.error().message);
     return *object;
 }
 
