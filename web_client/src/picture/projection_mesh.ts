@@ -201,7 +201,7 @@ export class ProjectionMesh {
     private addPolygons(
         { points, faces: { begin, corners }, seen }: Polygons,
         place: (points: Float32Array, p: number) => [number, number, number],
-        opacities: Opacities,
+        opacities: PartOpacities,
     ): void {
         for (let f = 0; f + 1 < begin.length; ++f) {
             if (opacities.ofPolygon(seen, f) === 0) continue;
@@ -247,14 +247,14 @@ export class ProjectionMesh {
 }
 
 /** The opacities of the shapes of a part, 0 … 1; shapes with 0 are not drawn. */
-interface Opacities {
+interface PartOpacities {
     ofVertex(vertex: number): number;
     ofEdge(edge: number): number;
     /** `seen` has the visibility of each polygon. */
     ofPolygon(seen: Uint32Array | undefined, polygon: number): number;
 }
 
-function opacitiesOf({ balls, opacity, seen: visibility }: Part, { faded }: SceneDescription): Opacities {
+function opacitiesOf({ balls, opacity, seen: visibility }: Part, { faded }: SceneDescription): PartOpacities {
     const opacities = [0, faded, 1];
     return {
         ofVertex: (v) => opacities[visibility?.vertices[v] ?? 2]! * (balls?.opacity[v] ?? 1),
