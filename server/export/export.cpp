@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -378,8 +377,7 @@ std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene,
     } catch (ExportRefused& refused) {
         made = std::move(refused.error);
     }
-    const fields::Field* const field = slicing::fieldIn(object);
-    if (field != nullptr && field->isLost()) throw std::runtime_error("the file of the field can no longer be read");
+    if (const fields::Field* const field = slicing::fieldIn(object)) field->requireReadable();
     return made;
 }
 

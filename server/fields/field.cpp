@@ -79,6 +79,10 @@ bool Field::isLost() const {
     return lost(array.get()) || (second && lost(second->array.get()));
 }
 
+void Field::requireReadable() const {
+    if (isLost()) throw std::runtime_error("the file of the field can no longer be read");
+}
+
 void setSecondFunction(Field& field, SecondFunction second) {
     field.second = std::make_shared<const SecondFunction>(std::move(second));
     field.coloringRange = std::make_shared<const TypicalRangeOnBox>(field.second->function, field.box);

@@ -86,6 +86,8 @@ struct Field : geometry::ObjectInfo {
     /// Returns whether the samples of the field or of its second array are in a mapped file of which a part could not
     /// be read, or which has changed (see MappedFile::isLost()).
     bool isLost() const;
+    /// Throws std::runtime_error if isLost(): values that were read may be wrong.
+    void requireReadable() const;
 
     /// Returns the function whose values color the surfaces if the coloring is scene::Coloring::value: the second
     /// function, or the function itself if there is no second one.

@@ -183,8 +183,8 @@ void Renderer::Impl::addProjection() {
     const SurfacesInMemory& own = projectionSurfaces;
     shapeRasterizer.add(own.rasterizer, own.opaque(), Blending::none);
     shapeRasterizer.add(own.rasterizer, own.fringes(), Blending::alpha);
-    shapeRasterizer.add(solid, 0, solid.patches().size(), DepthUse::written);
-    shapeRasterizer.add(translucent, 0, translucent.patches().size(), DepthUse::tested);
+    shapeRasterizer.add(solid, DepthUse::written);
+    shapeRasterizer.add(translucent, DepthUse::tested);
     shapeRasterizer.add(own.rasterizer, own.translucent(), Blending::alpha);
 }
 
@@ -249,18 +249,15 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
         addProjection();
         shapeRasterizer.addDepthClearing(depthAreaOfProjection(scene));
     }
-    const auto add = [this](const ShapeBatch& batch, DepthUse depth) {
-        shapeRasterizer.add(batch, 0, batch.patches().size(), depth);
-    };
-    add(layers.faces, DepthUse::written);
+    shapeRasterizer.add(layers.faces, DepthUse::written);
     for (const SurfacesInMemory* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, pass->opaque(), Blending::none);
     for (const SurfacesInMemory* pass : {&near, &far})
         shapeRasterizer.add(pass->rasterizer, pass->fringes(), Blending::alpha);
-    add(layers.skeleton, DepthUse::written);
+    shapeRasterizer.add(layers.skeleton, DepthUse::written);
     for (const SurfacesInMemory* pass : {&far, &near})
         shapeRasterizer.add(pass->rasterizer, pass->translucent(), Blending::alpha);
-    add(layers.faded, DepthUse::tested);
+    shapeRasterizer.add(layers.faded, DepthUse::tested);
 }
 
 // Uses OpenGL to draw slices that may be nonconvex, surfaces and fog.
@@ -418,7 +415,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     addMatrixAndFocusLines(scene, overlay);
 
     if (inMemory) {
-        impl_->shapeRasterizer.add(shapes, 0, shapes.patches().size(), ShapeRasterizer::DepthUse::unused);
+        impl_->shapeRasterizer.add(shapes, ShapeRasterizer::DepthUse::unused);
         impl_->shapeRasterizer.finish(impl_->forkJoin);
         impl_->context.replacePicture(pixels.data());
     } else {
@@ -430,7 +427,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     impl_->context.finish();
     if (strokes.patches().empty()) return;
     impl_->shapeRasterizer.beginOver(scene.viewport, scene.style(), pixels);
-    impl_->shapeRasterizer.add(strokes, 0, strokes.patches().size(), ShapeRasterizer::DepthUse::unused);
+    impl_->shapeRasterizer.add(strokes, ShapeRasterizer::DepthUse::unused);
     impl_->shapeRasterizer.finish(nullptr);  // waking another thread would take longer
 }
 

@@ -199,24 +199,14 @@ Color noValueColor() {
 
 void CellPainter::updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
                                    const geometry::Rotation& orientation, std::vector<Color>& out) {
-    const geometry::ObjectInfo& info = slicing::infoOf(object);
-    const std::size_t cells = slicing::elementCounts(object)[3];
-    const bool changed =
-        assignedFor_ != info.serial || coloring_ != coloring || scheme_ != scheme || out.size() != cells;
-    assignedFor_ = info.serial;
-    coloring_ = coloring;
-    scheme_ = scheme;
-    out.resize(cells);
+    const bool changed = prepare(object, coloring, scheme, slicing::elementCounts(object)[3], out);
     if (changed && coloring == Coloring::cell) assignByCell(object, scheme, out);
     if (changed && coloring == Coloring::cell_type) assignByType(object, scheme, out);
     if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
-        if (changed) {
-            slicing::findCellCenters(object, directions_);
-            scaleDirections(info.circumradius);
-        }
-        colorByDirection(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+        if (changed) slicing::findCellCenters(object, directions_);
+        colorByCenters(object, changed, orientation, out);
     } else if (coloring == Coloring::light) {
         if (changed) setDirectionsToNormals(object);
         static const ScalePerScheme kScales = scalesFor(lightScale);
@@ -226,23 +216,34 @@ void CellPainter::updateCellColors(const slicing::Object& object, Coloring color
 
 void CellPainter::updateFaceColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
                                    const geometry::Rotation& orientation, std::vector<Color>& out) {
-    const geometry::ObjectInfo& info = slicing::infoOf(object);
     const std::size_t count = coloring == Coloring::w ? slicing::elementCounts(object)[2] : 1;
-    const bool changed =
-        assignedFor_ != info.serial || coloring_ != coloring || scheme_ != scheme || out.size() != count;
-    assignedFor_ = info.serial;
+    const bool changed = prepare(object, coloring, scheme, count, out);
+    if (coloring == Coloring::w) {
+        if (changed) slicing::findFaceCenters(object, directions_);
+        colorByCenters(object, changed, orientation, out);
+    } else if (changed) {
+        out[0] = plainColor(scheme);
+    }
+}
+
+// Resizes `out` to `count` colors, and remembers for what they are. Returns whether this differs from the last time.
+bool CellPainter::prepare(const slicing::Object& object, Coloring coloring, Scheme scheme, std::size_t count,
+                          std::vector<Color>& out) {
+    const std::uint64_t serial = slicing::infoOf(object).serial;
+    const bool changed = assignedFor_ != serial || coloring_ != coloring || scheme_ != scheme || out.size() != count;
+    assignedFor_ = serial;
     coloring_ = coloring;
     scheme_ = scheme;
     out.resize(count);
-    if (coloring != Coloring::w) {
-        if (changed) out[0] = plainColor(scheme);
-        return;
-    }
-    if (changed) {
-        slicing::findFaceCenters(object, directions_);
-        scaleDirections(info.circumradius);
-    }
-    colorByDirection(scaleOf(divergingScales(), scheme), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+    return changed;
+}
+
+// Gives each cell or 2-face the divergingColor() of the w of its center. If `isNew`, directions_ are the centers;
+// otherwise, an earlier call has scaled them.
+void CellPainter::colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
+                                 std::vector<Color>& out) {
+    if (isNew) scaleDirections(slicing::infoOf(object).circumradius);
+    colorByDirection(scaleOf(divergingScales(), scheme_), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
 }
 
 // Scales directions_, which are centers of cells or 2-faces, so that the longest one has length 1.

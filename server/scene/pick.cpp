@@ -19,8 +19,6 @@ using slicing::ElementKind;
 using slicing::SliceSet;
 using slicing::Visibility;
 
-constexpr double kHitRadius = 3;  // pixels: the least radius within which a ball or a bar is hit
-
 // Returns the element of the object from which an element of a slice was cut. `source` is the source number of the
 // latter (see SliceSet): a number less than `count` is the index of an element of the kind `cut` that the hyperplane
 // cuts; any other number is `count` plus the index of an element of the kind `contained` that lies in the hyperplane.
@@ -45,9 +43,7 @@ class Picker {
         size_ = {scene.viewport.width, scene.viewport.height};
         pixel_ = {point.x, size_.y - point.y};
         focalLength_ = 0.5 * projection_[1][1] * size_.y;
-        // The direction, in view coordinates, of the ray from the eye through the pixel; its z is −1.
-        const glm::dvec2 ndc = 2.0 * pixel_ / size_ - 1.0;
-        ray_ = {(ndc.x + projection_[2][0]) / projection_[0][0], (ndc.y + projection_[2][1]) / projection_[1][1], -1};
+        ray_ = viewRayThrough(scene, point);
     }
 
     void pickSlices() {
@@ -278,6 +274,13 @@ std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point) {
     found[column] = offset.x;
     found[row] = offset.y;
     return found;
+}
+
+glm::dvec3 viewRayThrough(const Scene& scene, glm::dvec2 point) {
+    const glm::dvec2 size(scene.viewport.width, scene.viewport.height);
+    const glm::dmat4 projection = scene.camera.projection(size.x / size.y);
+    const glm::dvec2 ndc = 2.0 * glm::dvec2(point.x, size.y - point.y) / size - 1.0;
+    return {(ndc.x + projection[2][0]) / projection[0][0], (ndc.y + projection[2][1]) / projection[1][1], -1};
 }
 
 bool isClearedOfSlices(const Scene& scene, glm::dvec2 point) {

@@ -42,6 +42,13 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
 /// units and in the coordinates after the rotation, like SectionMatrix::point.
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point);
 
+/// The least distance, in pixels, within which balls, bars, points, edges and contours are found.
+inline constexpr double kHitRadius = 3;
+
+/// Returns the direction, in view coordinates, of the ray from the eye through the point (x, y), in pixels from the
+/// upper left corner. Its z is −1.
+glm::dvec3 viewRayThrough(const Scene& scene, glm::dvec2 point);
+
 /// Returns whether no slices are drawn at the point (x, y), in pixels from the upper left corner, because it is in the
 /// part of the picture that belongs to the parallel coordinates (see Scene::clearsCoordinatesArea()).
 bool isClearedOfSlices(const Scene& scene, glm::dvec2 point);

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <stdexcept>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -20,8 +19,6 @@
 namespace oval4d::scene {
 
 namespace {
-
-constexpr double kHitDistance = 3;  // pixels: the least distance within which a contour is hit
 
 // The points of a slice, in its own place or in the projection, on the ray through a pixel: start + depth · direction,
 // in the units of the object.
@@ -38,12 +35,7 @@ class RayCaster {
   public:
     RayCaster(const Scene& scene, const fields::Field& field, const geometry::Rotation& orientation, glm::dvec2 point)
         : scene_(scene), field_(field), toFunction_(field.toFunction * orientation.inverse().matrix()) {
-        const glm::dvec2 size(scene.viewport.width, scene.viewport.height);
-        const glm::dmat4 projection = scene.camera.projection(size.x / size.y);
-        const glm::dvec2 ndc = 2.0 * glm::dvec2(point.x, size.y - point.y) / size - 1.0;
-        const glm::dvec3 ray((ndc.x + projection[2][0]) / projection[0][0],
-                             (ndc.y + projection[2][1]) / projection[1][1], -1);
-        direction_ = glm::transpose(glm::dmat3(scene.camera.view())) * ray;
+        direction_ = glm::transpose(glm::dmat3(scene.camera.view())) * viewRayThrough(scene, point);
     }
 
     // Finds the nearest point of a surface in the slices or, if there is none, in the projection, that is not hidden by
@@ -68,7 +60,7 @@ class RayCaster {
             castAll(rays, element ? element->depth : kInf);
         }
         field_.function->releasePages();
-        if (field_.isLost()) throw std::runtime_error("the file of the field can no longer be read");
+        field_.requireReadable();
         return found_;
     }
 
@@ -219,7 +211,7 @@ std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, con
     const slicing::PlanarContours& contours = scene.sectionMatrix.contours.at(static_cast<std::size_t>(plane));
     const glm::dvec2 at(shown[axes[0]], shown[axes[1]]);
     const double pixels = scene.matrix.scale(scene.circumradius) * height;  // per unit of the object
-    double nearest = std::max(scene.matrix.lineWidth / 2 * height, kHitDistance) / pixels;
+    double nearest = std::max(scene.matrix.lineWidth / 2 * height, kHitRadius) / pixels;
     std::optional<PickedLevel> found;
     for (std::size_t i = 0; i < contours.lineCount(); ++i) {
         const std::span<const glm::dvec2> line = contours.line(i);

@@ -296,8 +296,8 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
 }
 
 LoadObject loadOf(const std::string& name, const fields::FileSource& source) {
-    LoadObject load{name, source.format, {}};
     const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
+    LoadObject load{name, format, {}};
     load.dataName = dataName;
     load.axes = axes;
     load.variable = variable;

@@ -33,6 +33,9 @@ struct ObjectWithWarnings {
 /// number, if the fault is in a line), `too_large`, and those of readFormula() and readArray().
 Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limits);
 
+/// Returns the command that reads a field with this name from its file in the data folder again.
+LoadObject loadOf(const std::string& name, const fields::FileSource& source);
+
 /// Makes a field from the formula in `load`. Takes less than a millisecond. Errors: those of
 /// fields::fieldFromFormula().
 Result<ObjectWithWarnings> readFormula(const LoadObject& load);

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <span>
-#include <stdexcept>
 
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
@@ -31,7 +30,7 @@ FieldSample sampleField(const fields::Field& field, const geometry::Rotation& or
     sample.place = within;
     sample.value = valueAt(*field.function, within);
     if (field.second != nullptr) sample.secondValue = valueAt(*field.second->function, within);
-    if (field.isLost()) throw std::runtime_error("the file of the field can no longer be read");
+    field.requireReadable();
     return sample;
 }
 

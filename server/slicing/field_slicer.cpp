@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -81,7 +80,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
         }
     };
     parallel::invoke(forkJoin_, [&] { work(0); }, [&] { work(1); });
-    if (field.isLost()) throw std::runtime_error("the file of the field can no longer be read");
+    field.requireReadable();
 }
 
 // Returns the factor by which the steps of fog must be enlarged to stay within maxFogSamples() and

@@ -42,10 +42,10 @@ bool namesFile(const fields::FieldDefinition& field) { return field.source.has_v
 bool namesFile(const geometry::ObjectInfo& /*object*/) { return false; }
 
 slicing::Object openFile(const std::string& name, const fields::FileSource& source, const DataFolderReader& open) {
-    const session::LoadObject load = session::loadOf(name, source);
-    const auto object = open ? open(load) : Error{ErrorCode::not_found, "there is no data folder"};
+    const auto object =
+        open ? open(session::loadOf(name, source)) : Error{ErrorCode::not_found, "there is no data folder"};
     if (!object)
-        throwUnreadable("its field " + text::inQuotes(load.dataName) + " cannot be read: " + object.error().message);
+        throwUnreadable("its field " + text::inQuotes(source.dataName) + " cannot be read: " + object.error().message);
     return *object;
 }
 

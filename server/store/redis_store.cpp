@@ -122,10 +122,9 @@ std::optional<SessionRecord> recordIn(const redisReply& reply) {
     if (reply.type != REDIS_REPLY_ARRAY || reply.elements != 4) return std::nullopt;
     SessionRecord record{
         textOf(*reply.element[1]), textOf(*reply.element[2]), {}, static_cast<Fence>(reply.element[0]->integer), {}};
-    const redisReply& polytopes = *reply.element[3];
-    for (std::size_t i = 0; i + 1 < polytopes.elements; i += 2) {
-        record.objects.emplace_back(textOf(*polytopes.element[i]), textOf(*polytopes.element[i + 1]));
-    }
+    const redisReply& objects = *reply.element[3];
+    for (std::size_t i = 0; i + 1 < objects.elements; i += 2)
+        record.objects.emplace_back(textOf(*objects.element[i]), textOf(*objects.element[i + 1]));
     return record;
 }
 

@@ -6,6 +6,7 @@ import { openWithScript, presented, spoken } from "./support/browser.mjs";
 import { assertStreamsAgree, picture } from "./support/drawing.mjs";
 import { netcdfWithUnits } from "./support/netcdf.mjs";
 import { compare } from "./support/pixels.mjs";
+import { drawingOf } from "./support/pointing.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 
 const valueAt = (x, y, z, t) => x * x + y * y + z * z + t;
@@ -72,9 +73,9 @@ test("field units: the label of a corner of the box has its coordinates in the b
     await load(script);
     const { revision } = await script.request({ type: "set", view: "single", projection: "perspective", shown: { faces: false } });
     await presented(page, revision);
-    const box = await page.locator("#drawing").boundingBox();
-    const size = { width: box.width, height: box.height };
-    const { scene, projection } = await script.request({ type: "get", what: "slices", ...size });
+    const drawing = await drawingOf({ page, script });
+    const { size, moveTo } = drawing;
+    const { scene, projection } = await drawing.picture();
     const [whole] = projection.parts;
     const points = worldPoints({ scale: projection.scale }, { position: projection.position, vertices: whole.vertices });
     const far = points.map((point) => Math.hypot(...point.map((value, k) => value - scene.camera.eye[k])));
@@ -84,13 +85,13 @@ test("field units: the label of a corner of the box has its coordinates in the b
     const rounded = place.map((value) => String(Math.round(value * 1000) / 1000).replace("-", "−"));
     const [px, py, pz, pw] = rounded;
     const expected = `Vertex ${highlight.number} (${px} m, ${py} m, ${pz} m, ${pw} s)`;
-    await page.mouse.move(box.x + x, box.y + y);
+    await moveTo(x, y);
     const isShown = (text) => page.waitForFunction((wanted) => document.getElementById("pointed").textContent === wanted, text);
     await isShown(expected);
-    await page.mouse.move(box.x + 4, box.y + 4);
+    await moveTo(4, 4);
     await page.locator("[data-page-tool=frames]").dispatchEvent("click");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
-    await page.mouse.move(box.x + x, box.y + y);
+    await moveTo(x, y);
     await isShown(expected);
     assert.deepEqual(errors, []);
     await close();
@@ -101,9 +102,9 @@ test("field units: the label beside the pointer has the units of the sizes of th
     await load(script);
     const { revision } = await script.request({ type: "set", view: "single", shown: { faces: false } });
     await presented(page, revision);
-    const box = await page.locator("#drawing").boundingBox();
-    const size = { width: box.width, height: box.height };
-    const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
+    const drawing = await drawingOf({ page, script });
+    const { size, moveTo } = drawing;
+    const { scene, slices } = await drawing.picture();
     const slice = slices.find(({ focus }) => focus);
     const points = worldPoints(scene, slice).map((at) => project(scene, at, size));
     // An edge of the slice is a 2-face of the box, which also extends along w.
@@ -115,7 +116,7 @@ test("field units: the label beside the pointer has the units of the sizes of th
         if (highlight?.element === "face") middle = { x, y };
     }
     assert.ok(middle, "the middle of an edge of the slice is seen");
-    await page.mouse.move(box.x + middle.x, box.y + middle.y);
+    await moveTo(middle.x, middle.y);
     await page.waitForFunction(() => / area [\d.]+ m s · /.test(document.getElementById("pointed").textContent));
     assert.deepEqual(errors, []);
     await close();

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { panelOf } from "./support/matrix.mjs";
 import { netcdfWithUnits } from "./support/netcdf.mjs";
-import { labeled } from "./support/pointing.mjs";
+import { drawingOf, labeled } from "./support/pointing.mjs";
 import { project } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
 
@@ -22,16 +22,7 @@ async function openField(mode, load, settings, options) {
     await presented(page, revision);
     await page.locator(`[data-page-tool=${mode}]`).dispatchEvent("click");
     await page.waitForSelector(`#drawing[data-drawn-by=${mode}]`);
-    const box = await page.locator("#drawing").boundingBox();
-    const size = { width: Math.round(box.width), height: Math.round(box.height) };
-    const picture = () => script.request({ type: "get", what: "slices", ...size });
-    return {
-        ...opened,
-        size,
-        picture,
-        moveTo: (x, y) => page.mouse.move(box.x + x, box.y + y),
-        click: (x, y) => page.mouse.click(box.x + x, box.y + y),
-    };
+    return { ...opened, ...(await drawingOf(opened)) };
 }
 
 /** The pixel of the point of a slice that is in the direction of the eye from the center, at this distance from it. */

@@ -1,22 +1,13 @@
 """No setting is lost in a SQLite file, a picture, a `state` message or an address, and no motion but in an address."""
 
-import asyncio
 import json
 
 import all_settings
 import numpy
 import pytest
 from harness import Server
-from test_restoring import put_state
+from test_restoring import session_with, settings
 from wire import Client
-
-
-def kept(state):
-    """Returns what must be kept of a state. The orientation is rounded: a matrix and its rotation differ by about
-    1e-16."""
-    others = ("revision", "object_serial", "id", "type", "moving", "draft")
-    rest = {name: each for name, each in state.items() if name not in others}
-    return rest | {"orientation": numpy.round(state["orientation"], 12).tolist()}
 
 
 async def test_each_setting_is_changed(server):
@@ -52,10 +43,8 @@ async def test_pictures_states_and_addresses_lose_no_setting(server, prepare):
         picture = await client.request_frame(width=320, height=200)
         query = (await client.request("get", what="address"))["query"]
     for body in (picture, json.dumps(state).encode()):
-        async with Client(server, stream="none") as other:
-            status, done = await asyncio.to_thread(put_state, server, other.welcome, body)
-            assert status == 200, done
-            assert kept(await other.request("get", what="state")) == kept(state)
+        async with session_with(server, body) as other:
+            assert settings(await other.request("get", what="state")) == settings(state)
     async with Client(server, stream="none") as other:
         await other.request("address", query=query)
         opened = await other.request("get", what="state")
@@ -74,9 +63,7 @@ async def test_only_addresses_lose_a_motion(tmp_path):
             picture = await client.request_frame(width=320, height=200)
             query = (await client.request("get", what="address"))["query"]
         for body in (picture, json.dumps(state).encode()):
-            async with Client(server, stream="none") as other:
-                status, done = await asyncio.to_thread(put_state, server, other.welcome, body)
-                assert status == 200, done
+            async with session_with(server, body) as other:
                 assert await all_settings.motion(other) == all_settings.MOTION
         async with Client(server, stream="none") as other:
             await other.request("address", query=query)

@@ -32,6 +32,15 @@ def put_state(server, welcome, body, path="state", token=None):
         return answer.status, json.loads(answer.read())
 
 
+@contextlib.asynccontextmanager
+async def session_with(server, body):
+    """Yields a client of a new session into which a picture, or a state as JSON, has been put."""
+    async with Client(server, stream="none") as client:
+        status, done = await asyncio.to_thread(put_state, server, client.welcome, body)
+        assert status == 200 and done["type"] == "done", done
+        yield client
+
+
 def settings(state):
     """Returns the settings of a state, with the orientation rounded: a matrix and its rotation differ by about 1e-16."""
     others = ("revision", "object_serial", "id", "type", "moving", "draft")
@@ -66,9 +75,7 @@ async def test_a_picture_and_its_state_are_restored_in_another_session(server, p
         state = await client.request("get", what="state")
         picture = await client.request_frame(**SIZE)
     for body in (picture, json.dumps(state).encode()):
-        async with Client(server, stream="none") as other:
-            status, done = await asyncio.to_thread(put_state, server, other.welcome, body)
-            assert status == 200 and done["type"] == "done", done
+        async with session_with(server, body) as other:
             assert settings(await other.request("get", what="state")) == settings(state)
             assert difference(await other.request_frame(**SIZE), picture) < 0.01
             await other.request("undo")

@@ -41,7 +41,7 @@ import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
 import { pageSections, showFullScreenPressed, showModePressed, showSchemePressed, showTiltPressed } from "./page_tools";
 import { executePageCommand } from "./page_commands";
-import { PhoneDialog } from "./phone_dialog";
+import { PhoneLinkDialog } from "./phone_link_dialog";
 import { PolytopePicker } from "./picker";
 import type { HitTester } from "./picture/hit_tester";
 import { type RenderingMode, Stage } from "./picture/stage";
@@ -51,10 +51,10 @@ import { PrintView } from "./print_view";
 import { RenderingModeSwitch } from "./rendering_mode_switch";
 import { Sharing } from "./sharing";
 import { RotationControl } from "./rotation";
-import { Tilt } from "./tilt";
+import { TiltControl } from "./tilt";
 import { Tools } from "./tools";
 import { Tour } from "./tour";
-import { TourObject } from "./tour_object";
+import { TourObjectSwitch } from "./tour_object_switch";
 
 // Milliseconds without a change of the size, after which pictures of the new size are requested.
 const kResizeDelay = 120;
@@ -89,7 +89,7 @@ export class App {
         },
         onWelcome: (welcome) => {
             rememberSession(welcome);
-            this.phoneDialog.update(welcome);
+            this.phoneLinkDialog.update(welcome);
             this.stage.setSizeLimits(welcome.limits);
         },
         onRequest: (answer) => this.connection.trackRequest(answer),
@@ -138,7 +138,7 @@ export class App {
         this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrixCache.current,
     );
     private readonly rotation = new RotationControl((rotation) => this.send(rotation));
-    private readonly tilt: Tilt = new Tilt(
+    private readonly tilt: TiltControl = new TiltControl(
         this.rotation,
         () => showTiltPressed(this.tilt.ball),
         (error) => this.notice.show(error.message),
@@ -204,7 +204,7 @@ export class App {
         this.request({ ...state, type: "set", turning: false, playing: false }),
     );
     private readonly sharing = new Sharing(this.client, this.notice);
-    private readonly phoneDialog = new PhoneDialog(this.client);
+    private readonly phoneLinkDialog = new PhoneLinkDialog(this.client);
     private readonly fieldPanel = new FieldPanel({
         load: (...change) => this.loadField(...change),
         set: (settings) => this.request({ type: "set", ...settings }),
@@ -229,13 +229,13 @@ export class App {
         },
     });
     private readonly tools = new Tools({ press: (...binding) => this.keyboard.press(...binding) });
-    private readonly tourObject = new TourObject(
+    private readonly tourObjectSwitch = new TourObjectSwitch(
         this.client,
         (command) => this.request(command),
         (error) => this.notice.show(error.message),
     );
     private readonly tour = new Tour(
-        (name) => this.tourObject.show(name),
+        (name) => this.tourObjectSwitch.show(name),
         () => this.drawing.focus(),
     );
     private readonly welcomeLine = new WelcomeLine(this.drawing, {
@@ -327,7 +327,7 @@ export class App {
             setMode: (mode) => this.renderingModeSwitch.choose(mode),
             reset: () => void this.send({ type: "reset" }),
             share: () => void this.sharing.copySessionLink(),
-            shareWithPhone: () => this.openPhoneDialog(),
+            shareWithPhone: () => this.openPhoneLinkDialog(),
             copyViewLink: () => void this.sharing.copyViewLink(),
             copyPython: () => {
                 void this.sharing.copyPython(this.state?.polytope.name ?? "", this.stage.size, this.colorScheme.current);
@@ -475,7 +475,7 @@ export class App {
             },
             share: () => {
                 this.commandLine.close();
-                this.openPhoneDialog();
+                this.openPhoneLinkDialog();
             },
         });
         if (isOfPage) return undefined;
@@ -545,9 +545,9 @@ export class App {
         else this.exportDialog.open(this.state);
     }
 
-    private openPhoneDialog(): void {
+    private openPhoneLinkDialog(): void {
         this.notice.hide();
-        this.phoneDialog.open();
+        this.phoneLinkDialog.open();
     }
 
     /** Saves the file that a text such as "stl fit=5" describes: a format and options. */

@@ -55,7 +55,7 @@ export class Clicks {
         const hitTester = await this.actions.hitTester();
         this.actions.began();
         if (!hitTester) return;
-        const pointed = this.pointing.partAt(x, y, hitTester);
+        const pointed = this.pointing.targetAt(x, y, hitTester);
         const element = pointed && isElement(pointed) ? pointed : undefined;
         if (!element && this.actions.moveFocusPoint({ x, y })) return;
         if (pointed && isTap) this.pointing.showName(pointed, hitTester, { x, y });
@@ -76,7 +76,7 @@ export class Clicks {
     /** Highlights the element at a point of the drawing; opens its menu. Resolves to false if no element is there. */
     async highlightAndOpenMenu(at: AreaPoint): Promise<boolean> {
         const hitTester = await this.actions.hitTester();
-        const pointed = hitTester && this.pointing.partAt(at.x, at.y, hitTester);
+        const pointed = hitTester && this.pointing.targetAt(at.x, at.y, hitTester);
         if (!pointed || !isElement(pointed)) return false;
         const { element, number, slice } = pointed;
         this.actions.send({ type: "set", highlight: { element, number } });

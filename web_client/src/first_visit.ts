@@ -24,7 +24,7 @@ export function isFirstVisit(): boolean {
 /** The field that a button of the welcome shows. */
 const kFirstField = "tiger";
 
-export interface WelcomeLineEvents {
+export interface WelcomeLineActions {
     startTour(): void;
     /** Shows the object of the catalogue with this name. */
     showObject(name: string): void;
@@ -44,16 +44,16 @@ export class WelcomeLine {
 
     constructor(
         drawing: HTMLElement,
-        private readonly events: WelcomeLineEvents,
+        private readonly actions: WelcomeLineActions,
     ) {
         // A user who drags, taps or zooms needs the line no longer, and the picture gets its room.
         for (const gesture of ["pointerup", "wheel"]) drawing.addEventListener(gesture, () => this.hide());
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the drawing keeps the focus
         byId("welcome-tour").addEventListener("click", () => {
             this.hide();
-            events.startTour();
+            actions.startTour();
         });
-        byId("welcome-field").addEventListener("click", () => events.showObject(kFirstField));
+        byId("welcome-field").addEventListener("click", () => actions.showObject(kFirstField));
         byId("welcome-close").addEventListener("click", () => this.hide());
     }
 
@@ -89,6 +89,6 @@ export class WelcomeLine {
     hide(): void {
         const hadFocus = this.root.contains(document.activeElement);
         this.root.hidden = true;
-        if (hadFocus) this.events.closed();
+        if (hadFocus) this.actions.closed();
     }
 }

@@ -9,9 +9,8 @@
 
 import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
-import type { LevelDescription } from "./field_samples";
 import { followHover, type AreaPoint } from "./hover";
-import type { ElementDescription, PointedLabel } from "./pointed_label";
+import type { PointedDescription, PointedLabel } from "./pointed_label";
 import type { Stage } from "./picture/stage";
 
 // Milliseconds without a new picture after which the picture rests: longer than the steps of continuous turning last.
@@ -166,7 +165,7 @@ function distance(a: AreaPoint, b: AreaPoint): number {
     return Math.hypot(a.x - b.x, a.y - b.y);
 }
 
-function descriptionOf(answer: At): ElementDescription | LevelDescription | undefined {
+function descriptionOf(answer: At): PointedDescription | undefined {
     const { highlight, name, kind, w, level, cap = false } = answer;
     if (level !== undefined) return { level, cap, sliceW: w, revision: answer.revision, known: answer };
     // A slice that has been zoomed may reach behind a panel of the matrix.

@@ -6,10 +6,10 @@
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { AreaPoint } from "./hover";
+import { MultiTouchGesture } from "./multi_touch_gesture";
 import type { OrbitControl } from "./orbit";
 import { type BallKind, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
-import { SeveralFingers } from "./several_fingers";
 
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of the wheel
 const kLineHeight = 16; // pixels per line, for wheels that report lines
@@ -37,7 +37,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     let isClick = false; // whether the pointer has stayed in its place since it went down
     let isRolling = false; // whether the drag began with Alt, or with another button than the left one
     let movesPoint = false; // whether the drag began in a panel of the matrix
-    let group: SeveralFingers | undefined; // two or three fingers
+    let group: MultiTouchGesture | undefined; // two or three fingers
     const moved = new Set<number>(); // the fingers that have moved since the last call of moveGroup()
     let wheelAt = -Infinity; // time of the last wheel event that turned the polytope, in milliseconds
 
@@ -47,7 +47,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     };
     const fingersChanged = (): void => {
         moved.clear();
-        group = fingers.size === 2 || fingers.size === 3 ? new SeveralFingers([...fingers.values()]) : undefined;
+        group = fingers.size === 2 || fingers.size === 3 ? new MultiTouchGesture([...fingers.values()]) : undefined;
         if (group) rotation.begin();
     };
     const drag = (before: PointerEvent, now: PointerEvent): void => {

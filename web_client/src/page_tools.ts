@@ -6,7 +6,7 @@ import { capitalize } from "./format";
 import type { FullScreen } from "./full_screen";
 import type { RenderingMode } from "./picture/stage";
 import type { BallKind } from "./rolling_ball";
-import type { Tilt } from "./tilt";
+import type { TiltControl } from "./tilt";
 import type { ToolSection } from "./tools";
 
 export interface PageActions {
@@ -23,7 +23,7 @@ export interface PageActions {
     scheme: SchemeChoice;
     chooseScheme(choice: SchemeChoice): void;
     fullScreen: FullScreen;
-    tilt: Tilt;
+    tilt: TiltControl;
     /** Shows an error. */
     failed(error: Error): void;
     usesSingleKeys: boolean;

@@ -31,11 +31,12 @@ const kAxes = ["x", "y", "z", "w"] as const;
 const kGap = 14; // pixels between the pointer and the label
 const kMargin = 4; // pixels between the label and the edges of the drawing
 
-type Description = ElementDescription | LevelDescription;
+/** What the label describes. */
+export type PointedDescription = ElementDescription | LevelDescription;
 
 export class PointedLabel {
     private readonly label = byId("pointed");
-    private shown: Description | undefined;
+    private shown: PointedDescription | undefined;
     private pointer: AreaPoint = { x: 0, y: 0 };
 
     /** `update` must be called when there is a new answer in `measurements` or `samples`. */
@@ -50,7 +51,7 @@ export class PointedLabel {
      * Shows the label of an element, or of a point of a field, beside the pointer. The label is complete when the server
      * has answered.
      */
-    show(described: Description, pointer: AreaPoint): void {
+    show(described: PointedDescription, pointer: AreaPoint): void {
         this.shown = described;
         this.pointer = pointer;
         this.label.hidden = false;
@@ -100,7 +101,7 @@ function formatPlaceInBox(place: readonly number[], state: State | undefined): s
     return place.map(format).join(", ");
 }
 
-function isLevel(described: Description): described is LevelDescription {
+function isLevel(described: PointedDescription): described is LevelDescription {
     return "level" in described;
 }
 

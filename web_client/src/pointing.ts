@@ -22,10 +22,10 @@ export interface PointedElement extends PolytopeElement {
 }
 
 /** What a picture shows at a point: an element, or a point of a surface or a contour of a field. */
-export type PointedPart = PointedElement | LevelHit;
+export type PointedTarget = PointedElement | LevelHit;
 
-export function isElement(part: PointedPart): part is PointedElement {
-    return "element" in part;
+export function isElement(target: PointedTarget): target is PointedElement {
+    return "element" in target;
 }
 
 // Milliseconds without a new picture after which the picture rests, so that the server is asked for values at a point:
@@ -59,7 +59,7 @@ export class Pointing {
     }
 
     /** What the picture shows at a point of the drawing, in pixels; undefined if it shows nothing there. */
-    partAt(x: number, y: number, hitTester: HitTester): PointedPart | undefined {
+    targetAt(x: number, y: number, hitTester: HitTester): PointedTarget | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
         const { coordinates, revision, scene } = hitTester.picture;
@@ -80,7 +80,7 @@ export class Pointing {
      * Shows the name of the element or the surface that a finger has tapped. The name stays until the next touch, even
      * if the picture changes, because the tap itself moves the focus slice.
      */
-    showName(tapped: PointedPart, hitTester: HitTester, at: AreaPoint): void {
+    showName(tapped: PointedTarget, hitTester: HitTester, at: AreaPoint): void {
         this.isTapped = true;
         const described = isElement(tapped)
             ? this.descriptionOf(tapped, hitTester)
@@ -92,13 +92,13 @@ export class Pointing {
     update(): boolean {
         const { at } = this;
         const { hitTester } = this.stage;
-        const part = at && hitTester && this.partAt(at.x, at.y, hitTester);
+        const target = at && hitTester && this.targetAt(at.x, at.y, hitTester);
         const isNew = hitTester !== this.hitTester;
         if (isNew) this.restsAt = performance.now() + kRest;
         this.hitTester = hitTester;
-        const found = part && isElement(part) ? part : undefined;
+        const found = target && isElement(target) ? target : undefined;
         const isRedrawn = this.updateElement(found, isNew);
-        const level = part && !isElement(part) ? part : undefined;
+        const level = target && !isElement(target) ? target : undefined;
         if (level) this.nameLevel(level, at!);
         else if (this.namesLevel && !found) this.label.hide();
         this.namesLevel = level !== undefined;

@@ -12,8 +12,8 @@ const kLeastTurn = 0.005;
 /** A unit quaternion: its real part, and its parts along x, y and z. */
 type Quaternion = readonly [number, number, number, number];
 
-/** What a turn by tilting begins from. */
-interface TiltStart {
+/** A ball that the device rolls, from toggle() until it is switched off. */
+interface ActiveTilt {
     /** The ball that is rolled. */
     ball: BallKind;
     /** Whether the next turn begins an undo step. */
@@ -23,8 +23,8 @@ interface TiltStart {
     device?: Quaternion;
 }
 
-export class Tilt {
-    private on: TiltStart | undefined;
+export class TiltControl {
+    private active: ActiveTilt | undefined;
 
     /** `changed` is called when `ball` has changed, and `failed` if the device does not tell how it is held. */
     constructor(
@@ -42,7 +42,7 @@ export class Tilt {
 
     /** The ball that is rolled; undefined if the device's orientation turns nothing. */
     get ball(): BallKind | undefined {
-        return this.on?.ball;
+        return this.active?.ball;
     }
 
     /**
@@ -54,7 +54,7 @@ export class Tilt {
         const event = DeviceOrientationEvent as unknown as { requestPermission?: () => Promise<string> };
         const permission = event.requestPermission ? await event.requestPermission() : "granted";
         if (permission !== "granted") throw new Error("this browser does not tell the page how the device is held");
-        this.on = { ball, beginsStep: true };
+        this.active = { ball, beginsStep: true };
         window.addEventListener("deviceorientation", this.listener); // does nothing if it listens already
         this.changed();
         return undefined;
@@ -62,35 +62,35 @@ export class Tilt {
 
     /** Lets the next turn begin another undo step. To be called when another command is sent. */
     endStep(): void {
-        if (this.on) this.on.beginsStep = true;
+        if (this.active) this.active.beginsStep = true;
     }
 
     private stop(): void {
-        if (!this.on) return;
-        this.on = undefined;
+        if (!this.active) return;
+        this.active = undefined;
         window.removeEventListener("deviceorientation", this.listener);
         this.changed();
     }
 
     private readonly listener = ({ alpha, beta, gamma }: DeviceOrientationEvent): void => {
-        const { on } = this;
-        if (!on) return;
+        const { active } = this;
+        if (!active) return;
         if (alpha === null || beta === null || gamma === null) {
-            if (on.device) return;
+            if (active.device) return;
             this.stop();
             this.failed(new Error("this device does not tell how it is held"));
             return;
         }
         const device = orientationOf(alpha, beta, gamma);
-        on.device ??= device;
-        on.screen ??= product(device, aboutZ(-(screen.orientation?.angle ?? 0)));
-        const change = product(device, conjugate(on.device));
-        const turn = rotationVectorOf(product(product(conjugate(on.screen), change), on.screen));
+        active.device ??= device;
+        active.screen ??= product(device, aboutZ(-(screen.orientation?.angle ?? 0)));
+        const change = product(device, conjugate(active.device));
+        const turn = rotationVectorOf(product(product(conjugate(active.screen), change), active.screen));
         if (Math.hypot(...turn) < kLeastTurn) return;
-        on.device = device;
-        if (on.beginsStep) this.rotation.begin();
-        on.beginsStep = false;
-        this.rotation.turn(turnsOfTilt(on.ball, turn));
+        active.device = device;
+        if (active.beginsStep) this.rotation.begin();
+        active.beginsStep = false;
+        this.rotation.turn(turnsOfTilt(active.ball, turn));
     };
 }
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -57,7 +56,7 @@ FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
         field_.second->function->releasePages();
     }
     field_.function->releasePages();
-    if (field_.isLost()) throw std::runtime_error("the file of the field can no longer be read");
+    field_.requireReadable();
     return {surface_, points_};
 }
 

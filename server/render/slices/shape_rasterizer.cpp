@@ -44,7 +44,6 @@ struct ShapeRasterizer::Impl {
     /// The patches or the triangles that one call of add() has added, or what addDepthClearing() has.
     struct AddedShapes {
         const ShapeBatch* shapes = nullptr;  // null for triangles
-        std::size_t first = 0, end = 0;      // the patches first … end − 1
         DepthUse depth = DepthUse::unused;
         const SurfaceRasterizer* surfaces = nullptr;    // null for patches
         std::span<const std::uint32_t> triangles = {};  // three indices of vertices each
@@ -52,7 +51,7 @@ struct ShapeRasterizer::Impl {
         PixelArea cleared{{0, 0}, {0, 0}};  // with neither patches nor triangles: where depths are cleared
 
         std::span<const Patch> patches() const {
-            return shapes == nullptr ? std::span<const Patch>() : shapes->patches().subspan(first, end - first);
+            return shapes == nullptr ? std::span<const Patch>() : shapes->patches();
         }
     };
     /// Working memory for drawing some of the rows.
@@ -101,8 +100,8 @@ void ShapeRasterizer::beginOver(scene::Viewport viewport, const scene::Style& st
     impl_->keepsPicture = true;
 }
 
-void ShapeRasterizer::add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth) {
-    impl_->layers.push_back({.shapes = &shapes, .first = first, .end = end, .depth = depth});
+void ShapeRasterizer::add(const ShapeBatch& shapes, DepthUse depth) {
+    impl_->layers.push_back({.shapes = &shapes, .depth = depth});
 }
 
 void ShapeRasterizer::add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
@@ -211,8 +210,7 @@ void ShapeRasterizer::begin(scene::Viewport /*viewport*/, const scene::Style& /*
                             std::span<std::uint8_t> /*pixels*/) {}
 void ShapeRasterizer::beginOver(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
                                 std::span<std::uint8_t> /*pixels*/) {}
-void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, std::size_t /*first*/, std::size_t /*end*/,
-                          DepthUse /*depth*/) {}
+void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, DepthUse /*depth*/) {}
 void ShapeRasterizer::add(const SurfaceRasterizer& /*surfaces*/, std::span<const std::uint32_t> /*indices*/,
                           SurfaceRasterizer::Blending /*blending*/) {}
 void ShapeRasterizer::setDepthArea(const PixelArea& /*area*/) {}

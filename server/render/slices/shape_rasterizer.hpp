@@ -1,7 +1,6 @@
 #pragma once
 // Draws balls, bars, faces and surfaces into memory, without OpenGL.
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -56,9 +55,9 @@ class ShapeRasterizer {
     /// Like begin(), but draws over the picture that is in `pixels`, instead of the background.
     void beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
 
-    /// Adds the patches `first` … `end` − 1 of `shapes`, which must remain valid until finish() returns. They are drawn
-    /// in order, after everything that was added before.
-    void add(const ShapeBatch& shapes, std::size_t first, std::size_t end, DepthUse depth);
+    /// Adds the patches of `shapes`, which must remain valid and unchanged until finish() returns. They are drawn in
+    /// order, after everything that was added before.
+    void add(const ShapeBatch& shapes, DepthUse depth);
 
     /// Adds triangles of surfaces, each given by three indices of vertices. SurfaceRasterizer::projectAndLight() must
     /// have prepared `surfaces` for this picture. `surfaces` and `indices` must remain valid until finish() returns.

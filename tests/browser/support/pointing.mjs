@@ -13,13 +13,16 @@ export async function openTurned(settings = {}, options = {}) {
     const planes = ["xw", "yz"];
     const { revision } = await script.request({ type: "rotate", planes, angles: [0.41, 1.13] });
     await presented(page, revision);
+    return { ...opened, ...(await drawingOf(opened)) };
+}
+
+/** The size of the page's drawing in pixels, the server's message of a picture of this size, and the pointer on it. */
+export async function drawingOf({ page, script }) {
     const box = await page.locator("#drawing").boundingBox();
-    const size = { width: box.width, height: box.height };
-    const picture = () => script.request({ type: "get", what: "slices", ...size });
+    const size = { width: Math.round(box.width), height: Math.round(box.height) };
     return {
-        ...opened,
         size,
-        picture,
+        picture: () => script.request({ type: "get", what: "slices", ...size }),
         /** Moves the mouse to a point of the drawing, or clicks or taps there. */
         moveTo: (x, y) => page.mouse.move(box.x + x, box.y + y),
         click: (x, y) => page.mouse.click(box.x + x, box.y + y),

@@ -355,7 +355,6 @@ TEST(ElementMeasurements, OfAFieldAreThoseOfItsBox) {
     }
 }
 
-// Coxeter, Regular Polytopes, table V: the distances of the 600-cell's vertices from one of them.
 TEST(RangeOfW, OfAnElementIsThatOfItsVertices) {
     std::mt19937 random(52);
     for (const char* name : {"5-cell", "3,5-duoprism", "small stellated 120-cell"}) {
@@ -372,6 +371,7 @@ TEST(RangeOfW, OfAnElementIsThatOfItsVertices) {
     }
 }
 
+// Coxeter, Regular Polytopes, table V: the distances of the 600-cell's vertices from one of them.
 TEST(VertexHeights, AreThoseOfCoxetersSections) {
     struct Case {
         const char* name;

@@ -75,7 +75,7 @@ interface PickableSurface {
 }
 
 /** What was hit in a mesh, and its distance from the eye along the axis of the camera. */
-interface MeshHit {
+interface HitWithDepth {
     hit: ElementHit | LevelHit;
     depth: number;
 }
@@ -110,7 +110,7 @@ export function hitAt(
     const meshes = pickableMeshes(picture, viewCamera);
     meshes.sort((a, b) => Number(!a.slice) - Number(!b.slice) || a.distance - b.distance);
     const isField = picture.scene.surfaces !== undefined;
-    let found: MeshHit | undefined;
+    let found: HitWithDepth | undefined;
     for (const mesh of meshes) {
         if (found && !(isField && !found.hit.slice)) break;
         if (!mayContain(mesh, picture, viewCamera, x, y)) continue;
@@ -181,7 +181,7 @@ class MeshTest {
         this.projectVertices();
     }
 
-    nearest(): MeshHit | undefined {
+    nearest(): HitWithDepth | undefined {
         const { ball, bar, hasFaces, surface } = this.mesh;
         if (ball > 0) this.testBalls();
         if (bar > 0) this.testBars();

@@ -1,8 +1,8 @@
 // Draws the surfaces of a field with a depth buffer, as server/render/slices/surface_batch.cpp does: first the opaque
 // ones, and later the translucent ones in front of what is already drawn. The arrays of a picture are uploaded without
-// conversion. Each slice has its own range of the buffers, and the vertex shader moves the slice to its place in the
-// picture. The painter shares the WebGL context with three.js, and tells three.js when it has changed the state of the
-// context.
+// conversion. Each slice has its own range of the buffers, and the vertex shader moves the slice to each of its places
+// in the picture. The painter shares the WebGL context with three.js, and tells three.js when it has changed the state
+// of the context.
 
 import type { WebGLRenderer } from "three";
 
@@ -72,22 +72,28 @@ interface SurfaceResources {
     buffers: Record<BufferName, { buffer: WebGLBuffer; size: number }>;
 }
 
-/** The surfaces of one slice, at its place in the picture or in the projection of the whole object. */
+/** The surfaces of one slice, and their ranges of the buffers. */
 interface SliceSurfaces {
     slice: Slice;
     surface: Surface;
-    position: Vector;
-    scale: number; // world units per unit of the object
-    isInProjection: boolean;
     groups: TrianglesByLevel;
-    depth: number; // the distance of the slice's origin from the eye, along the camera's axis
     firstPoint: number;
     firstByte: number; // the offset of the slice's indices in the buffer, in bytes
 }
 
+/** A place at which the surfaces of a slice are drawn: in the picture, or in the projection of the whole object. */
+interface PlacedSurfaces {
+    part: SliceSurfaces;
+    position: Vector;
+    scale: number; // world units per unit of the object
+    isInProjection: boolean;
+    depth: number; // the distance of the slice's origin from the eye, along the camera's axis
+}
+
 export class SurfacePainter {
-    private readonly parts: SliceSurfaces[] = []; // from far to near after the sorting in draw()
+    private readonly parts: SliceSurfaces[] = [];
     private readonly spare: SliceSurfaces[] = [];
+    private readonly placed: PlacedSurfaces[] = []; // from far to near after the sorting in draw()
     private picture: Slices | undefined; // the newest picture; undefined if it has no surfaces
     private levels: SurfaceLevel[] = []; // from the innermost to the outermost
     private resources: SurfaceResources | undefined; // created when they are needed
@@ -100,16 +106,21 @@ export class SurfacePainter {
     /** Uploads the surfaces of a new picture to the GPU; returns whether the picture shows the surfaces of a field. */
     update(picture: Slices): boolean {
         this.spare.push(...this.parts.splice(0));
+        this.placed.length = 0;
         this.levels = picture.scene.surfaces ?? [];
         this.picture = undefined;
         const { projection, scene } = picture;
         for (const slice of picture.slices) {
             const { surface, drawn, position, focus } = slice;
             if (!surface || !drawn) continue;
-            this.addPart(slice, surface, { position, scale: scene.scale, isInProjection: false });
+            const part = this.spare.pop() ?? emptySliceSurfaces(slice, surface);
+            Object.assign(part, { slice, surface });
+            part.groups.update(surface);
+            this.parts.push(part);
+            this.placed.push({ part, position, scale: scene.scale, isInProjection: false, depth: 0 });
             if (focus && projection?.surface_scale !== undefined) {
-                const { position, surface_scale: scale } = projection;
-                this.addPart(slice, surface, { position, scale, isInProjection: true });
+                const place = { position: projection.position, scale: projection.surface_scale };
+                this.placed.push({ part, ...place, isInProjection: true, depth: 0 });
             }
         }
         if (this.parts.length > 0) {
@@ -117,17 +128,6 @@ export class SurfacePainter {
             this.upload();
         }
         return picture.scene.surfaces !== undefined;
-    }
-
-    private addPart(
-        slice: Slice,
-        surface: Surface,
-        place: Pick<SliceSurfaces, "position" | "scale" | "isInProjection">,
-    ): void {
-        const part = this.spare.pop() ?? emptySliceSurfaces(slice, surface);
-        Object.assign(part, { slice, surface, ...place });
-        part.groups.update(surface);
-        this.parts.push(part);
     }
 
     /** Uploads everything again, after the context has been lost and restored. */
@@ -199,13 +199,13 @@ export class SurfacePainter {
      * slice in the projection.
      */
     draw(which: "opaque" | "translucent", viewCamera: ViewCamera, of: Slice | "slices" | "projection"): void {
-        const { gl, picture, parts } = this;
+        const { gl, picture, placed } = this;
         const opaque = which === "opaque";
         if (!picture || !this.resources || !this.levels.some((level) => isOpaque(level) === opaque)) return;
         const { program, uniforms, arrays } = this.resources;
         const { light } = picture.scene;
-        for (const part of parts) part.depth = viewCamera.depthOf(part.position);
-        parts.sort((a, b) => b.depth - a.depth);
+        for (const one of placed) one.depth = viewCamera.depthOf(one.position);
+        placed.sort((a, b) => b.depth - a.depth);
         gl.useProgram(program);
         gl.bindVertexArray(arrays);
         gl.uniformMatrix4fv(uniforms.view, false, viewCamera.view.elements);
@@ -222,19 +222,19 @@ export class SurfacePainter {
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
         // Opaque surfaces need no order, but are drawn faster if the nearer ones come first.
-        for (let i = 0; i < parts.length; ++i) {
-            const part = parts[opaque ? parts.length - 1 - i : i]!;
-            const isOf = of === "slices" || of === "projection" || part.slice === of;
-            if (isOf && part.isInProjection === (of === "projection")) this.drawSlice(part, opaque);
+        for (let i = 0; i < placed.length; ++i) {
+            const one = placed[opaque ? placed.length - 1 - i : i]!;
+            if (one.isInProjection !== (of === "projection")) continue;
+            if (typeof of === "string" || one.part.slice === of) this.drawSlice(one, opaque);
         }
         gl.bindVertexArray(null);
         this.renderer.resetState();
     }
 
-    private drawSlice(part: SliceSurfaces, opaque: boolean): void {
+    private drawSlice({ part, position, scale }: PlacedSurfaces, opaque: boolean): void {
         const { gl } = this;
         const { uniforms, buffers } = this.resources!;
-        const { position, scale, firstPoint } = part;
+        const { firstPoint } = part;
         gl.uniform4f(uniforms.place, ...position, scale);
         gl.bindBuffer(gl.ARRAY_BUFFER, buffers.points.buffer);
         gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 12 * firstPoint);
@@ -310,9 +310,7 @@ function isOpaque({ opacity }: SurfaceLevel): boolean {
 }
 
 function emptySliceSurfaces(slice: Slice, surface: Surface): SliceSurfaces {
-    const groups = new TrianglesByLevel();
-    const place = { position: [0, 0, 0] as Vector, scale: 1, isInProjection: false };
-    return { slice, surface, ...place, groups, depth: 0, firstPoint: 0, firstByte: 0 };
+    return { slice, surface, groups: new TrianglesByLevel(), firstPoint: 0, firstByte: 0 };
 }
 
 function makeResources(gl: WebGL2RenderingContext): SurfaceResources {

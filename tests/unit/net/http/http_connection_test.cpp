@@ -2,29 +2,17 @@
 
 #include "net/http/http_connection.hpp"
 
-#include <array>
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/strand.hpp>
-#include <boost/asio/write.hpp>
+#include <boost/asio/ip/address.hpp>
 #include <chrono>
-#include <cstddef>
-#include <exception>
-#include <memory>
-#include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
-#include "store/memory_store.hpp"
-#include "unit/net/virtual_server.hpp"
+#include "unit/net/connection_test.hpp"
 
 namespace oval4d::net {
 namespace {
 
-namespace asio = boost::asio;
-using asio::ip::tcp;
 using namespace std::chrono_literals;
 
 ServerOptions optionsWithDeadlines() {
@@ -34,29 +22,22 @@ ServerOptions optionsWithDeadlines() {
     return options;
 }
 
-class HttpConnectionTest : public testing::Test {
+class HttpConnectionTest : public ConnectionTest {
   protected:
+    HttpConnectionTest() : ConnectionTest(optionsWithDeadlines()) {}
     void SetUp() override {
-        tcp::acceptor acceptor(server.io, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0));
-        client.open(tcp::v4());
-        client.connect(acceptor.local_endpoint());
-        tcp::socket accepted(asio::make_strand(server.io));
-        acceptor.accept(accepted);
+        tcp::socket accepted = connect();
         const auto executor = accepted.get_executor();
         const ServerContext context{server.services, access, routes, manager, connections};
-        asio::co_spawn(executor, serveHttp(std::move(accepted), context),
-                       [this](const std::exception_ptr& /*failure*/) { ended = true; });
+        serve(executor, serveHttp(std::move(accepted), context));
         read();
         server.settle();
     }
     void TearDown() override {
         client.close();
-        EXPECT_TRUE(server.eventually([&] { return ended; }));
-        server.settle();
-        manager->stop(support::hangLimit());
+        ConnectionTest::TearDown();
     }
 
-    void send(const std::string& bytes) { asio::write(client, asio::buffer(bytes)); }
     /// Waits for the reply to a request, and forgets it.
     void waitForReply() {
         EXPECT_TRUE(server.eventually([&] { return received.ends_with("ok\n"); })) << received;
@@ -75,28 +56,11 @@ class HttpConnectionTest : public testing::Test {
 
     static constexpr const char* kRequest = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
 
-    VirtualServer server{optionsWithDeadlines()};
-    const std::shared_ptr<SessionManager> manager = std::make_shared<SessionManager>(
-        server.services,
-        std::make_unique<store::MemoryStore>(store::kDefaultQuota, [this] { return server.clock.now(); }));
     const WebFiles files{"/nonexistent"};
     Readiness readiness{1};
     const AccessControl access{{}, {}, "", true};
     Routes routes{server.services, files, readiness, *manager};
     ConnectionRegistry connections{10, 10};
-    tcp::socket client{server.io};
-    bool ended = false;  // whether the server has ended the connection
-    std::string received;
-
-  private:
-    void read() {
-        client.async_read_some(asio::buffer(chunk_), [this](boost::system::error_code fault, std::size_t size) {
-            received.append(chunk_.data(), size);
-            if (!fault) read();
-        });
-    }
-
-    std::array<char, 4096> chunk_{};
 };
 
 TEST_F(HttpConnectionTest, AConnectionWithoutAWholeHeaderIsClosedInTime) {
@@ -115,7 +79,7 @@ TEST_F(HttpConnectionTest, AnIdleConnectionIsClosedInTimeAfterTheLastReply) {
 
 TEST_F(HttpConnectionTest, RequestsAboveTheRateAreDelayed) {
     // Uses up what the client's address may send in the next hour, so the request is delayed by an hour.
-    const auto account = server.clients.findOrCreate(asio::ip::make_address("127.0.0.1"), server.clock.now());
+    const auto account = server.clients.findOrCreate(boost::asio::ip::make_address("127.0.0.1"), server.clock.now());
     static_cast<void>(account->countMessage(3601 * server.options.client.messageBytesPerSecond, server.clock.now()));
     send(kRequest);
     const auto start = server.clock.now();

@@ -2,33 +2,24 @@
 
 #include "net/ws/websocket_connection.hpp"
 
-#include <array>
-#include <boost/asio/buffer.hpp>
-#include <boost/asio/co_spawn.hpp>
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/strand.hpp>
-#include <boost/asio/write.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/field.hpp>
 #include <boost/beast/http/verb.hpp>
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include <gtest/gtest.h>
 
-#include "store/memory_store.hpp"
-#include "unit/net/virtual_server.hpp"
+#include "unit/net/connection_test.hpp"
 
 namespace oval4d::net {
 namespace {
 
-namespace asio = boost::asio;
 namespace beast = boost::beast;
-using asio::ip::tcp;
 using namespace std::chrono_literals;
 
 constexpr std::uint8_t kText = 1, kPing = 9;  // opcodes
@@ -49,23 +40,17 @@ ServerOptions optionsWithRarePings() {
     return options;
 }
 
-class WebSocketConnectionTest : public testing::Test {
+class WebSocketConnectionTest : public ConnectionTest {
   protected:
+    WebSocketConnectionTest() : ConnectionTest(optionsWithRarePings()) {}
     void TearDown() override {
         connection->drop();
-        EXPECT_TRUE(server.eventually([&] { return ended; }));
-        server.settle();
-        manager->stop(support::hangLimit());
+        ConnectionTest::TearDown();
     }
 
     /// Opens a connection. The client reads all that the server sends, if `reads` is true.
     void open(bool reads) {
-        tcp::acceptor acceptor(server.io, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0));
-        client.open(tcp::v4());
-        if (!reads) client.set_option(asio::socket_base::receive_buffer_size(4096));
-        client.connect(acceptor.local_endpoint());
-        tcp::socket accepted(asio::make_strand(server.io));
-        acceptor.accept(accepted);
+        tcp::socket accepted = connect(reads ? std::nullopt : std::optional(4096));
         const auto executor = accepted.get_executor();
         connection = std::make_shared<WebSocketConnection>(beast::tcp_stream(std::move(accepted)), server.services,
                                                            manager, server.account, "", [] {});
@@ -75,35 +60,16 @@ class WebSocketConnectionTest : public testing::Test {
         upgrade.set(beast::http::field::upgrade, "websocket");
         upgrade.set(beast::http::field::sec_websocket_version, "13");
         upgrade.set(beast::http::field::sec_websocket_key, "dGhlIHNhbXBsZSBub25jZQ==");
-        asio::co_spawn(executor, connection->run(std::move(upgrade)),
-                       [this](const std::exception_ptr& /*failure*/) { ended = true; });
+        serve(executor, connection->run(std::move(upgrade)));
         if (reads) read();
         ASSERT_TRUE(server.eventually([&] { return server.metrics.webSockets.Value() == 1; }));
     }
-    void send(const std::string& bytes) { asio::write(client, asio::buffer(bytes)); }
     bool hasReceived(const std::string& text) const { return received.find(text) != std::string::npos; }
     void waitFor(const std::string& text) {
         EXPECT_TRUE(server.eventually([&] { return hasReceived(text); })) << text;
     }
 
-    VirtualServer server{optionsWithRarePings()};
-    const std::shared_ptr<SessionManager> manager = std::make_shared<SessionManager>(
-        server.services,
-        std::make_unique<store::MemoryStore>(store::kDefaultQuota, [this] { return server.clock.now(); }));
-    tcp::socket client{server.io};
     std::shared_ptr<WebSocketConnection> connection;
-    bool ended = false;  // whether the server has ended the connection
-    std::string received;
-
-  private:
-    void read() {
-        client.async_read_some(asio::buffer(chunk_), [this](boost::system::error_code fault, std::size_t size) {
-            received.append(chunk_.data(), size);
-            if (!fault) read();
-        });
-    }
-
-    std::array<char, 65536> chunk_{};
 };
 
 TEST_F(WebSocketConnectionTest, AConnectionWithoutHelloIsClosedInTimeWhateverElseItSends) {

@@ -136,8 +136,8 @@ class Depths : public testing::Test {
         const std::span<std::uint8_t> pixels = std::span(memory).subspan(kGuard, kBytes);
         rasterizer.begin({kSize, kSize}, scene::style(), pixels);
         rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
-        rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::written);
-        rasterizer.add(translucent, 0, translucent.patches().size(), ShapeRasterizer::DepthUse::tested);
+        rasterizer.add(solid, ShapeRasterizer::DepthUse::written);
+        rasterizer.add(translucent, ShapeRasterizer::DepthUse::tested);
         rasterizer.finish(nullptr);
         for (std::size_t i = 0; i < kGuard; ++i) {
             EXPECT_EQ(memory[i], kUntouched);
@@ -181,9 +181,9 @@ TEST_F(Depths, HideNothingWhereTheyHaveBeenCleared) {
     image::Image picture{kSize, kSize, std::vector<std::uint8_t>(kSize * kSize * 4)};
     rasterizer.begin({kSize, kSize}, scene::style(), picture.pixels);
     rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
-    rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::written);
+    rasterizer.add(solid, ShapeRasterizer::DepthUse::written);
     rasterizer.addDepthClearing({{-5, 10}, {kSize / 2, kSize + 5}});
-    rasterizer.add(translucent, 0, translucent.patches().size(), ShapeRasterizer::DepthUse::tested);
+    rasterizer.add(translucent, ShapeRasterizer::DepthUse::tested);
     rasterizer.finish(nullptr);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
@@ -232,8 +232,8 @@ TEST_F(Depths, FacesInFrontOfAllSolidShapesLookAsWithoutDepths) {
         std::vector<std::uint8_t> pixels(image::byteCount(kSize, kSize));
         rasterizer.begin({kSize, kSize}, scene::style(), pixels);
         rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
-        rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::written);
-        rasterizer.add(translucent, 0, translucent.patches().size(), depth);
+        rasterizer.add(solid, ShapeRasterizer::DepthUse::written);
+        rasterizer.add(translucent, depth);
         rasterizer.finish(nullptr);
         return pixels;
     };
@@ -248,7 +248,7 @@ TEST_F(Depths, StrokesHaveTheirColorAndWidthAndLeaveTheRestOfThePicture) {
     image::Image image{kSize, kSize, std::vector<std::uint8_t>(image::byteCount(kSize, kSize), kGray)};
     solid.addStroke({10, 20}, {50, 20}, 3, kRed);
     rasterizer.beginOver({kSize, kSize}, scene::style(), image.pixels);
-    rasterizer.add(solid, 0, solid.patches().size(), ShapeRasterizer::DepthUse::unused);
+    rasterizer.add(solid, ShapeRasterizer::DepthUse::unused);
     rasterizer.finish(nullptr);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {

@@ -2,7 +2,7 @@
 
 import type { Client, Command, State } from "@oval4d/protocol";
 
-export class TourObject {
+export class TourObjectSwitch {
     // What the user saw before the step that is shown now, and the name of the object that the step shows instead.
     private replaced: { view: State; name: string } | undefined;
     private changes: Promise<void> = Promise.resolve(); // one after another, however fast the user leaves a step

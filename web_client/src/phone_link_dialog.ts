@@ -10,7 +10,7 @@ import { isOwnComputer, serverTokenOfAddress, shareLink } from "./link";
 
 const kQuietZone = 4; // modules of white around the code, without which readers may not find it (ISO/IEC 18004)
 
-export class PhoneDialog {
+export class PhoneLinkDialog {
     private readonly dialog = new Dialog("phone");
     private readonly code = document.querySelector<SVGSVGElement>("#phone-code")!;
     private readonly link = byId<HTMLTextAreaElement>("phone-link");

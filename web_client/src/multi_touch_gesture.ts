@@ -16,7 +16,7 @@ interface ScreenVector {
     y: number;
 }
 
-interface FingerPlaces {
+interface FingerGeometry {
     /** The mean of the places of the fingers. */
     center: ScreenVector;
     /** From the center to each finger. */
@@ -25,15 +25,15 @@ interface FingerPlaces {
     extent: number;
 }
 
-export class SeveralFingers {
-    private last: FingerPlaces;
+export class MultiTouchGesture {
+    private last: FingerGeometry;
     private moved: ScreenVector = { x: 0, y: 0 }; // since the fingers touched the drawing
     private twisted = 0; // radians since the fingers touched the drawing
     private moves = false; // whether the movement has left its dead zone
     private twists = false; // whether the twist has left its dead zone
 
     constructor(fingers: readonly Finger[]) {
-        this.last = placesOf(fingers);
+        this.last = geometryOf(fingers);
     }
 
     /**
@@ -43,7 +43,7 @@ export class SeveralFingers {
      */
     update(fingers: readonly Finger[]): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;
-        const now = (this.last = placesOf(fingers));
+        const now = (this.last = geometryOf(fingers));
         const [dx, dy] = [now.center.x - last.center.x, now.center.y - last.center.y];
         const twist = rotationBetween(last.arms, now.arms);
         const change = {
@@ -59,7 +59,7 @@ export class SeveralFingers {
     }
 }
 
-function placesOf(fingers: readonly Finger[]): FingerPlaces {
+function geometryOf(fingers: readonly Finger[]): FingerGeometry {
     const mean = (values: number[]): number => values.reduce((sum, value) => sum + value, 0) / values.length;
     const center = { x: mean(fingers.map((one) => one.clientX)), y: mean(fingers.map((one) => one.clientY)) };
     const arms = fingers.map(({ clientX, clientY }) => ({ x: clientX - center.x, y: clientY - center.y }));

@@ -1,0 +1,78 @@
+#pragma once
+// What the tests of connections share: a server in virtual time, and a client. Their sockets are real.
+
+#include <array>
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/strand.hpp>
+#include <boost/asio/write.hpp>
+#include <cstddef>
+#include <exception>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "hang_limit.hpp"
+#include "net/live/session_manager.hpp"
+#include "store/memory_store.hpp"
+#include "unit/net/virtual_server.hpp"
+
+namespace oval4d::net {
+
+/// A client of one connection. Derived classes start it: connect(), serve() and then, if the client reads, read().
+class ConnectionTest : public testing::Test {
+  protected:
+    using tcp = boost::asio::ip::tcp;
+
+    explicit ConnectionTest(Options options) : server(std::move(options)) {}
+
+    /// Waits for the end of the connection, which derived classes cause before.
+    void TearDown() override {
+        EXPECT_TRUE(server.eventually([&] { return ended; }));
+        server.settle();
+        manager->stop(support::hangLimit());
+    }
+
+    /// Connects the client, whose kernel holds about `receiveBuffer` bytes, or as many as it likes. Returns the
+    /// server's socket.
+    tcp::socket connect(std::optional<int> receiveBuffer = {}) {
+        tcp::acceptor acceptor(server.io, tcp::endpoint(boost::asio::ip::make_address("127.0.0.1"), 0));
+        client.open(tcp::v4());
+        if (receiveBuffer) client.set_option(boost::asio::socket_base::receive_buffer_size(*receiveBuffer));
+        client.connect(acceptor.local_endpoint());
+        tcp::socket accepted(boost::asio::make_strand(server.io));
+        acceptor.accept(accepted);
+        return accepted;
+    }
+    /// Starts a coroutine that serves the connection until it ends.
+    void serve(const tcp::socket::executor_type& executor, boost::asio::awaitable<void> connection) {
+        boost::asio::co_spawn(executor, std::move(connection),
+                              [this](const std::exception_ptr& /*failure*/) { ended = true; });
+    }
+    /// Appends to `received` all that the server sends from now on.
+    void read() {
+        client.async_read_some(boost::asio::buffer(chunk_), [this](boost::system::error_code fault, std::size_t size) {
+            received.append(chunk_.data(), size);
+            if (!fault) read();
+        });
+    }
+    void send(const std::string& bytes) { boost::asio::write(client, boost::asio::buffer(bytes)); }
+
+    VirtualServer server;
+    const std::shared_ptr<SessionManager> manager = std::make_shared<SessionManager>(
+        server.services,
+        std::make_unique<store::MemoryStore>(store::kDefaultQuota, [this] { return server.clock.now(); }));
+    tcp::socket client{server.io};
+    bool ended = false;  // whether the server has ended the connection
+    std::string received;
+
+  private:
+    std::array<char, 65536> chunk_{};
+};
+
+}  // namespace oval4d::net
