@@ -189,7 +189,7 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
 // are too few to find them. Expects that cellIsFacing_ is valid.
 const DrawnElements* Projector::findUnhidden(const geometry::CellComplex& complex,
                                              const geometry::Rotation& orientation, const SliceSet& slices,
-                                             const Options& options) {
+                                             const ProjectionOptions& options) {
     const OcclusionInput input{complex.serial, orientation, options.projection, options.cells, options.occlusionSteps};
     if (occlusionInput_ != input) {
         occlusionInput_.reset();

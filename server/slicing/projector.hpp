@@ -84,7 +84,7 @@ class Projector {
     void findFacingCells(const Object& object, const geometry::Rotation& orientation,
                          const ProjectionToHyperplane& projection);
     const DrawnElements* findUnhidden(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
-                                      const SliceSet& slices, const Options& options);
+                                      const SliceSet& slices, const ProjectionOptions& options);
     void addSlice(const SliceSet& slices, int slice, const ProjectionToHyperplane& projection, SliceSet& out,
                   std::vector<std::uint32_t>& faceCells);
 

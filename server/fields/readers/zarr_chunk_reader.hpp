@@ -102,7 +102,7 @@ class ChunkReader {
               float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
         visitRows(index, stride, [&](std::size_t number, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
-            convert(array_.format, from + number * size, {{1, 1, 1, count}, {0, 0, 0, step}}, to + at);
+            convertToFloats(array_.format, from + number * size, {{1, 1, 1, count}, {0, 0, 0, step}}, to + at);
         });
     }
 
@@ -112,7 +112,7 @@ class ChunkReader {
         format.type = NumberType::f8;
         format.bigEndian = std::endian::native == std::endian::big;
         float value = 0;
-        convert(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
+        convertToFloats(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
         if (std::bit_cast<std::uint32_t>(value) == 0) return;  // `to` contains only zeros before read() is called
         visitRows(index, stride, [&](std::size_t, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
             for (std::size_t i = 0; i < count; ++i) to[at + static_cast<std::ptrdiff_t>(i) * step] = value;

@@ -29,7 +29,7 @@ class ConnectionTest : public testing::Test {
   protected:
     using tcp = boost::asio::ip::tcp;
 
-    explicit ConnectionTest(Options options) : server(std::move(options)) {}
+    explicit ConnectionTest(ServerOptions options) : server(std::move(options)) {}
 
     /// Waits for the end of the connection, which derived classes cause before.
     void TearDown() override {

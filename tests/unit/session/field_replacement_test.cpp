@@ -43,7 +43,7 @@ void load(Session& session, const slicing::Object& field) {
     const FileReader reader = [&](const LoadObject&, const Limits&) -> Result<ObjectWithWarnings> {
         return ObjectWithWarnings{field, {}};
     };
-    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::immediate, reader);
+    ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::immediate, reader);
     LoadObject command = loadOf("run", *slicing::fieldIn(field)->source);
     const auto done = apply(session, command, Limits{}, loader);
     ASSERT_TRUE(done) << done.error().message;

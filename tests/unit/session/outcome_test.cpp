@@ -17,7 +17,7 @@ TEST(Outcome, IsComputedOnlyOnce) {
                                    Command(Key{"n", false, false}), Command(ShowLinkedView{"formula=x*"})}) {
         Session session;
         Session expected = session;
-        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::Mode::deferred, readObject);
+        ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
         ComputedOutcome outcome;
         while (needsLoading(session, command, Limits{}, loader, outcome)) loader.completePending();
         ASSERT_TRUE(outcome);

@@ -30,10 +30,10 @@ namespace {
 namespace asio = boost::asio;
 using nlohmann::json;
 
-Options optionsWithData(const store::Folder& folder) {
+ServerOptions optionsWithData(const store::Folder& folder) {
     std::filesystem::create_directory(folder.path / "image");
     std::ofstream(folder.path / "image" / "zarr.json") << "{}";
-    Options options;
+    ServerOptions options;
     options.data = folder.path.string();
     return options;
 }

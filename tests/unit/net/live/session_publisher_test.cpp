@@ -228,7 +228,7 @@ TEST_F(SessionPublisherTest, QuickChangesOfAPolytopeHaveNoDrafts) {
         EXPECT_EQ(peer->drafts(revision), std::vector{false}) << revision;
 }
 
-TEST_F(PictureStreamsTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
+TEST_F(SessionPublisherTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
     session::must(value, session::CommandLine{"set polytope=600-cell slices=1"});
     ASSERT_FALSE(pipeline::FocusSectionNamer::isFast(value.current.object));
     const auto peer = connect(true);
@@ -237,7 +237,7 @@ TEST_F(PictureStreamsTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
         SnapshotPtr state;
         post([&] {
             session::must(value, command);
-            state = streams->currentState();
+            state = publisher->currentState();
         });
         server.runHandlers();
         return state;
