@@ -18,10 +18,12 @@ FOG = [{"value": -1, "opacity": 0.9}, {"value": 0, "opacity": 0.5, "color": 0xff
 # The eight vertices of a 16-cell beside the origin, and a point in it, which a warning names.
 POINTS = [[0.5 + sign * (axis == 0), *(sign * (axis == k) for k in (1, 2, 3))] for axis in range(4) for sign in (-1, 1)]
 POINTS.append([0.5, 0, 0, 0.1])
-# Members of what `set` takes that no state has, one that is sent only of arrays that are too large for a test, and those
-# that are sent only of parts of arrays in a data folder, for which test_zarr.py looks.
+# Members of what `set` takes that no state has, one that is sent only of arrays that are too large for a test, those
+# that are sent only of parts of arrays in a data folder, for which test_zarr.py looks, and one that is sent only if the
+# server is started with a low limit, for which test_limits.py looks.
 NOT_SENT = {"state": {"/slices/w", "/field/estimated", "/field/region", "/field/resolution", "/field/resolution/level",
-                      "/field/resolution/levels", "/field/resolution/refining"}}
+                      "/field/resolution/levels", "/field/resolution/refining"},
+            "slices": {"/projection/only_turned_away"}}
 # Members whose own members have names that the schema does not list.
 OPEN = {"welcome": {"/limits"}}
 
