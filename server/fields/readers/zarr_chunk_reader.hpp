@@ -13,8 +13,8 @@
 
 #include "errors/error.hpp"
 #include "fields/readers/chunk_codecs.hpp"
-#include "fields/readers/numbers.hpp"
 #include "fields/readers/field_array.hpp"
+#include "fields/readers/numbers.hpp"
 #include "fields/readers/zarr.hpp"
 #include "fields/readers/zarr_chunk_files.hpp"
 #include "fields/readers/zarr_metadata.hpp"
