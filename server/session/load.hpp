@@ -46,9 +46,6 @@ struct SecondFunctionSource {
     std::string formula, variable;
 };
 
-/// Returns how to load the field called `name` from its file in the data folder.
-LoadObject loadOf(const std::string& name, const fields::FileSource& source);
-
 /// Reads an array from a file whose format is one of fields::fieldFormats(). Errors: those of fields::readField(),
 /// fields::fieldFromArray(), fields::setSecondArray() and fields::setSecondFormula(); `out_of_range` if the box of the
 /// options has no extent along an axis with several samples, or if the ends of the box along any axis are in the wrong

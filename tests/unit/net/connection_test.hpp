@@ -27,8 +27,6 @@ namespace oval4d::net {
 /// A client of one connection. Derived classes start it: connect(), serve() and then, if the client reads, read().
 class ConnectionTest : public testing::Test {
   protected:
-    using tcp = boost::asio::ip::tcp;
-
     explicit ConnectionTest(ServerOptions options) : server(std::move(options)) {}
 
     /// Waits for the end of the connection, which derived classes cause before.
@@ -40,17 +38,18 @@ class ConnectionTest : public testing::Test {
 
     /// Connects the client, whose kernel holds about `receiveBuffer` bytes, or as many as it likes. Returns the
     /// server's socket.
-    tcp::socket connect(std::optional<int> receiveBuffer = {}) {
-        tcp::acceptor acceptor(server.io, tcp::endpoint(boost::asio::ip::make_address("127.0.0.1"), 0));
-        client.open(tcp::v4());
+    boost::asio::ip::tcp::socket connect(std::optional<int> receiveBuffer = {}) {
+        boost::asio::ip::tcp::acceptor acceptor(
+            server.io, boost::asio::ip::tcp::endpoint(boost::asio::ip::make_address("127.0.0.1"), 0));
+        client.open(boost::asio::ip::tcp::v4());
         if (receiveBuffer) client.set_option(boost::asio::socket_base::receive_buffer_size(*receiveBuffer));
         client.connect(acceptor.local_endpoint());
-        tcp::socket accepted(boost::asio::make_strand(server.io));
+        boost::asio::ip::tcp::socket accepted(boost::asio::make_strand(server.io));
         acceptor.accept(accepted);
         return accepted;
     }
     /// Starts a coroutine that serves the connection until it ends.
-    void serve(const tcp::socket::executor_type& executor, boost::asio::awaitable<void> connection) {
+    void serve(const boost::asio::ip::tcp::socket::executor_type& executor, boost::asio::awaitable<void> connection) {
         boost::asio::co_spawn(executor, std::move(connection),
                               [this](const std::exception_ptr& /*failure*/) { ended = true; });
     }
@@ -67,7 +66,7 @@ class ConnectionTest : public testing::Test {
     const std::shared_ptr<SessionManager> manager = std::make_shared<SessionManager>(
         server.services,
         std::make_unique<store::MemoryStore>(store::kDefaultQuota, [this] { return server.clock.now(); }));
-    tcp::socket client{server.io};
+    boost::asio::ip::tcp::socket client{server.io};
     bool ended = false;  // whether the server has ended the connection
     std::string received;
 

@@ -26,7 +26,7 @@ class HttpConnectionTest : public ConnectionTest {
   protected:
     HttpConnectionTest() : ConnectionTest(optionsWithDeadlines()) {}
     void SetUp() override {
-        tcp::socket accepted = connect();
+        boost::asio::ip::tcp::socket accepted = connect();
         const auto executor = accepted.get_executor();
         const ServerContext context{server.services, access, routes, manager, connections};
         serve(executor, serveHttp(std::move(accepted), context));

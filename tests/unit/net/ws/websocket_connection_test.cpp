@@ -50,7 +50,7 @@ class WebSocketConnectionTest : public ConnectionTest {
 
     /// Opens a connection. The client reads all that the server sends, if `reads` is true.
     void open(bool reads) {
-        tcp::socket accepted = connect(reads ? std::nullopt : std::optional(4096));
+        boost::asio::ip::tcp::socket accepted = connect(reads ? std::nullopt : std::optional(4096));
         const auto executor = accepted.get_executor();
         connection = std::make_shared<WebSocketConnection>(beast::tcp_stream(std::move(accepted)), server.services,
                                                            manager, server.account, "", [] {});
