@@ -1428,12 +1428,28 @@ export interface Welcome {
      */
     protocol: number;
     server: string;
-    /**
-     * The limits by name; README.md explains them.
-     */
-    limits: {
-        [k: string]: number;
-    };
+    limits: Limits;
+}
+/**
+ * The limits of the server, as the section on limits of README.md explains them.
+ */
+export interface Limits {
+    message: number;
+    request_bytes: number;
+    upload: number;
+    field_bytes: number;
+    depth: number;
+    requests_per_second: number;
+    min_side: number;
+    max_width: number;
+    max_height: number;
+    max_pixels: number;
+    slice_edges: number;
+    file_triangles: number;
+    file_bytes: number;
+    file_time: number;
+    slices: number;
+    shown_timeout: number;
 }
 /**
  * The messages that answer requests, by the types of the requests; without `get`, whose answer depends on `what`.

@@ -11,6 +11,7 @@ import pytest
 import websockets
 from harness import DEADLINE, Server, run_oval4d
 from png import pixels
+from schemas import SCHEMAS
 from test_import import get_file, tesseract_file
 from test_pacing import masked_frame, open_nonreading_socket
 from wire import Client, Refused, connect, credentials_of, handshake_status
@@ -32,6 +33,8 @@ async def test_the_welcome_message_states_the_limits():
                 "message": 65536, "request_bytes": 65536, "upload": 1 << 30, "field_bytes": 3 << 20, "depth": 9, "requests_per_second": 77, "min_side": 20, "max_width": 900,
                 "max_height": 800, "max_pixels": 500_000, "slice_edges": 123_456, "slices": 41, "shown_timeout": 2.5,
                 "file_triangles": 5000, "file_bytes": 1 << 20, "file_time": 7}
+            described = SCHEMAS["welcome.schema.json"]["properties"]["limits"]["properties"]
+            assert set(client.welcome["limits"]) == set(described), "the schema describes each limit"
             assert (await request_refusal(client, "set", slices={"count": 43})).code == "out_of_range"
             for width, height in ((901, 100), (100, 801), (19, 100), (900, 800)):
                 assert (await request_refusal(client, "get", what="frame", width=width, height=height)).code == "out_of_range"

@@ -118,14 +118,14 @@ export class ExportDialog {
         this.showSliceValues();
         byId("export-highlight").textContent = nameOf(state.highlight);
         byId("export-coordinates").textContent = state.field ? "Histogram" : "Parallel coordinates";
-        const { limits = {} } = this.client.welcome ?? {};
-        const { width, height } = this.size();
+        const limits = this.client.welcome?.limits;
+        const pageSize = this.size();
         const isAsDisplayed = this.form.querySelector('[name=preset][value=""]:checked') !== null;
-        for (const [name, pageSize] of Object.entries({ width, height })) {
+        for (const name of ["width", "height"] as const) {
             const field = this.formField(name);
-            field.min = String(limits["min_side"] ?? 1);
-            field.max = String(limits[`max_${name}`] ?? 8192);
-            if (isAsDisplayed || field.value === "") field.value = String(pageSize);
+            field.min = String(limits?.min_side ?? 1);
+            field.max = String(limits?.[`max_${name}` as const] ?? 8192);
+            if (isAsDisplayed || field.value === "") field.value = String(pageSize[name]);
         }
         this.selectPreset();
         this.offerFormats();

@@ -78,7 +78,7 @@ export class FileLoading {
         let read: LoadContent | undefined;
         try {
             this.beginProgress(file.name);
-            const limit = this.client.welcome?.limits["message"] ?? kDefaultLimit;
+            const limit = this.client.welcome?.limits.message ?? kDefaultLimit;
             const state = await readState(file, limit);
             if (state) {
                 await this.showState(state);
@@ -129,7 +129,7 @@ export class FileLoading {
 
     private upload(file: File): Promise<Done> {
         const { welcome, credentials } = this.client;
-        const limit = welcome?.limits["upload"] ?? Infinity;
+        const limit = welcome?.limits.upload ?? Infinity;
         if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
         if (!credentials) throw new FileError("There is no connection to a session. Try again.");
         return uploadArray(file, nameOf(file), credentials, limit, (part) => this.showSent(part));

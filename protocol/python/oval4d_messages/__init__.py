@@ -672,6 +672,26 @@ class State(_State, total=False):
     fog: list[FogControlPoint]
 
 
+class Limits(TypedDict):
+    """The limits of the server, as the section on limits of README.md explains them."""
+    message: int
+    request_bytes: int
+    upload: int
+    field_bytes: int
+    depth: int
+    requests_per_second: int
+    min_side: int
+    max_width: int
+    max_height: int
+    max_pixels: int
+    slice_edges: int
+    file_triangles: int
+    file_bytes: int
+    file_time: float
+    slices: int
+    shown_timeout: float
+
+
 class _Welcome(TypedDict):
     type: Literal["welcome"]
     # The name of the session, for the path /ws/{session}.
@@ -681,8 +701,8 @@ class _Welcome(TypedDict):
     # The protocol version.
     protocol: int
     server: str
-    # The limits by name; README.md explains them.
-    limits: dict[str, float]
+    # The limits of the server, as the section on limits of README.md explains them.
+    limits: Limits
 
 
 class Welcome(_Welcome, total=False):

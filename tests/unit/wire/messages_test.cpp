@@ -342,8 +342,11 @@ TEST(OtherMessages, FitTheirSchemas) {
               json::parse(R"({"type":"measured","id":6,"revision":2,"length":2,"center":[1,2,3,4],)"
                           R"("highlight":{"vertices":[17],"edges":[41],"own_vertices":[8,12]},"range":[-1,0.5]})"));
 
-    const json welcome =
-        fitting(wire::welcomeMessage("k3v", "secret", R"({"message":8388608,"shown_timeout":1.5})", 1));
+    const json described = readSchema("welcome.schema.json").at("properties").at("limits");
+    json limits;
+    for (const json& name : described.at("required")) limits[name.get<std::string>()] = 1;
+    limits["shown_timeout"] = 1.5;
+    const json welcome = fitting(wire::welcomeMessage("k3v", "secret", limits.dump(), 1));
     EXPECT_EQ(welcome.at("session"), "k3v");
     EXPECT_EQ(welcome.at("token"), "secret");
     EXPECT_EQ(welcome.at("protocol"), 1);

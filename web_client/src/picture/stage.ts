@@ -1,7 +1,7 @@
 // The area of the picture. Draws the newest slices or frame, only when something has changed, and reports when a
 // picture has been presented.
 
-import { pngText, type Orbit, type Slices, type State, type Viewport } from "@oval4d/protocol";
+import { pngText, type Limits, type Orbit, type Slices, type State, type Viewport } from "@oval4d/protocol";
 
 import { FrameView } from "./frame_view";
 import { GeometryView } from "./geometry_view";
@@ -21,12 +21,7 @@ export interface StageEvents {
 }
 
 /** The server's limits on the size of pictures. */
-export interface SizeLimits {
-    min_side?: number;
-    max_width?: number;
-    max_height?: number;
-    max_pixels?: number;
-}
+export type SizeLimits = Partial<Pick<Limits, "min_side" | "max_width" | "max_height" | "max_pixels">>;
 
 const kMaxPixels = 4_000_000; // of a picture on the page; more would cost time without a visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
