@@ -28,8 +28,11 @@ export type HyperplaneSettings = State["slices"];
 /** An element of a polytope: its kind, and its number among the elements of this kind, from 0. */
 export type PolytopeElement = NonNullable<State["highlight"]>;
 
-/** The options of an exported file, as in the message `get`. */
-export type FileOptions = Pick<GetRequest, "of" | "body" | "size" | "label" | "at" | "fit" | "exact"> & {
+/** The options of an exported file: those members of the message `get` that are not for anything else. */
+export type FileOptions = Omit<
+    GetRequest,
+    "type" | "id" | "what" | "width" | "height" | "background" | "highlight" | "x" | "y" | "point" | "format"
+> & {
     format: string;
 };
 /** An exported file. */

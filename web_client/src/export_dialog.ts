@@ -15,7 +15,7 @@ const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 /** The options of a file, without its format; see the message `get`. */
 type OptionValue = string | number | boolean;
 type ChosenOptions = Record<string, OptionValue>;
-const kOptions: Record<string, (value: string) => OptionValue> = {
+const kOptionReaders: Record<keyof Omit<FileOptions, "format">, (value: string) => OptionValue> = {
     of: String,
     body: String,
     size: Number,
@@ -24,6 +24,7 @@ const kOptions: Record<string, (value: string) => OptionValue> = {
     fit: Number,
     exact: switchOf,
 };
+const kOptions: Record<string, (value: string) => OptionValue> = kOptionReaders;
 
 type RequestedFile = [file: ExportedFile, state: State];
 
