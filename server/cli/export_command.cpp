@@ -62,7 +62,7 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
                "  --size MILLIMETERS  --label " + alternativesOf(exports::kLabels) +
                "\n  --at W,W,… (slices at these w)  --fit N (N slices that all meet the object)"
                "\n  --exact on|off (on: the surfaces of a field are cut from its samples exactly)\n" +
-               kStateHelp);
+               stateHelp());
 }
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {

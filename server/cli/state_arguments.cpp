@@ -181,6 +181,23 @@ session::State loadState(session::QueryParameters query, std::span<const std::st
     return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state), known));
 }
 
+std::string stateHelp() {
+    return "All other options describe the state, as for :set and the query of frame.png:\n"
+           "  --polytope 24-cell --rotate xw,yz:pi/8,pi/sqrt(3)-pi/8 --slices 31 --view single --background white\n"
+           "--load FILE shows a polytope or a surface from a 4OFF file, the points of a file whose first word is "
+           "CLOUD,\n"
+           "a field from an array (" +
+           text::commaSeparated(session::arrayFormatNames()) +
+           ", a Zarr folder, or a folder with one such file for each\n"
+           "moment; with --axes tzyx --box X0,X1,Y0,Y1,Z0,Z1,W0,W1 --variable NAME), or the convex hull of any\n"
+           "other list of points. --region, with numbers as --box, reads a part of a Zarr folder.\n"
+           "--values FORMULA, or for arrays --values_variable NAME, is a second function whose values color the "
+           "surfaces.\n"
+           "--center object|origin|X,Y,Z,W is the point about which a polytope, a surface or points turn.\n"
+           "A picture that oval4d has made, or a state as JSON, is shown again; other options change it.\n"
+           "--rotate may be repeated; the rotations are applied in the order given.";
+}
+
 void writeOutput(const std::string& path, std::string_view bytes) {
     std::ofstream file;
     if (path != "-") file.open(path, std::ios::binary);

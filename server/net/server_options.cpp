@@ -7,6 +7,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "session/load.hpp"
+#include "text/message_text.hpp"
+
 namespace oval4d::net {
 
 namespace {
@@ -104,9 +107,8 @@ void addStore(CLI::App& app, ServerOptions& options) {
 
 void addData(CLI::App& app, ServerOptions& options) {
     add(app, "--data", options.data,
-        "Folder of arrays (npy, netcdf, hdf5, nifti, zarr) that all clients may open; a folder in it is a series with "
-        "one "
-        "moment in each file");
+        "Folder of arrays (" + text::commaSeparated(session::arrayFormatNames()) +
+            ", zarr) that all clients may open; a folder in it is a series with one moment in each file");
     addBytes(app, "--data-cache", options.dataCache,
              "Memory for fields from the data folder, which sessions share; beyond it, those unused for the longest "
              "time are dropped, and a client must wait if sessions use all of it");

@@ -246,7 +246,8 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
     return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
 }
 
-/// A file format that `load` messages can name, and its reader.
+/// A file format that `load` messages can name, and its reader. The formats of arrays have no rows: they are those of
+/// fields::fieldFormats().
 struct FormatRow {
     std::string_view name, title;  ///< the name in messages, and the name in the texts of errors
     Result<ObjectWithWarnings> (*read)(const LoadObject& load, const Limits& limits);
@@ -257,25 +258,21 @@ constexpr auto kFormats = std::to_array<FormatRow>({
     {"points", "points", readHull, true},
     {"cloud", "cloud", readCloud, false},
     {kFormula, kFormula, readFormulaText, false},
-    {"npy", "npy", readArrayFile, false},
-    {"netcdf", "netcdf", readArrayFile, false},
-    {"hdf5", "hdf5", readArrayFile, false},
-    {"nifti", "nifti", readArrayFile, false},
 });
+constexpr FormatRow kArrayFormat{"", "", readArrayFile, false};
 
 const FormatRow* formatNamed(std::string_view name) {
+    if (isArrayFormat(name)) return &kArrayFormat;
     const auto row = std::ranges::find(kFormats, name, &FormatRow::name);
     return row == kFormats.end() ? nullptr : &*row;
 }
 
 Error unsupported(std::string_view format) {
-    std::string allowed;
-    for (const FormatRow& row : kFormats) {
-        if (!allowed.empty()) allowed += ", ";
-        allowed += row.title;
-    }
-    return {ErrorCode::unsupported_format,
-            "the format " + text::inQuotes(format) + " cannot be read; allowed formats: " + allowed};
+    std::vector<std::string_view> allowed;
+    for (const FormatRow& row : kFormats) allowed.push_back(row.title);
+    for (const std::string_view name : arrayFormatNames()) allowed.push_back(name);
+    return {ErrorCode::unsupported_format, "the format " + text::inQuotes(format) +
+                                               " cannot be read; allowed formats: " + text::commaSeparated(allowed)};
 }
 
 }  // namespace
@@ -401,6 +398,12 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
 
 bool isArrayFormat(std::string_view format) {
     return std::ranges::any_of(fields::fieldFormats(), [&](const auto& each) { return each.name == format; });
+}
+
+std::vector<std::string_view> arrayFormatNames() {
+    std::vector<std::string_view> names;
+    for (const fields::FieldFormat& format : fields::fieldFormats()) names.push_back(format.name);
+    return names;
 }
 
 bool buildsHull(std::string_view format) {

@@ -91,6 +91,9 @@ std::string objectNameFor(std::string_view fileName, const Limits& limits);
 /// Returns whether the files of this format are arrays.
 bool isArrayFormat(std::string_view format);
 
+/// Returns the names of the formats of arrays.
+std::vector<std::string_view> arrayFormatNames();
+
 /// Returns whether reading this format includes computing a convex hull, which takes longer than reading a polytope's
 /// faces and cells from the file.
 bool buildsHull(std::string_view format);

@@ -103,9 +103,9 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     // is not received yet.
     const bool array = load.format.empty() || session::isArrayFormat(load.format);
     if (!array)
-        return Error{
-            ErrorCode::unsupported_format,
-            "an uploaded file must be an array: npy, netcdf, hdf5 or nifti, not " + text::inQuotes(load.format)};
+        return Error{ErrorCode::unsupported_format,
+                     "an uploaded file must be an array: " + text::alternatives(session::arrayFormatNames()) +
+                         ", not " + text::inQuotes(load.format)};
     session::LoadObject checked = load;
     if (checked.format.empty()) checked.format = "npy";
     if (auto error = session::checkLoad(checked, limits)) return std::move(*error);

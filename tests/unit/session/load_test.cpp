@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "fields/field.hpp"
+#include "fields/readers/field_reader.hpp"
 #include "geometry/point_cloud.hpp"
 #include "geometry/surface_mesh.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
@@ -51,12 +52,22 @@ TEST(Load, RefusesWhatItCannotRead) {
     expectRefused(session, LoadObject{"mine", "off", "4OFF\n5 10 10 5\nx"}, ErrorCode::bad_polytope,
                   "line 2: the file is too short");
     expectRefused(session, LoadObject{"mine", "stl", "solid"}, ErrorCode::unsupported_format,
-                  "'stl' cannot be read; allowed formats: off (4OFF), points, cloud");
+                  "'stl' cannot be read; allowed formats: off (4OFF), points, cloud, formula, npy, ");
     expectRefused(session, LoadObject{"tesseract", "off", kPentachoron}, ErrorCode::bad_polytope,
                   "a name of the catalogue");
     expectRefused(session, LoadObject{"a\nb", "off", kPentachoron}, ErrorCode::bad_message, "printable");
     expectRefused(session, LoadObject{"mine", "off", kPentachoron}, ErrorCode::too_large, "at most 4 are allowed",
                   Limits{.maxVertices = 4});
+}
+
+TEST(Load, AcceptsEveryFormatOfFields) {
+    ASSERT_FALSE(fields::fieldFormats().empty());
+    for (const fields::FieldFormat& format : fields::fieldFormats()) {
+        const std::string name(format.name);
+        EXPECT_FALSE(checkLoad(LoadObject{"mine", name, "AAAA"}, {})) << name;
+        EXPECT_TRUE(isArrayFormat(name)) << name;
+        EXPECT_FALSE(buildsHull(name)) << name;
+    }
 }
 
 TEST(Load, TheFirstWordTellsTheFormat) {
