@@ -28,5 +28,6 @@ inline constexpr auto kExportContents =
                                                                {"coordinates", ExportContentsKind::coordinates},
                                                                {"projection", ExportContentsKind::projection},
                                                                {"matrix", ExportContentsKind::matrix}});
+constexpr const auto& choicesOf(ExportContentsKind /*type*/) { return kExportContents; }
 
 }  // namespace oval4d::exports

@@ -26,6 +26,8 @@ inline constexpr auto kBodies =
                                                      {"frame", BodyKind::skeleton}});  // "frame" is a former name
 inline constexpr auto kLabels = text::completeTable<text::NamedValue<LabelPlacement>>(
     {{"none", LabelPlacement::none}, {"engraved", LabelPlacement::engraved}, {"separate", LabelPlacement::separate}});
+constexpr const auto& choicesOf(BodyKind /*type*/) { return kBodies; }
+constexpr const auto& choicesOf(LabelPlacement /*type*/) { return kLabels; }
 
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
@@ -62,6 +64,19 @@ struct ExportRequest {
     bool choosesSlices() const { return !chosenW.empty() || fittedSlices.has_value(); }
     bool operator==(const ExportRequest&) const = default;
 };
+
+/// Calls `visit` with the name of each option beside the format, as in messages and queries, and with its value.
+template <typename Visitor>
+void forEachOption(ExportRequest& request, const Visitor& visit) {
+    auto& [format, contents, body, size, label, chosenW, fittedSlices, exact] = request;
+    visit("of", contents);
+    visit("body", body);
+    visit("size", size);
+    visit("label", label);
+    visit("at", chosenW);
+    visit("fit", fittedSlices);
+    visit("exact", exact);
+}
 
 /// Returns the default options for a format, which is a row of formats().
 inline ExportRequest defaultRequestFor(const Format& format) {

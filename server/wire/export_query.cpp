@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -18,53 +19,66 @@ namespace oval4d::wire {
 
 namespace {
 
-template <typename Choices, typename Value>
-Result<std::monostate> parseChoice(const std::string& name, const std::string& value, const Choices& choices,
-                                   Value& into) {
-    if (const auto found = text::valueNamed(choices, value)) {
-        into = *found;
+/// Parses the values of options. There is a function for each type of an option.
+struct OptionParser {
+    const exports::Format& format;
+    int maxSlices;
+
+    template <text::HasChoices Enum>
+    Result<std::monostate> parse(std::string_view name, const std::string& value, Enum& into) const {
+        const auto& choices = choicesOf(Enum{});
+        if (const auto found = text::valueNamed(choices, value)) {
+            into = *found;
+            return std::monostate{};
+        }
+        return Error{ErrorCode::bad_message, std::string(name) + " must be " +
+                                                 text::alternatives(text::namesOf(choices)) + ", not " +
+                                                 text::inQuotes(value)};
+    }
+
+    /// Parses a size.
+    Result<std::monostate> parse(std::string_view name, const std::string& text, double& size) const {
+        const geometry::Range bounds = exports::sizeRangeOf(format);
+        const char* const end = text.data() + text.size();
+        double value = 0;
+        const auto [stopped, fault] = std::from_chars(text.data(), end, value);
+        if (fault != std::errc{} || stopped != end || !bounds.contains(value)) {
+            return Error{ErrorCode::out_of_range,
+                         std::string(name) + " must be from " + text::roundedDecimal(bounds.least) + " to " +
+                             text::roundedDecimal(bounds.most) + " millimeters, not " + text::inQuotes(text)};
+        }
+        size = value;
         return std::monostate{};
     }
-    return Error{ErrorCode::bad_message,
-                 name + " must be " + text::alternatives(text::namesOf(choices)) + ", not " + text::inQuotes(value)};
-}
 
-Result<std::monostate> parseSize(const std::string& text, const geometry::Range& bounds, double& size) {
-    const char* const end = text.data() + text.size();
-    double value = 0;
-    const auto [stopped, fault] = std::from_chars(text.data(), end, value);
-    if (fault != std::errc{} || stopped != end || !bounds.contains(value)) {
-        return Error{ErrorCode::out_of_range, "size must be from " + text::roundedDecimal(bounds.least) + " to " +
-                                                  text::roundedDecimal(bounds.most) + " millimeters, not " +
-                                                  text::inQuotes(text)};
+    Result<std::monostate> parse(std::string_view name, const std::string& value, bool& into) const {
+        const bool yes = value == "on" || value == "true" || value == "yes" || value == "1";
+        const bool no = value == "off" || value == "false" || value == "no" || value == "0";
+        if (!yes && !no)
+            return Error{ErrorCode::bad_message,
+                         std::string(name) + " must be on or off, not " + text::inQuotes(value)};
+        into = yes;
+        return std::monostate{};
     }
-    size = value;
-    return std::monostate{};
-}
 
-Result<std::monostate> parseSwitch(const std::string& name, const std::string& value, bool& into) {
-    const bool yes = value == "on" || value == "true" || value == "yes" || value == "1";
-    const bool no = value == "off" || value == "false" || value == "no" || value == "0";
-    if (!yes && !no) return Error{ErrorCode::bad_message, name + " must be on or off, not " + text::inQuotes(value)};
-    into = yes;
-    return std::monostate{};
-}
+    /// Parses a list of w.
+    Result<std::monostate> parse(std::string_view name, const std::string& text, std::vector<double>& at) const {
+        auto list = session::evaluateList(text);
+        if (!list) return Error{list.error().code, std::string(name) + ": " + list.error().message};
+        at = std::move(*list);
+        return std::monostate{};
+    }
 
-Result<std::monostate> parseChosenW(const std::string& text, std::vector<double>& at) {
-    auto list = session::evaluateList(text);
-    if (!list) return Error{list.error().code, "at: " + list.error().message};
-    at = std::move(*list);
-    return std::monostate{};
-}
-
-Result<std::monostate> parseFittedSlices(const std::string& text, int maxSlices, std::optional<int>& fit) {
-    const auto value = session::evaluate(text);
-    if (!value) return Error{value.error().code, "fit: " + value.error().message};
-    if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
-        return wrongFit(maxSlices, text::roundedDecimal(*value));
-    fit = static_cast<int>(*value);
-    return std::monostate{};
-}
+    /// Parses a number of slices.
+    Result<std::monostate> parse(std::string_view name, const std::string& text, std::optional<int>& fit) const {
+        const auto value = session::evaluate(text);
+        if (!value) return Error{value.error().code, std::string(name) + ": " + value.error().message};
+        if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
+            return wrongFit(maxSlices, text::roundedDecimal(*value));
+        fit = static_cast<int>(*value);
+        return std::monostate{};
+    }
+};
 
 }  // namespace
 
@@ -76,30 +90,21 @@ Error wrongFit(int maxSlices, const std::string& given) {
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices) {
     exports::ExportRequest request = exports::defaultRequestFor(format);
+    const OptionParser parser{format, maxSlices};
     session::QueryParameters rest;
     bool hasContents = false;
-    for (auto& [name, written] : query) {
-        const std::string value(text::trimmed(text::withPlainBlanks(written)));
+    for (auto& parameter : query) {
+        const std::string value(text::trimmed(text::withPlainBlanks(parameter.second)));
+        bool isOption = false;
         Result<std::monostate> done = std::monostate{};
-        if (name == "of") {
-            hasContents = true;
-            done = parseChoice(name, value, exports::kExportContents, request.contents);
-        } else if (name == "at") {
-            done = parseChosenW(value, request.chosenW);
-        } else if (name == "fit") {
-            done = parseFittedSlices(value, maxSlices, request.fittedSlices);
-        } else if (name == "body") {
-            done = parseChoice(name, value, exports::kBodies, request.body);
-        } else if (name == "label") {
-            done = parseChoice(name, value, exports::kLabels, request.label);
-        } else if (name == "exact") {
-            done = parseSwitch(name, value, request.exact);
-        } else if (name == "size") {
-            done = parseSize(value, exports::sizeRangeOf(format), request.size);
-        } else {
-            rest.emplace_back(std::move(name), std::move(written));
-        }
+        exports::forEachOption(request, [&](std::string_view name, auto& into) {
+            if (name != parameter.first) return;
+            isOption = true;
+            done = parser.parse(name, value, into);
+        });
         if (!done) return done.error();
+        hasContents = hasContents || parameter.first == "of";
+        if (!isOption) rest.push_back(std::move(parameter));
     }
     if (!hasContents && request.choosesSlices()) request.contents = exports::ExportContentsKind::oval;
     query = std::move(rest);

@@ -9,11 +9,11 @@
 
 namespace oval4d::wire {
 
-/// Removes the parameters "of", "body", "size", "label", "at", "fit" and "exact" from `query`, and returns the export
-/// request that they describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is
-/// "oval". Errors whose messages list the allowed values: `bad_message` for an unknown value of "of", "body", "label"
-/// or "exact"; `out_of_range` for a size that is not allowed, or if "fit" is not a whole number from 1 to `maxSlices`.
-/// For "at" and "fit", also the errors of session::evaluate(). After an error, `query` must not be used.
+/// Removes the options that exports::forEachOption() visits from `query`, and returns the export request that they
+/// describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is "oval". Errors
+/// whose messages list the allowed values: `bad_message` for an unknown value of "of", "body", "label" or "exact";
+/// `out_of_range` for a size that is not allowed, or if "fit" is not a whole number from 1 to `maxSlices`. For "at" and
+/// "fit", also the errors of session::evaluate(). After an error, `query` must not be used.
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices);
 

@@ -240,13 +240,15 @@ exports::ExportRequest exportRequestOf(const json& message) {
                              text::inQuotes(format)};
     }
     exports::ExportRequest request = exports::defaultRequestFor(*known);
-    choose(message, "of", exports::kExportContents, request.contents);
-    choose(message, "body", exports::kBodies, request.body);
-    choose(message, "label", exports::kLabels, request.label);
-    request.size = message.value("size", request.size);
-    if (const auto at = message.find("at"); at != message.end()) request.chosenW = numbersOf(*at, "get: /at");
-    take(message, "fit", request.fittedSlices);
-    request.exact = message.value("exact", request.exact);
+    exports::forEachOption(request, [&]<typename Value>(std::string_view name, Value& into) {
+        const auto value = message.find(name);
+        if (value == message.end()) return;
+        if constexpr (std::is_same_v<Value, std::vector<double>>) {
+            into = numbersOf(*value, "get: /" + std::string(name));
+        } else {
+            readValue(*value, into);
+        }
+    });
     if (!message.contains("of") && request.choosesSlices()) request.contents = exports::ExportContentsKind::oval;
     return request;
 }

@@ -4,6 +4,7 @@
 #include <boost/mp11/algorithm.hpp>
 #include <set>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <type_traits>
 #include <variant>
@@ -11,6 +12,8 @@
 
 #include <gtest/gtest.h>
 
+#include "export/export_request.hpp"
+#include "session/query.hpp"
 #include "session/setting_table.hpp"
 #include "unit/session/setting_values.hpp"
 #include "unit/wire/support.hpp"
@@ -125,6 +128,14 @@ TEST(ReadMembers, AreThoseOfTheSchemas) {
             EXPECT_EQ(read, inSchema) << type;
         }
     });
+}
+
+// session::kFileParameters names them, too, because the folder session/ does not read them.
+TEST(ReadMembers, TheOptionsOfFilesAreThoseOfQueries) {
+    std::set<std::string_view> options;
+    exports::ExportRequest request;
+    exports::forEachOption(request, [&](std::string_view name, const auto& /*value*/) { options.insert(name); });
+    EXPECT_EQ(options, std::set<std::string_view>(session::kFileParameters.begin(), session::kFileParameters.end()));
 }
 
 }  // namespace
