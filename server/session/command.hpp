@@ -4,6 +4,7 @@
 // the members of the struct are described with Boost.Describe, the message has members with the same names.
 
 #include <any>
+#include <array>
 #include <boost/describe/class.hpp>
 #include <cstdint>
 #include <map>
@@ -98,6 +99,17 @@ struct LoadObject {
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
     bool operator==(const LoadObject&) const = default;
 };
+/// A text that says how to read an object: its name in messages and in the queries of uploads, and the member.
+struct LoadText {
+    std::string_view name;
+    std::string LoadObject::* member;
+};
+inline constexpr auto kLoadTexts = std::to_array<LoadText>({{"format", &LoadObject::format},
+                                                            {"axes", &LoadObject::axes},
+                                                            {"variable", &LoadObject::variable},
+                                                            {"values", &LoadObject::secondFormula},
+                                                            {"values_variable", &LoadObject::secondVariable}});
+
 /// Values of the plain settings (see forEachSetting() in setting_table.hpp), by their names on the command line.
 class PlainSettings {
   public:

@@ -210,12 +210,11 @@ session::LoadObject bodyOf(const json& message) {
         throw InvalidRequest{"load: give either /data or /path, not both"};
     if (message.contains("data") && !message.contains("format")) throw InvalidRequest{"load: /format is missing"};
     // parse() adds the member `data`.
-    session::LoadObject load{message.at("name"), message.value("format", ""), {}, message.value("continues", false)};
+    session::LoadObject load{message.at("name"), {}, {}, message.value("continues", false)};
+    for (const auto& [name, member] : session::kLoadTexts) {
+        if (const auto text = message.find(name); text != message.end()) text->get_to(load.*member);
+    }
     load.dataName = message.value("path", "");
-    load.axes = message.value("axes", "");
-    load.variable = message.value("variable", "");
-    load.secondFormula = message.value("values", "");
-    load.secondVariable = message.value("values_variable", "");
     load.append = message.value("append", false);
     if (const auto box = message.find("box"); box != message.end()) load.box = boxOf(*box);
     if (const auto region = message.find("region"); region != message.end()) load.region = boxOf(*region);

@@ -5,10 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "net/services.hpp"
 #include "session/load.hpp"
@@ -35,26 +36,19 @@ const Error kNoUpload{ErrorCode::not_found,
 /// Sets the member of `load` that a query parameter specifies. Returns an error if the parameter is unknown or invalid,
 /// else an empty optional.
 std::optional<Error> setMember(session::LoadObject& load, const std::string& name, const std::string& value) {
-    if (name == "format") {
-        load.format = value;
-    } else if (name == "axes") {
-        load.axes = value;
-    } else if (name == "variable") {
-        load.variable = value;
-    } else if (name == "values") {
-        load.secondFormula = value;
-    } else if (name == "values_variable") {
-        load.secondVariable = value;
+    const auto found = std::ranges::find(session::kLoadTexts, name, &session::LoadText::name);
+    if (found != session::kLoadTexts.end()) {
+        load.*(found->member) = value;
     } else if (name == "box") {
         const auto box = session::parseBox(value);
         if (!box) return box.error();
         load.box = *box;
     } else {
-        constexpr auto kNames =
-            std::to_array<std::string_view>({"format", "axes", "box", "variable", "values", "values_variable"});
+        std::vector<std::string_view> names{"box"};
+        for (const session::LoadText& each : session::kLoadTexts) names.push_back(each.name);
         return Error{ErrorCode::bad_message, "an upload has no " + text::inQuotes(name) +
-                                                 text::didYouMean(name, kNames) + "; its query may have " +
-                                                 text::commaSeparated(kNames)};
+                                                 text::didYouMean(name, names) + "; its query may have " +
+                                                 text::commaSeparated(names)};
     }
     return {};
 }
