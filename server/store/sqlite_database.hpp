@@ -1,5 +1,11 @@
 #pragma once
 // RAII wrappers of SQLite connections, statements and transactions. They report errors as StoreError.
+//
+// The library SQLiteCpp would replace Statement and Transaction, about sixty lines. The rest would still call SQLite:
+// to set options of the connection (sqlite3_db_config), to define functions that a forged schema cannot call
+// (SQLITE_DIRECTONLY), and to learn whether the disk is full or read-only (sqlite3_system_errno), which SQLiteCpp loses
+// if it cannot open a file, because it closes the connection before its caller sees the error. Its exceptions would
+// also have to be converted to StoreError wherever a statement is executed.
 
 #include <cstdint>
 #include <optional>
