@@ -41,7 +41,8 @@ function convert(schema) {
 }
 
 function convertKeywords({ "x-values": values, "x-fields-only": fieldsOnly, "x-answer": answer, examples, ...schema }) {
-    const { $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, default: initially, ...keywords } = schema;
+    const { "x-choices": table, $ref, $anchor, title, minItems, maxItems, unevaluatedProperties, ...described } = schema;
+    const { default: initially, ...keywords } = described;
     if ($ref !== undefined) return refer(find($ref), { ...schema, $ref: undefined });
     // Links of the documents lead nowhere in a comment.
     if (keywords.description) keywords.description = keywords.description.replace(/\[([^\]]*)\]\([^)]*\)/g, "$1");

@@ -22,9 +22,9 @@ export type Request =
  */
 export type ElementKind = "vertex" | "edge" | "face" | "cell";
 /**
- * What follows each change: `slices` messages, frames, or nothing. `"none"` if absent.
+ * What follows each change: nothing, as if absent, `slices` messages, or frames.
  */
-export type Stream = "geometry" | "frames" | "none";
+export type Stream = "none" | "geometry" | "frames";
 /**
  * The encoding of `slices` messages. `"json"` if absent.
  */

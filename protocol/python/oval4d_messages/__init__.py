@@ -787,8 +787,8 @@ class GetRequest(_GetRequest, total=False):
     exact: bool
 
 
-# What follows each change: `slices` messages, frames, or nothing. `"none"` if absent.
-Stream = Literal["geometry", "frames", "none"]
+# What follows each change: nothing, as if absent, `slices` messages, or frames.
+Stream = Literal["none", "geometry", "frames"]
 
 # The encoding of `slices` messages. `"json"` if absent.
 Encoding = Literal["json", "cbor", "msgpack", "bjdata"]
@@ -806,7 +806,7 @@ class HelloRequest(_HelloRequest, total=False):
     Answered by welcome, then by state and a picture."""
     # Chosen by the client; the answer or error has the same id.
     id: float
-    # What follows each change: `slices` messages, frames, or nothing. `"none"` if absent.
+    # What follows each change: nothing, as if absent, `slices` messages, or frames.
     stream: Stream
     # The encoding of `slices` messages. `"json"` if absent.
     encoding: Encoding

@@ -290,7 +290,7 @@ INSTANTIATE_TEST_SUITE_P(
             3},
         Bad{R"({"type":"set","id":3,"polytpoe":"5-cell"})", kBadMessage, "did you mean 'polytope'?", 3},
         Bad{R"({"type":"hello","id":3,"stream":"video"})", kBadMessage,
-            "hello: /stream must be \"geometry\", \"frames\" or \"none\", not 'video'", 3},
+            "hello: /stream must be \"none\", \"geometry\" or \"frames\", not 'video'", 3},
         Bad{R"({"type":"hello","id":3,"stream":"frames","width":0,"height":720})", kOutOfRange,
             "hello: /width must be a whole number of pixels from 1, not 0", 3},
         Bad{R"({"type":"hello","id":3,"width":1e10})", kOutOfRange, "hello: /width must be", 3},
