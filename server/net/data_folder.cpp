@@ -309,15 +309,15 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
         if (auto known = find(key, load.name)) return *std::move(known);
         reading_.insert(key);
     }
-    struct Finally {
+    struct ReadGuard {
         DataFolder& folder;
         const std::string& key;
-        ~Finally() {
+        ~ReadGuard() {
             const std::lock_guard lock(folder.mutex_);
             folder.reading_.erase(key);
             folder.readEnded_.notify_all();
         }
-    } const finally{*this, key};
+    } const readGuard{*this, key};
     return readAndKeep(load, limits, std::move(*opened), reader, key);
 }
 

@@ -31,14 +31,14 @@ std::string repaired(std::string_view query) {
 
 /// The rules of protocol/address.json: names of parameters to ignore, and of parameters whose values are not
 /// arithmetic.
-struct ParameterRules {
+struct SpecialParameters {
     std::vector<std::string> ignored, texts;
 };
 
-const ParameterRules& rules() {
-    static const ParameterRules read = [] {
+const SpecialParameters& rules() {
+    static const SpecialParameters read = [] {
         const auto table = nlohmann::json::parse(protocol_data::embeddedFile("address.json"));
-        return ParameterRules{table.at("ignored"), table.at("texts")};
+        return SpecialParameters{table.at("ignored"), table.at("texts")};
     }();
     return read;
 }

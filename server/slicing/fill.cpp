@@ -40,7 +40,7 @@ std::size_t FaceFiller::fill(const SliceSet& slices, double circumradius, Filled
 void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                           FilledFaces& out) {
     FilledFaces::FilledFace face{{}, 0, slices.faceSource[begin], begin, end, 0};
-    if (!findPlane(slices, slice, begin, end, face)) return;
+    if (!findFaceFrame(slices, slice, begin, end, face)) return;
     if (end - begin == 1 && !isFlat(face)) {
         fillRoughly(slices, begin, end, out);
     } else {
@@ -61,7 +61,7 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
 // Sets sides_ to the sides of the loops, whose corners are points_.
 void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end) {
     const auto onPlane = [this](const glm::dvec3& p) {
-        return glm::dvec2(glm::dot(p - plane_.origin, plane_.x), glm::dot(p - plane_.origin, plane_.y));
+        return glm::dvec2(glm::dot(p - faceFrame_.origin, faceFrame_.x), glm::dot(p - faceFrame_.origin, faceFrame_.y));
     };
     sides_.clear();
     std::size_t first = 0;
@@ -85,7 +85,7 @@ void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uin
 bool FaceFiller::isFlat(const FilledFaces::FilledFace& face) const {
     double size = 0, distance = 0;
     for (const glm::dvec3& p : points_) {
-        size = std::max(size, glm::distance(p, plane_.origin));
+        size = std::max(size, glm::distance(p, faceFrame_.origin));
         distance = std::max(distance, std::abs(glm::dot(face.normal, p) - face.offset));
     }
     return distance <= 1e-5 * size + 1e3 * epsilon_;
@@ -114,9 +114,9 @@ void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::u
 }
 
 // Sets points_ to the corners of the loops. Finds the plane of the loops from three corners that are far apart, and
-// sets plane_ and the normal and offset of `out`. Returns false if all corners are collinear.
-bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                           FilledFaces::FilledFace& out) {
+// sets faceFrame_ and the normal and offset of `out`. Returns false if all corners are collinear.
+bool FaceFiller::findFaceFrame(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
+                               FilledFaces::FilledFace& out) {
     points_.clear();
     glm::dvec3 area(0);  // twice the sum of the area vectors of the loops
     const glm::dvec3* vertices = &slices.vertices[slices.vertexBegin[slice]];
@@ -140,7 +140,7 @@ bool FaceFiller::findPlane(const SliceSet& slices, std::size_t slice, std::uint3
     const double height = glm::length(normal);
     if (!(height > epsilon_ * glm::length(far))) return false;
     normal /= glm::dot(area, normal) < 0 ? -height : height;
-    plane_ = {origin, glm::normalize(far), glm::cross(normal, glm::normalize(far))};
+    faceFrame_ = {origin, glm::normalize(far), glm::cross(normal, glm::normalize(far))};
     out.normal = normal;
     out.offset = glm::dot(normal, origin);
     return true;
@@ -293,7 +293,7 @@ void FaceFiller::close(const ConvexPiece& piece, double top, FilledFaces& out) c
     const auto add = [&](const glm::dvec2& p) {
         if (out.corners.size() > first && glm::distance(p, last) <= epsilon_) return;
         last = p;
-        out.corners.push_back(plane_.origin + p.x * plane_.x + p.y * plane_.y);
+        out.corners.push_back(faceFrame_.origin + p.x * faceFrame_.x + p.y * faceFrame_.y);
     };
     add(piece.left[0]);
     for (std::size_t i = 0; i < piece.rightCount; ++i) add(piece.right.at(i));

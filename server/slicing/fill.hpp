@@ -87,13 +87,13 @@ class FaceFiller {
         auto operator<=>(const PieceAtLevel&) const = default;
     };
     // A plane in space: one of its points, and two orthonormal axes.
-    struct FacePlane {
+    struct FaceFrame {
         glm::dvec3 origin, x, y;
     };
 
     void fillFace(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end, FilledFaces& out);
-    bool findPlane(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
-                   FilledFaces::FilledFace& out);
+    bool findFaceFrame(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
+                       FilledFaces::FilledFace& out);
     bool isFlat(const FilledFaces::FilledFace& face) const;
     bool spendSteps(std::size_t steps);
     void findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end);
@@ -107,7 +107,7 @@ class FaceFiller {
 
     std::size_t stepsLeft_ = 0;
     double epsilon_ = 0;  // lengths up to this are treated as 0
-    FacePlane plane_{};
+    FaceFrame faceFrame_{};
     std::vector<glm::dvec3> points_;  // the corners of the loops of the current face
     std::vector<LoopSide> sides_;
     std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending

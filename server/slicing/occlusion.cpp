@@ -28,7 +28,7 @@ int windingOfLoop(std::span<const glm::dvec2> loop, const glm::dvec2& point) {
 
 }  // namespace
 
-glm::dvec2 OcclusionFinder::FacePlane::coordinatesOf(const glm::dvec4& point) const {
+glm::dvec2 OcclusionFinder::ProjectedFaceFrame::coordinatesOf(const glm::dvec4& point) const {
     const glm::dvec3 from(point - origin);
     return {glm::dot(from, glm::dvec3(right)), glm::dot(from, glm::dvec3(up))};
 }
@@ -149,7 +149,7 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
         if (!cells_.isExcluded(o.cell) && o.top > lowest && o.box.meets(box)) candidates_.push_back(i);
     }
     if (candidates_.empty()) return false;
-    if (!findFacePlane(loop)) {  // edge-on: all of it that can be seen are its sides
+    if (!findFaceFrame(loop)) {  // edge-on: all of it that can be seen are its sides
         for (std::size_t i = 0; i < loop.size(); ++i) {
             if (!cells_.isHidden({cells_.points()[loop[i]], cells_.points()[loop[(i + 1) % loop.size()]]}, candidates_))
                 return false;
@@ -157,7 +157,7 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
         return true;
     }
     outline_.clear();
-    for (const std::uint32_t v : loop) outline_.push_back(plane_.coordinatesOf(cells_.points()[v]));
+    for (const std::uint32_t v : loop) outline_.push_back(faceFrame_.coordinatesOf(cells_.points()[v]));
     for (std::size_t i = 0; i < outline_.size(); ++i) {
         if (isSeenBeside(outline_[i], outline_[(i + 1) % outline_.size()])) return false;
     }
@@ -176,14 +176,14 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
     return true;
 }
 
-// Sets plane_ to the plane of a 2-face. Returns false if the projection of the 2-face has no area.
-bool OcclusionFinder::findFacePlane(std::span<const std::uint32_t> loop) {
-    plane_.origin = cells_.points()[loop[0]];
+// Sets faceFrame_ to the plane of a 2-face. Returns false if the projection of the 2-face has no area.
+bool OcclusionFinder::findFaceFrame(std::span<const std::uint32_t> loop) {
+    faceFrame_.origin = cells_.points()[loop[0]];
     const auto findAxis = [&](glm::dvec4& axis, auto rejected) {
         glm::dvec4 longest(0);
         double most = 0;
         for (const std::uint32_t v : loop) {
-            const glm::dvec4 rest = rejected(cells_.points()[v] - plane_.origin);
+            const glm::dvec4 rest = rejected(cells_.points()[v] - faceFrame_.origin);
             if (const double length = glm::length(glm::dvec3(rest)); length > most) {
                 most = length;
                 longest = rest;
@@ -193,16 +193,16 @@ bool OcclusionFinder::findFacePlane(std::span<const std::uint32_t> loop) {
         axis = longest / most;
         return true;
     };
-    return findAxis(plane_.right, [](const glm::dvec4& vector) { return vector; }) &&
-           findAxis(plane_.up, [this](const glm::dvec4& vector) {
-               return vector - glm::dot(glm::dvec3(vector), glm::dvec3(plane_.right)) * plane_.right;
+    return findAxis(faceFrame_.right, [](const glm::dvec4& vector) { return vector; }) &&
+           findAxis(faceFrame_.up, [this](const glm::dvec4& vector) {
+               return vector - glm::dot(glm::dvec3(vector), glm::dvec3(faceFrame_.right)) * faceFrame_.right;
            });
 }
 
 // Returns whether a part of the tested 2-face is seen beside the line in which the hyperplane of a cell cuts it.
 bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
-    const glm::dvec2 gradient(-glm::dot(occluder.normal, plane_.right), -glm::dot(occluder.normal, plane_.up));
-    const double atOrigin = occluder.depthOf(plane_.origin);
+    const glm::dvec2 gradient(-glm::dot(occluder.normal, faceFrame_.right), -glm::dot(occluder.normal, faceFrame_.up));
+    const double atOrigin = occluder.depthOf(faceFrame_.origin);
     glm::dvec2 least = outline_[0], most = outline_[0];
     bool above = false, below = false;
     for (const glm::dvec2& corner : outline_) {
@@ -217,7 +217,7 @@ bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
     const glm::dvec2 reach = glm::length(most - least) * glm::dvec2(-across.y, across.x);
     const glm::dvec2 from = onLine - reach, to = onLine + reach;
     // The part of the line in the box of the cell.
-    const glm::dvec3 start(plane_.at(from)), way = glm::dvec3(plane_.at(to)) - start;
+    const glm::dvec3 start(faceFrame_.at(from)), way = glm::dvec3(faceFrame_.at(to)) - start;
     double first = 0, last = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const double low = occluder.box.least[axis] - start[axis], high = occluder.box.most[axis] - start[axis];
@@ -235,13 +235,13 @@ bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
 // Returns whether a part of the tested 2-face is seen beside the line in which a projected triangle cuts its
 // projection, or beside sides of the triangle that lie in its plane.
 bool OcclusionFinder::isSeenAlongTriangle(const Triangle& triangle) {
-    const glm::dvec3 normal = glm::cross(glm::dvec3(plane_.right), glm::dvec3(plane_.up));
+    const glm::dvec3 normal = glm::cross(glm::dvec3(faceFrame_.right), glm::dvec3(faceFrame_.up));
     std::array<glm::dvec2, 3> corners{};
     std::array<double, 3> heights{};  // above the plane, in R³
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec4& point = cells_.points()[triangle[i]];
-        corners[i] = plane_.coordinatesOf(point);
-        heights[i] = glm::dot(normal, glm::dvec3(point - plane_.origin));
+        corners[i] = faceFrame_.coordinatesOf(point);
+        heights[i] = glm::dot(normal, glm::dvec3(point - faceFrame_.origin));
     }
     std::array<glm::dvec2, 2> ends{};
     std::size_t found = 0;
@@ -280,7 +280,7 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
             const glm::dvec2 start = from + (places_[i] + margin) * along + sign * across;
             const glm::dvec2 end = from + (places_[i + 1] - margin) * along + sign * across;
             if (windingOfLoop(outline_, (start + end) / 2.0) == 0) continue;
-            if (!cells_.isHidden({plane_.at(start), plane_.at(end)}, candidates_)) return true;
+            if (!cells_.isHidden({faceFrame_.at(start), faceFrame_.at(end)}, candidates_)) return true;
         }
     }
     return false;

@@ -61,7 +61,7 @@ class OcclusionFinder {
     };
     // The image of the plane of a 2-face: the point at (x, y) is origin + x · right + y · up. `right` and `up` are
     // orthonormal if their fourth coordinates are left out.
-    struct FacePlane {
+    struct ProjectedFaceFrame {
         glm::dvec4 origin, right, up;
         glm::dvec4 at(const glm::dvec2& p) const { return origin + p.x * right + p.y * up; }
         glm::dvec2 coordinatesOf(const glm::dvec4& point) const;
@@ -71,7 +71,7 @@ class OcclusionFinder {
     int sideOfCell(std::uint32_t cell) const;
 
     bool isFaceHidden(std::uint32_t face);
-    bool findFacePlane(std::span<const std::uint32_t> loop);
+    bool findFaceFrame(std::span<const std::uint32_t> loop);
     bool isSeenAlongHyperplane(const Occluder& occluder);
     bool isSeenAlongTriangle(const Triangle& triangle);
     bool isSeenBeside(const glm::dvec2& from, const glm::dvec2& to);
@@ -80,7 +80,7 @@ class OcclusionFinder {
     ProjectedCells cells_;
     std::vector<ContourFace> contourFaces_;
 
-    FacePlane plane_{};                      // of the tested 2-face
+    ProjectedFaceFrame faceFrame_{};         // of the tested 2-face
     std::vector<glm::dvec2> outline_;        // its loop
     std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of it
     std::vector<double> places_;             // where a line crosses the outline

@@ -70,15 +70,15 @@ SessionCredentials WriteBehindStore::create() {
 }
 
 void WriteBehindStore::read(SessionCredentials credentials, std::function<void(FetchResult)> done) {
-    requestFetch(std::move(credentials), Access::read, std::move(done));
+    queueFetch(std::move(credentials), Access::read, std::move(done));
 }
 
 void WriteBehindStore::claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
-    requestFetch(std::move(credentials), Access::claim, std::move(done));
+    queueFetch(std::move(credentials), Access::claim, std::move(done));
 }
 
-void WriteBehindStore::requestFetch(SessionCredentials credentials, Access access,
-                                    std::function<void(FetchResult)> done) {
+void WriteBehindStore::queueFetch(SessionCredentials credentials, Access access,
+                                  std::function<void(FetchResult)> done) {
     {
         const std::lock_guard lock(mutex_);
         requests_.emplace_back([this, credentials = std::move(credentials), access, done = std::move(done)] {

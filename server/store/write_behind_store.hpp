@@ -144,7 +144,7 @@ class WriteBehindStore {
 
     // What a fetch does with a session that is not in memory: only reads its record, or claims it, too.
     enum class Access : std::uint8_t { read, claim };
-    void requestFetch(SessionCredentials credentials, Access access, std::function<void(FetchResult)> done);
+    void queueFetch(SessionCredentials credentials, Access access, std::function<void(FetchResult)> done);
 
     // The following functions run on the store thread.
     void runThread();

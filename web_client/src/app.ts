@@ -35,7 +35,7 @@ import { Help } from "./help";
 import { KeyRepeatLimiter } from "./key_repeat_limiter";
 import { Keyboard } from "./keyboard";
 import { Latency } from "./latency";
-import { readInitialView, rememberSession } from "./link";
+import { extractInitialView, rememberSession } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
@@ -66,7 +66,7 @@ export class App {
     private readonly connection = new ConnectionStatus(() => this.session.beginNew(this.state));
     private readonly keyRepeatLimiter = new KeyRepeatLimiter();
     private readonly latency = new Latency();
-    private readonly initialView = readInitialView();
+    private readonly initialView = extractInitialView();
     private readonly colorScheme = new ColorScheme(() => this.schemeChanged());
     private readonly stage = new Stage(this.drawing, {
         presented: (revision, by) => this.picturePresented(revision, by),

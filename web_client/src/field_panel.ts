@@ -9,7 +9,7 @@ import { isField, kFormulaName, kMaxLevels, kUsualBox, labelOfQuantity, parseNum
 import { FogEditor } from "./fog_editor";
 import { toSentence } from "./format";
 import { comparisonOf } from "./formula";
-import { FormulaText } from "./formula_text";
+import { FormulaInput } from "./formula_input";
 import { ConstantSliders } from "./constant_sliders";
 import { NewestOnly } from "./newest_only";
 import { ObserverControls } from "./observer_controls";
@@ -38,8 +38,8 @@ const kOfValues = /^values: /; // the beginning of an error message about the fo
 
 export class FieldPanel {
     private readonly root = byId("field");
-    private readonly formula = this.makeFormulaText("");
-    private readonly values = this.makeFormulaText("-values");
+    private readonly formula = this.makeFormulaInput("");
+    private readonly values = this.makeFormulaInput("-values");
     private readonly levels = byId<HTMLInputElement>("field-levels");
     private readonly levelsError = byId("field-levels-error");
     private readonly boxError = byId("field-box-error");
@@ -89,9 +89,9 @@ export class FieldPanel {
         byId("field-form").addEventListener("submit", (event) => event.preventDefault());
     }
 
-    private makeFormulaText(of: string): FormulaText {
+    private makeFormulaInput(of: string): FormulaInput {
         const ids = { input: of === "" ? "field-formula" : `field${of}`, error: `field${of}-error`, excerpt: `field${of}-excerpt` };
-        return new FormulaText(
+        return new FormulaInput(
             ids,
             () => this.scheduleLoad(kTypingDelay),
             () => this.scheduleLoad(0),

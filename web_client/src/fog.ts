@@ -46,7 +46,7 @@ export function looksLike(one: ValueDistribution, other: ValueDistribution): boo
 }
 
 /** Fog for a body inside a level: dense at the value farthest inside, thinner at the level, and transparent outside. */
-export function usualFog([least, greatest]: [number, number], level: number, inside: Inside): FogControlPoint[] {
+export function defaultFog([least, greatest]: [number, number], level: number, inside: Inside): FogControlPoint[] {
     const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
     const edge = level > least && level < greatest ? level : (least + greatest) / 2;
     const points = [

@@ -6,7 +6,7 @@ import type { FogControlPoint, Settings, Slices, State } from "@oval4d/protocol"
 import { schemeOfPicture } from "./color_scheme";
 import { byId, element } from "./element";
 import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransferFunction, looksLike } from "./fog";
-import { kMaxFogControlPoints, kMinFogControlPoints, usualFog, withNewPoint, withMovedPoint } from "./fog";
+import { kMaxFogControlPoints, kMinFogControlPoints, defaultFog, withNewPoint, withMovedPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
 import { NewestOnly } from "./newest_only";
@@ -92,7 +92,7 @@ export class FogEditor {
     private usualPoints(): FogControlPoint[] {
         const { levels = [0], inside = "below" } = this.state ?? {};
         const level = levels[0]!;
-        return usualFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
+        return defaultFog(this.distribution?.range ?? [level - 1, level + 1], level, inside);
     }
 
     /**

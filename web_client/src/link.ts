@@ -37,7 +37,7 @@ const kIgnoredParameters = ["width", "height", "token"];
 const kFieldParameters = ["formula", "values", "box"]; // parameters that are not converted to commands
 const kSessionKey = `oval4d.session ${location.pathname}`; // storage key of the tab's newest session
 
-export function readInitialView(): InitialView {
+export function extractInitialView(): InitialView {
     const { credentials, fault } = extractSharedSession();
     const faults = fault ? [fault] : [];
     if (credentials) return { credentials, lines: [], faults };

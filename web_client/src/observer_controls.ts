@@ -8,12 +8,12 @@ import { parseNumbers } from "./fields";
 import { formatDecimal, toSentence } from "./format";
 import { NewestOnly } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
-import type { Velocity } from "./reference_frame";
+import type { VelocitySetting } from "./reference_frame";
 
 const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
 const kPaceDigits = 2; // significant digits of the paces that the slider offers
 const kAxes = ["x", "y", "z"] as const;
-const kVelocities: Record<Velocity, string> = {
+const kVelocitySettings: Record<VelocitySetting, string> = {
     follow: "What moves with this velocity stands still",
     boost: "Lorentz boost to an observer with this velocity; that of light is 1",
 };
@@ -22,9 +22,9 @@ export class ObserverControls {
     private readonly pace = byId<HTMLInputElement>("observer-pace");
     private readonly paceValue = byId("observer-pace-value");
     private readonly error = byId("observer-error");
-    private readonly components: Record<Velocity, HTMLInputElement[]> = { follow: [], boost: [] };
+    private readonly components: Record<VelocitySetting, HTMLInputElement[]> = { follow: [], boost: [] };
     private readonly paces = new NewestOnly<number>((pace) => this.applyPace(pace));
-    private readonly velocities: Record<Velocity, NewestOnly<Vector>> = {
+    private readonly velocities: Record<VelocitySetting, NewestOnly<Vector>> = {
         follow: new NewestOnly(async (follow) => void (await this.apply({ follow }, "follow"))),
         boost: new NewestOnly(async (boost) => void (await this.apply({ boost }, "boost"))),
     };
@@ -45,7 +45,7 @@ export class ObserverControls {
         });
         for (const name of ["follow", "boost"] as const) {
             this.components[name] = kAxes.map((axis) => this.componentInput(name, axis));
-            const title = element("span", { title: kVelocities[name] }, name === "follow" ? "Follow" : "Boost");
+            const title = element("span", { title: kVelocitySettings[name] }, name === "follow" ? "Follow" : "Boost");
             byId("observer-velocities").append(element("div", {}, title, ...this.components[name]));
         }
     }
@@ -86,7 +86,7 @@ export class ObserverControls {
         this.pace.setAttribute("aria-valuetext", text);
     }
 
-    private changed(name: Velocity): void {
+    private changed(name: VelocitySetting): void {
         const velocity = this.components[name].flatMap(({ value }) => parseNumbers(value));
         const isValid = velocity.length === kAxes.length && velocity.every(Number.isFinite);
         this.showError(name, isValid ? "" : "Type a number for each of x, y and z, such as 0.3.");
@@ -104,7 +104,7 @@ export class ObserverControls {
     /** Resolves to the revision after the change; undefined if the server refuses it. */
     private async apply(
         change: Settings & { continues?: boolean },
-        name: "pace" | Velocity,
+        name: "pace" | VelocitySetting,
     ): Promise<number | undefined> {
         try {
             const { revision } = await this.set(change);
@@ -116,14 +116,14 @@ export class ObserverControls {
         }
     }
 
-    private showError(name: "pace" | Velocity, error: string): void {
+    private showError(name: "pace" | VelocitySetting, error: string): void {
         this.errors[name] = error;
         this.error.textContent = Object.values(this.errors).filter((one) => one !== "").join(" ");
         const inputs = name === "pace" ? [] : this.components[name];
         for (const input of inputs) input.setAttribute("aria-invalid", String(error !== ""));
     }
 
-    private componentInput(name: Velocity, axis: string): HTMLInputElement {
+    private componentInput(name: VelocitySetting, axis: string): HTMLInputElement {
         const input = element("input", {
             ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false", value: "0" },
             ...{ "aria-label": `${name} ${axis}`, "aria-describedby": "observer-error", "data-velocity": `${name} ${axis}` },

@@ -215,7 +215,7 @@ Mesh LabelText::labelBody(double size, const RoundingGrid& grid) const {
             for (const double z : {0.0, kThickness}) corners.push_back(grid.snap({x, y, z}));
         }
     }
-    Mesh mesh = hullOf(corners, grid);
+    Mesh mesh = convexHullOfGridPoints(corners, grid);
     // The faces of the box are numbered by axis and side: 2 · axis, plus 1 for the side in the positive direction.
     // Therefore face 5 is the top.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {

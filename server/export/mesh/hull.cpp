@@ -89,7 +89,7 @@ class IncrementalHull {
 
 }  // namespace
 
-Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget) {
+Mesh convexHullOfGridPoints(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget) {
     Mesh mesh;
     std::vector<std::optional<std::uint32_t>> numbers(points.size());
     const auto number = [&](std::uint32_t point) {

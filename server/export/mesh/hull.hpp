@@ -13,6 +13,7 @@ namespace oval4d::exports {
 /// along each axis is at most 2^18 grid steps; otherwise the integers may overflow. Returns an empty mesh if all points
 /// lie in one plane. Takes up to quadratic time in the number of points. `budget` may be null; otherwise, throws
 /// ExportRefused as Budget::checkTimeAndStop() does.
-Mesh hullOf(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget = nullptr);
+Mesh convexHullOfGridPoints(const std::vector<glm::dvec3>& points, const RoundingGrid& grid,
+                            const Budget* budget = nullptr);
 
 }  // namespace oval4d::exports

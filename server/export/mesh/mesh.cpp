@@ -11,7 +11,7 @@ namespace oval4d::exports {
 RoundingGrid::RoundingGrid(double size, double extent) {
     // A float32 has 24 significant bits. Therefore it represents exactly all multiples, from −extent to extent, of a
     // step that is a power of two ≥ extent / 2^23. With a step ≥ size / 2^17 (0.46 µm for a size of 60 mm), the object
-    // spans at most 2^17 steps along each axis, which hullOf() can process.
+    // spans at most 2^17 steps along each axis, which convexHullOfGridPoints() can process.
     const double needed = std::max(size / 131'072, extent / 8'388'608);
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }

@@ -128,7 +128,7 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Rou
 /// because two of the rounded faces may share more than one edge in that case.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid,
                 const Budget& budget) {
-    Mesh hull = hullOf(faces.points, grid, &budget);
+    Mesh hull = convexHullOfGridPoints(faces.points, grid, &budget);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
         normals.emplace_back(unitNormalOfFace(slices, i, f), slices.faceSource[f]);

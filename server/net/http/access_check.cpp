@@ -80,7 +80,7 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
                                          "--allow-origin\n");
         case AccessControl::Verdict::bad_token: {
             if (!client.mayTryToken(now)) return tooManyReply("too many wrong tokens; try again in a minute\n");
-            if (AccessControl::hasToken(fields)) client.countWrongToken(now);
+            if (AccessControl::presentsToken(fields)) client.countWrongToken(now);
             Reply reply = errorReply({ErrorCode::bad_token,
                                       "this server requires a token: open the address that it "
                                       "printed at startup, or send Authorization: Bearer …"});

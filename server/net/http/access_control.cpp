@@ -137,7 +137,7 @@ bool AccessControl::isUnwantedCrossSite(const AccessCheckInput& fields) const {
     return equalsIgnoringCase(fields.fetchSite, "cross-site") && !isLink && !isListedOrigin(fields.origin);
 }
 
-bool AccessControl::hasToken(const AccessCheckInput& fields) {
+bool AccessControl::presentsToken(const AccessCheckInput& fields) {
     return !fields.token.empty() || !fields.authorization.empty() || !cookieIn(fields.cookie).empty();
 }
 

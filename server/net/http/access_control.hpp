@@ -58,7 +58,7 @@ class AccessControl {
     bool requiresToken() const { return !token_.empty(); }
 
     /// Returns whether the request contains a token, correct or not.
-    static bool hasToken(const AccessCheckInput& fields);
+    static bool presentsToken(const AccessCheckInput& fields);
 
     /// Returns the value of a Set-Cookie field that stores the token in a cookie, so that later requests of the page
     /// need no token in the query. Returns an empty string unless the query contains the correct token.

@@ -14,8 +14,8 @@ void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<d
     peer.send(textMessage(wire::errorMessage(error, id)));
 }
 
-Error pictureError(const session::State& state, const std::string& sessionId, std::uint64_t revision,
-                   const std::exception& why, const Error& otherwise) {
+Error logAndClassifyFailure(const session::State& state, const std::string& sessionId, std::uint64_t revision,
+                            const std::exception& why, const Error& otherwise) {
     const fields::Field* const field = slicing::fieldIn(state.object);
     if (field != nullptr && field->isLost()) {
         spdlog::warn("picture or file not made session={} revision={} reason=\"{}\"", sessionId, revision, why.what());

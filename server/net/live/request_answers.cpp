@@ -174,7 +174,7 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
     } catch (const parallel::QueueFull&) {
         made = kTooManyJobs;
     } catch (const std::exception& fault) {
-        made = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
+        made = logAndClassifyFailure(session_.current, sessionId_, askedRevision, fault, kInternalError);
     }
     if (!made || !*made) {
         sendError(*peer, services_.metrics, made ? made->error() : kInternalError, id);
@@ -197,7 +197,7 @@ asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<P
     } catch (const parallel::QueueFull&) {
         found = kTooManyJobs;
     } catch (const std::exception& fault) {
-        found = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
+        found = logAndClassifyFailure(session_.current, sessionId_, askedRevision, fault, kInternalError);
     }
     if (!found) {
         sendError(*peer, services_.metrics, found.error(), id);
@@ -231,7 +231,7 @@ asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> pe
     } catch (const parallel::QueueFull&) {
         failed = kTooManyJobs;
     } catch (const std::exception& fault) {
-        failed = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
+        failed = logAndClassifyFailure(session_.current, sessionId_, askedRevision, fault, kInternalError);
     }
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
@@ -250,7 +250,7 @@ asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> pee
         } catch (const parallel::QueueFull&) {
             failed = kTooManyJobs;
         } catch (const std::exception& fault) {
-            failed = pictureError(session_.current, sessionId_, askedRevision, fault, kInternalError);
+            failed = logAndClassifyFailure(session_.current, sessionId_, askedRevision, fault, kInternalError);
         }
     }
     if (failed) sendError(*peer, services_.metrics, *failed, id);

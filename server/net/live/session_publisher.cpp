@@ -223,7 +223,8 @@ void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
             result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
             services_.metrics.observe(pipeline.times());
         } catch (const std::exception& fault) {
-            result.failed.emplace_back(key, pictureError(job.state, sessionId_, job.revision, fault, kNoPicture));
+            result.failed.emplace_back(key,
+                                       logAndClassifyFailure(job.state, sessionId_, job.revision, fault, kNoPicture));
         }
     }
     asio::post(strand_, [self = shared_from_this(), result = std::move(result)]() mutable {
@@ -247,7 +248,7 @@ void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const 
 void SessionPublisher::onJobDone(RevisionPictures result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
-    if (result.snapshot && !isSectionNamed()) section_ = result.snapshot->section;
+    if (result.snapshot && !isNamedSectionCurrent()) section_ = result.snapshot->section;
     pictures_.addUnlessOlder(result.snapshot, std::move(result.pictures));
     for (auto& [key, subscriber] : subscribers_) {
         if (subscriber.streamKey.stream == Stream::none || !subscriber.pacing.hasRoom()) continue;
@@ -292,7 +293,7 @@ void SessionPublisher::sendStateAndPicture(Subscriber& subscriber, const Outgoin
 SnapshotPtr SessionPublisher::currentState() {
     assertOnStrand();
     if (state_ && state_->revision == revision()) return state_;
-    if (!isSectionNamed()) {
+    if (!isNamedSectionCurrent()) {
         if (!pipeline::FocusSectionNamer::isFast(session_.current.object)) return nullptr;
         section_ = pipeline::FocusSectionNamer().name(session::pictureOf(session_.current));
     }
@@ -300,7 +301,7 @@ SnapshotPtr SessionPublisher::currentState() {
 }
 
 /// Returns whether section_ is the section in the focus slice of the current state. Most changes of a look keep it.
-bool SessionPublisher::isSectionNamed() const {
+bool SessionPublisher::isNamedSectionCurrent() const {
     const session::State& current = session_.current;
     return section_ && section_->isOf(current.object, current.orientation, current.focusW());
 }

@@ -131,7 +131,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
     std::uint64_t revision() const { return session_.revision; }
-    bool isSectionNamed() const;
+    bool isNamedSectionCurrent() const;
     void advanceMotion();
     slicing::Quality wantedQuality() const;
     void scheduleRefinement();

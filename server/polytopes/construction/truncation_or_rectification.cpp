@@ -14,9 +14,9 @@ namespace oval4d::polytopes {
 
 namespace {
 
-class TruncationRecipe : public Recipe {
+class TruncationOrRectificationRecipe : public Recipe {
   public:
-    TruncationRecipe(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
+    TruncationOrRectificationRecipe(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
     // The number of vertices is exact: the points on an edge of the convex base are vertices of the hull, because some
     // hyperplane touches the base only in this edge, and therefore the hull only in these points. The other numbers are
@@ -81,7 +81,8 @@ std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& tex
         regular->ringed = {truncation, true, false, false};
         if (triangles || !truncation) return designOf(*regular);
     }
-    return Design{text.words[0] + " of " + base->name, std::make_shared<TruncationRecipe>(truncation, *base)};
+    return Design{text.words[0] + " of " + base->name,
+                  std::make_shared<TruncationOrRectificationRecipe>(truncation, *base)};
 }
 
 }  // namespace

@@ -54,7 +54,7 @@ class SimplexMerger {
 
     MergedHull run() {
         mergeSimplices();
-        collectSharedTriangles();
+        collectTrianglesBetweenCells();
         unmerged_.assign(hyperplanes_.size(), false);
         MergedHull hull;
         do hull = mergeTriangles();
@@ -71,7 +71,7 @@ class SimplexMerger {
         double sign;  // +1 if its normal, by the right-hand rule, points out of the group, else −1
     };
     // A triangle that two cells share; `cells` lists the cell with the smaller index first.
-    struct SharedTriangle {
+    struct TriangleBetweenCells {
         std::array<std::uint32_t, 2> cells;
         Triangle corners;
     };
@@ -265,15 +265,16 @@ class SimplexMerger {
         return !folded;
     }
 
-    void collectSharedTriangles() {
+    void collectTrianglesBetweenCells() {
         for (std::uint32_t s = 0; s < simplices_.size(); ++s) {
             for (std::size_t i = 0; i < 4; ++i) {
                 const std::uint32_t other = cellOf_[simplices_[s].neighbors.at(i)];
-                if (cellOf_[s] < other) sharedTriangles_.push_back({{cellOf_[s], other}, oppositeTo(i, simplices_[s])});
+                if (cellOf_[s] < other)
+                    trianglesBetweenCells_.push_back({{cellOf_[s], other}, oppositeTo(i, simplices_[s])});
             }
         }
-        std::sort(sharedTriangles_.begin(), sharedTriangles_.end(),
-                  [](const SharedTriangle& a, const SharedTriangle& b) {
+        std::sort(trianglesBetweenCells_.begin(), trianglesBetweenCells_.end(),
+                  [](const TriangleBetweenCells& a, const TriangleBetweenCells& b) {
                       return std::pair(a.cells, a.corners) < std::pair(b.cells, b.corners);
                   });
     }
@@ -281,16 +282,18 @@ class SimplexMerger {
     MergedHull mergeTriangles() const {
         MergedHull hull;
         std::vector<std::vector<std::uint32_t>> facesOf(hyperplanes_.size());
-        for (std::size_t i = 0, end = 0; i < sharedTriangles_.size(); i = end) {
-            while (end < sharedTriangles_.size() && sharedTriangles_[end].cells == sharedTriangles_[i].cells) ++end;
-            const auto [a, b] = sharedTriangles_[i].cells;
+        for (std::size_t i = 0, end = 0; i < trianglesBetweenCells_.size(); i = end) {
+            while (end < trianglesBetweenCells_.size() &&
+                   trianglesBetweenCells_[end].cells == trianglesBetweenCells_[i].cells)
+                ++end;
+            const auto [a, b] = trianglesBetweenCells_[i].cells;
             const std::size_t before = hull.faces.size();
-            const auto between = std::span(sharedTriangles_).subspan(i, end - i);
+            const auto between = std::span(trianglesBetweenCells_).subspan(i, end - i);
             if (between.size() == 1 || unmerged_[a] || unmerged_[b]) {
-                for (const SharedTriangle& shared : between) hull.faces.add(shared.corners);
+                for (const TriangleBetweenCells& shared : between) hull.faces.add(shared.corners);
             } else {
                 std::vector<Triangle> triangles;
-                for (const SharedTriangle& shared : between) triangles.push_back(shared.corners);
+                for (const TriangleBetweenCells& shared : between) triangles.push_back(shared.corners);
                 addMergedPolygons(triangles, points_, frame_, hull.faces);
             }
             for (std::size_t f = before; f < hull.faces.size(); ++f) {
@@ -315,10 +318,12 @@ class SimplexMerger {
     }
 
     void countAmbiguousCellPairs(MergedHull& hull) const {
-        for (std::size_t i = 0, end = 0; i < sharedTriangles_.size(); i = end) {
-            while (end < sharedTriangles_.size() && sharedTriangles_[end].cells == sharedTriangles_[i].cells) ++end;
-            const HyperplaneThroughPoints& one = hyperplanes_[sharedTriangles_[i].cells[0]];
-            const HyperplaneThroughPoints& other = hyperplanes_[sharedTriangles_[i].cells[1]];
+        for (std::size_t i = 0, end = 0; i < trianglesBetweenCells_.size(); i = end) {
+            while (end < trianglesBetweenCells_.size() &&
+                   trianglesBetweenCells_[end].cells == trianglesBetweenCells_[i].cells)
+                ++end;
+            const HyperplaneThroughPoints& one = hyperplanes_[trianglesBetweenCells_[i].cells[0]];
+            const HyperplaneThroughPoints& other = hyperplanes_[trianglesBetweenCells_[i].cells[1]];
             const auto nearly = [&](const HyperplaneThroughPoints& a, const HyperplaneThroughPoints& b) {
                 return std::all_of(b.corners().begin(), b.corners().end(),
                                    [&](std::uint32_t v) { return a.contains(points_[v], frame_, kAmbiguityFactor); });
@@ -336,7 +341,7 @@ class SimplexMerger {
     std::uint32_t latestMark_ = 0;
     std::vector<std::int8_t> signs_;
     std::vector<HyperplaneThroughPoints> hyperplanes_;  // the hyperplane of each cell
-    std::vector<SharedTriangle> sharedTriangles_;
+    std::vector<TriangleBetweenCells> trianglesBetweenCells_;
     std::vector<bool> unmerged_;  // per cell: whether its triangles are kept unmerged
 };
 

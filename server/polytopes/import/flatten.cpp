@@ -49,7 +49,7 @@ constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3
 // - The vertices of a 2-face, if there are more than three and the hyperplanes of the two cells of the 2-face are
 //   nearly parallel. Such hyperplanes do not determine the plane of the 2-face. Therefore the 2-face is also moved into
 //   a third hyperplane, which is perpendicular to the hyperplane of `cell`, one of the two cells.
-struct FittedFlat {
+struct CohyperplanarityConstraint {
     std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
     glm::dvec4 across{0};      // for a 2-face: the normal of the hyperplane of `cell`, perpendicular to `normal`
     glm::dvec4 middle{0}, normal{0};
@@ -57,15 +57,15 @@ struct FittedFlat {
     double deviation = 0;  // the largest distance of a vertex from the hyperplane
 };
 
-// The changes in one round of Newton's method: `moves` holds the move of each vertex; for each flat, `tilts` holds the
-// change of its normal, multiplied by FittedFlat::radius, and `shifts` the negative change of its middle along the
-// normal.
+// The changes in one round of Newton's method: `moves` holds the move of each vertex; for each constraint, `tilts`
+// holds the change of its normal, multiplied by CohyperplanarityConstraint::radius, and `shifts` the negative change of
+// its middle along the normal.
 struct FlatteningUnknowns {
     std::vector<glm::dvec4> moves, tilts;
     std::vector<double> shifts;
 
-    FlatteningUnknowns(std::size_t vertices, std::size_t flats)
-        : moves(vertices, glm::dvec4(0)), tilts(flats, glm::dvec4(0)), shifts(flats, 0) {}
+    FlatteningUnknowns(std::size_t vertices, std::size_t constraints)
+        : moves(vertices, glm::dvec4(0)), tilts(constraints, glm::dvec4(0)), shifts(constraints, 0) {}
     double squaredLength() const {
         double sum = 0;
         for (const glm::dvec4& move : moves) sum += glm::dot(move, move);
@@ -106,10 +106,11 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
     return best;
 }
 
-// Moves the vertices to nearby places at which the points of each FittedFlat lie in its hyperplane, by Newton's method.
-// For each vertex v of a flat with the unit normal n and the middle m, n · (v − m) = 0 is an equation for v, n and m.
-// The conjugate gradient method finds the least change that solves the linearized equations, without storing their
-// matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4). The equations need not be independent.
+// Moves the vertices to nearby places at which the points of each CohyperplanarityConstraint lie in its hyperplane, by
+// Newton's method. For each vertex v of a flat with the unit normal n and the middle m, n · (v − m) = 0 is an equation
+// for v, n and m. The conjugate gradient method finds the least change that solves the linearized equations, without
+// storing their matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4). The equations need not be
+// independent.
 class Flattener {
   public:
     Flattener(PolygonSoup& soup, double size) : soup_(soup) {
@@ -122,26 +123,26 @@ class Flattener {
         fitAll();
     }
 
-    double deviation() const { return farthest_ == kNone ? 0 : flats_[farthest_].deviation; }
+    double deviation() const { return farthest_ == kNone ? 0 : constraints_[farthest_].deviation; }
     /// Returns the cell of the flat with the largest deviation; 0 if there are no flats.
-    std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : flats_[farthest_].cell; }
+    std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : constraints_[farthest_].cell; }
     bool isFlat() const { return deviation() <= maxDeviation_; }
 
     /// Marks the 2-faces and the cells whose flats deviate by more than the permitted distance.
     void markUneven(std::vector<bool>& faces, std::vector<bool>& cells) const {
-        for (const FittedFlat& flat : flats_) {
-            if (flat.deviation <= maxDeviation_) continue;
-            if (flat.face == kNone) {
-                cells[flat.cell] = true;
+        for (const CohyperplanarityConstraint& constraint : constraints_) {
+            if (constraint.deviation <= maxDeviation_) continue;
+            if (constraint.face == kNone) {
+                cells[constraint.cell] = true;
             } else {
-                faces[flat.face] = true;
+                faces[constraint.face] = true;
             }
         }
     }
 
-    /// Moves the vertices until the points of each FittedFlat lie in its hyperplane, within the permitted distance.
-    /// Returns false if this does not succeed, or if a vertex moves by more than `maxDistance`; then the caller must
-    /// restore the vertices.
+    /// Moves the vertices until the points of each CohyperplanarityConstraint lie in its hyperplane, within the
+    /// permitted distance. Returns false if this does not succeed, or if a vertex moves by more than `maxDistance`;
+    /// then the caller must restore the vertices.
     bool run(double maxDistance) {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();
@@ -161,13 +162,13 @@ class Flattener {
     }
 
   private:
-    void add(const FittedFlat& flat, std::vector<std::uint32_t>& corners) {
-        flats_.push_back(flat);
+    void add(const CohyperplanarityConstraint& constraint, std::vector<std::uint32_t>& corners) {
+        constraints_.push_back(constraint);
         corners_.add(corners);
     }
 
     void collectCells() {
-        flatOfCell_.assign(soup_.cells.size(), kNone);
+        constraintOfCell_.assign(soup_.cells.size(), kNone);
         std::vector<std::uint32_t> corners;
         for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
             corners.clear();
@@ -176,7 +177,7 @@ class Flattener {
             std::sort(corners.begin(), corners.end());
             corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
             if (corners.size() <= 4) continue;
-            flatOfCell_[c] = static_cast<std::uint32_t>(flats_.size());
+            constraintOfCell_[c] = static_cast<std::uint32_t>(constraints_.size());
             add({c, kNone}, corners);
         }
     }
@@ -191,9 +192,9 @@ class Flattener {
         for (std::uint32_t f = 0; f < soup_.faces.size(); ++f) {
             const auto [one, other] = cellsOf[f];
             if (soup_.faces[f].size() <= 3 || one == kNone || other == kNone) continue;
-            if (flatOfCell_[one] == kNone || flatOfCell_[other] == kNone) continue;
-            const glm::dvec4 normal = flats_[flatOfCell_[one]].normal;
-            if (std::abs(glm::dot(normal, flats_[flatOfCell_[other]].normal)) <= kNearlyParallel) continue;
+            if (constraintOfCell_[one] == kNone || constraintOfCell_[other] == kNone) continue;
+            const glm::dvec4 normal = constraints_[constraintOfCell_[one]].normal;
+            if (std::abs(glm::dot(normal, constraints_[constraintOfCell_[other]].normal)) <= kNearlyParallel) continue;
             corners.assign(soup_.faces[f].begin(), soup_.faces[f].end());
             add({one, f, normal}, corners);
         }
@@ -203,31 +204,31 @@ class Flattener {
         offsets_.resize(corners_.items.size());
         distances_.resize(corners_.items.size());
         farthest_ = kNone;
-        for (std::uint32_t i = 0; i < flats_.size(); ++i) {
+        for (std::uint32_t i = 0; i < constraints_.size(); ++i) {
             fit(i);
             // A deviation that is not a number counts as the largest.
-            if (farthest_ == kNone || !(flats_[i].deviation <= deviation())) farthest_ = i;
+            if (farthest_ == kNone || !(constraints_[i].deviation <= deviation())) farthest_ = i;
         }
     }
 
-    // Fits the hyperplane of a FittedFlat to the points of the flat: first to a few points that are far apart, then to
-    // all points by least squares. The second fit changes the hyperplane only a little, so it adds only small rounding
-    // errors.
+    // Fits the hyperplane of a CohyperplanarityConstraint to the points of the flat: first to a few points that are far
+    // apart, then to all points by least squares. The second fit changes the hyperplane only a little, so it adds only
+    // small rounding errors.
     void fit(std::uint32_t i) {
-        FittedFlat& flat = flats_[i];
+        CohyperplanarityConstraint& constraint = constraints_[i];
         const auto corners = corners_[i];
         const auto offsets = std::span(offsets_).subspan(corners_.begin[i], corners.size());
         const auto distances = std::span(distances_).subspan(corners_.begin[i], corners.size());
-        flat.middle = glm::dvec4(0);
-        for (const std::uint32_t v : corners) flat.middle += soup_.vertices[v];
-        flat.middle /= static_cast<double>(corners.size());
-        flat.radius = 0;
+        constraint.middle = glm::dvec4(0);
+        for (const std::uint32_t v : corners) constraint.middle += soup_.vertices[v];
+        constraint.middle /= static_cast<double>(corners.size());
+        constraint.radius = 0;
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            offsets[k] = soup_.vertices[corners[k]] - flat.middle;
-            flat.radius = std::max(flat.radius, glm::length(offsets[k]));
+            offsets[k] = soup_.vertices[corners[k]] - constraint.middle;
+            constraint.radius = std::max(constraint.radius, glm::length(offsets[k]));
         }
 
-        const std::size_t own = flat.face == kNone ? 3 : 2;
+        const std::size_t own = constraint.face == kNone ? 3 : 2;
         std::array<glm::dvec4, 3> axes{};
         glm::dvec3 extents(0);
         rest_.assign(offsets.begin(), offsets.end());
@@ -237,15 +238,15 @@ class Flattener {
                 a < own ? *std::max_element(
                               rest_.begin(), rest_.end(),
                               [](const glm::dvec4& p, const glm::dvec4& q) { return glm::dot(p, p) < glm::dot(q, q); })
-                        : flat.across;
+                        : constraint.across;
             const glm::dvec4 axis = withoutComponents(far, before);
             const double length = glm::length(axis);
-            const bool spans = length > kLeastExtent * (a < own ? flat.radius : 1);
+            const bool spans = length > kLeastExtent * (a < own ? constraint.radius : 1);
             axes.at(a) = spans ? axis / length : unitPerpendicularTo(before);
             if (spans && a < own) extents[static_cast<int>(a)] = length;
             for (glm::dvec4& rest : rest_) rest -= glm::dot(rest, axes.at(a)) * axes.at(a);
         }
-        flat.normal = unitPerpendicularTo(axes);
+        constraint.normal = unitPerpendicularTo(axes);
 
         glm::dmat3 gram(0);
         glm::dvec3 right(0);
@@ -255,29 +256,29 @@ class Flattener {
                 if (extents[a] > 0) along[a] = glm::dot(offset, axes.at(static_cast<std::size_t>(a))) / extents[a];
             }
             gram += glm::outerProduct(along, along);
-            right += glm::dot(offset, flat.normal) * along;
+            right += glm::dot(offset, constraint.normal) * along;
         }
         for (int a = 0; a < 3; ++a) gram[a][a] += extents[a] > 0 ? 0 : 1;
         const glm::dvec3 slope = glm::inverse(gram) * right;
         for (int a = 0; a < 3; ++a) {
-            if (extents[a] > 0) flat.normal -= slope[a] / extents[a] * axes.at(static_cast<std::size_t>(a));
+            if (extents[a] > 0) constraint.normal -= slope[a] / extents[a] * axes.at(static_cast<std::size_t>(a));
         }
-        flat.normal = glm::normalize(flat.normal);
+        constraint.normal = glm::normalize(constraint.normal);
 
-        flat.deviation = 0;
+        constraint.deviation = 0;
         for (std::size_t k = 0; k < corners.size(); ++k) {
-            distances[k] = glm::dot(offsets[k], flat.normal);
-            if (!(std::abs(distances[k]) <= flat.deviation)) flat.deviation = std::abs(distances[k]);
-            if (flat.radius > 0) offsets[k] /= flat.radius;
+            distances[k] = glm::dot(offsets[k], constraint.normal);
+            if (!(std::abs(distances[k]) <= constraint.deviation)) constraint.deviation = std::abs(distances[k]);
+            if (constraint.radius > 0) offsets[k] /= constraint.radius;
         }
     }
 
     // Sets `out` to the product of the Jacobian and `change`. Element k is, to the first order, the change of
     // distances_[k].
     void multiplyByJacobian(const FlatteningUnknowns& change, std::vector<double>& out) const {
-        for (std::size_t i = 0; i < flats_.size(); ++i) {
+        for (std::size_t i = 0; i < constraints_.size(); ++i) {
             for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
-                out[k] = glm::dot(flats_[i].normal, change.moves[corners_.items[k]]) +
+                out[k] = glm::dot(constraints_[i].normal, change.moves[corners_.items[k]]) +
                          glm::dot(offsets_[k], change.tilts[i]) + change.shifts[i];
             }
         }
@@ -286,11 +287,11 @@ class Flattener {
     // Sets `out` to the product of the transposed Jacobian and the vector `list`.
     void multiplyByTransposedJacobian(const std::vector<double>& list, FlatteningUnknowns& out) const {
         std::fill(out.moves.begin(), out.moves.end(), glm::dvec4(0));
-        for (std::size_t i = 0; i < flats_.size(); ++i) {
+        for (std::size_t i = 0; i < constraints_.size(); ++i) {
             glm::dvec4 tilt(0);
             double shift = 0;
             for (std::uint32_t k = corners_.begin[i]; k < corners_.begin[i + 1]; ++k) {
-                out.moves[corners_.items[k]] += list[k] * flats_[i].normal;
+                out.moves[corners_.items[k]] += list[k] * constraints_[i].normal;
                 tilt += list[k] * offsets_[k];
                 shift += list[k];
             }
@@ -303,7 +304,7 @@ class Flattener {
     // precisely the equations are solved (see kFirstTolerance). Adds the work of the solution to `work`, which counts
     // up to kMaxWork.
     FlatteningUnknowns solve(double tolerance, std::size_t& work) const {
-        FlatteningUnknowns change(soup_.vertices.size(), flats_.size()), gradient = change;
+        FlatteningUnknowns change(soup_.vertices.size(), constraints_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());
         std::transform(distances_.begin(), distances_.end(), error.begin(), std::negate<>());
         multiplyByTransposedJacobian(error, gradient);
@@ -329,11 +330,13 @@ class Flattener {
 
     PolygonSoup& soup_;
     double maxDeviation_, goalDeviation_;
-    std::vector<FittedFlat> flats_;
-    std::vector<std::uint32_t> flatOfCell_;  // per cell: its flat; kNone for a cell of at most four vertices
-    geometry::JaggedArray corners_;          // the vertices of each flat
-    std::vector<glm::dvec4> offsets_;        // per corner: its offset from FittedFlat::middle, divided by the radius
-    std::vector<double> distances_;          // per corner: its signed distance from the hyperplane
+    std::vector<CohyperplanarityConstraint> constraints_;
+    std::vector<std::uint32_t>
+        constraintOfCell_;           // per cell: its constraint; kNone for a cell of at most four vertices
+    geometry::JaggedArray corners_;  // the vertices of each flat
+    std::vector<glm::dvec4>
+        offsets_;  // per corner: its offset from CohyperplanarityConstraint::middle, divided by the radius
+    std::vector<double> distances_;  // per corner: its signed distance from the hyperplane
     std::vector<glm::dvec4> rest_;
     std::uint32_t farthest_ = kNone;  // the flat with the largest deviation
 };

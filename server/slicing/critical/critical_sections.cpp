@@ -183,7 +183,7 @@ class PartMatching {
 };
 
 /// An interval of w in which the topology of one level changes.
-struct TopologyChange {
+struct TopologyChangeInterval {
     double from, to;
     std::size_t level;
     SectionTopology before, after;
@@ -210,7 +210,7 @@ class CriticalSearch {
     Result<CriticalSections> run() {
         if (limits_.stop.stop_requested()) return kCanceled;
         findIntervals();
-        for (const TopologyChange& change : combined()) {
+        for (const TopologyChangeInterval& change : combined()) {
             if (limits_.stop.stop_requested()) break;
             found_.all.push_back(criticalSectionOf(change));
         }
@@ -251,8 +251,8 @@ class CriticalSearch {
 
     // Returns the changes of each level. Combines changes that are close to each other, because the lattice shows
     // several changes where a surface touches itself along a curve.
-    std::vector<TopologyChange> combined() const {
-        std::vector<TopologyChange> all;
+    std::vector<TopologyChangeInterval> combined() const {
+        std::vector<TopologyChangeInterval> all;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             const std::size_t first = all.size();
             for (const SearchInterval& interval : intervals_) {
@@ -265,12 +265,12 @@ class CriticalSearch {
                 }
             }
         }
-        std::erase_if(all, [](const TopologyChange& change) { return change.before == change.after; });
+        std::erase_if(all, [](const TopologyChangeInterval& change) { return change.before == change.after; });
         return all;
     }
 
     // Finds the critical w and the kind of a change.
-    CriticalSection criticalSectionOf(const TopologyChange& change) {
+    CriticalSection criticalSectionOf(const TopologyChangeInterval& change) {
         if (Clock::now() > end_ + (end_ - begin_) / 2) {
             // The time is over, so the sections are not compared.
             return {(change.from + change.to) / 2,
@@ -301,7 +301,7 @@ class CriticalSearch {
     // set is most nearly tangent to the hyperplane. Ignores critical points whose w is outside the interval of the
     // change by more than the resolution. Of the others, the one whose w is nearest to the middle of the interval
     // replaces `best`, unless `best` is at least as near.
-    void searchNearTangentPoints(const TopologyChange& change, const SliceSurface& surface, double w,
+    void searchNearTangentPoints(const TopologyChangeInterval& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;
         const PlacedFunction placed{*field_.function, field_.toFunction * orientation_.inverse().matrix(),
@@ -321,7 +321,7 @@ class CriticalSearch {
     // nearly tangent to the hyperplane. Parts that merge or vanish are tangent in the section `before`; parts that
     // split or appear are tangent in the section `after`. Returns an empty optional for a change of handles, because
     // finer lattices show additional handles where the surface has creases.
-    std::optional<double> searchOnFinerLattices(const TopologyChange& change, SectionChange kind,
+    std::optional<double> searchOnFinerLattices(const TopologyChangeInterval& change, SectionChange kind,
                                                 const SliceSurface& before, const SliceSurface& after) const {
         constexpr std::size_t kStarts = 24;
         if (kind == SectionChange::handle) return std::nullopt;

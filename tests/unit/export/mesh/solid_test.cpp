@@ -124,8 +124,8 @@ TEST(Solid, ofAConvexSliceObservesTheLimitOfTime) {
     EXPECT_THROW(solidOf(s, 0, scaleOf(p), grid, spent), ExportRefused);
     std::vector<glm::dvec3> points;
     for (const glm::dvec3& vertex : s.vertices) points.push_back(grid.snap(vertex * scaleOf(p)));
-    EXPECT_THROW(hullOf(points, grid, &spent), ExportRefused);
-    expectPrintable(hullOf(points, grid));
+    EXPECT_THROW(convexHullOfGridPoints(points, grid, &spent), ExportRefused);
+    expectPrintable(convexHullOfGridPoints(points, grid));
 }
 
 TEST(Hull, isClosedAndConvexThoughManyPointsLieInOnePlane) {
@@ -137,15 +137,15 @@ TEST(Hull, isClosedAndConvexThoughManyPointsLieInOnePlane) {
             std::vector<glm::dvec3> points;
             for (int n = 0; n < 40; ++n)
                 points.push_back(grid.step() * glm::dvec3(place(random), place(random), place(random)));
-            const Mesh hull = hullOf(points, grid);
+            const Mesh hull = convexHullOfGridPoints(points, grid);
             expectPrintable(hull);
             for (const auto& t : hull.triangles) {
                 for (const auto& p : points) EXPECT_LE(glm::dot(doubleAreaNormalOf(hull, t), p - hull.points[t[0]]), 0);
             }
         }
     }
-    EXPECT_TRUE(hullOf({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, grid).triangles.empty());
-    EXPECT_TRUE(hullOf({{0, 0, 0}, {1, 0, 0}}, grid).triangles.empty());
+    EXPECT_TRUE(convexHullOfGridPoints({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, grid).triangles.empty());
+    EXPECT_TRUE(convexHullOfGridPoints({{0, 0, 0}, {1, 0, 0}}, grid).triangles.empty());
 }
 
 TEST(OuterSurface, ofACompoundIsThatOfTheUnion) {

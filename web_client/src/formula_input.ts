@@ -6,7 +6,7 @@ import { excerptAround, mistakeOf } from "./formula";
 
 const kReach = 14; // characters of the formula shown on either side of a mistake
 
-export class FormulaText {
+export class FormulaInput {
     readonly input: HTMLTextAreaElement | HTMLInputElement;
     private readonly error: HTMLElement;
     private readonly excerpt: HTMLElement;
