@@ -96,11 +96,12 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
             load.secondVariable = second.variable;
             if (!files.empty()) return session::readSeries(files, load, options);
         }
-        const auto open = [&](const std::string& inside) -> Result<std::optional<fields::FileContents>> {
+        const auto open = [&](const std::string& inside,
+                              const fields::FilePart& part) -> Result<std::optional<fields::FileContents>> {
             if (!std::filesystem::exists(path + '/' + inside)) return std::optional<fields::FileContents>();
-            auto file = fields::FileContents::map(std::filesystem::path(path) / inside);
+            const auto file = fields::FileContents::map(std::filesystem::path(path) / inside);
             if (!file) return file.error();
-            return std::optional(std::move(*file));
+            return std::optional(file->cutTo(part));
         };
         return session::readZarr(open, name, options, second);
     }

@@ -101,6 +101,19 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
     archive(out.seriesLength), archive(out.isFolder), archive(out.mayMap);
 }
 
+void encodeFindRequest(const FindRequest& request, std::string& out) {
+    out.clear();
+    ByteWriter archive(out);
+    archive(request.path), archive(request.part.offset), archive(request.part.size), archive(request.part.fromEnd);
+}
+
+FindRequest decodeFindRequest(std::string_view bytes) {
+    ByteReader archive(bytes);
+    FindRequest request;
+    archive(request.path), archive(request.part.offset), archive(request.part.size), archive(request.part.fromEnd);
+    return request;
+}
+
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out, slicing::MappedFiles files,
                    std::size_t maxInMemory) {
     out.clear();

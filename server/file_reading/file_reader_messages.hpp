@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "errors/error.hpp"
+#include "fields/readers/file_contents.hpp"
 #include "session/load.hpp"
 #include "session/session.hpp"
 #include "slicing/object_bytes.hpp"
@@ -27,6 +28,16 @@ struct ReadRequest {
 void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out);
 /// Decodes the bytes of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
 void decodeReadRequest(std::string_view bytes, ReadRequest& out);
+
+/// A request of a reader process for a file in the folder that it reads.
+struct FindRequest {
+    std::string path;       ///< relative to the folder
+    fields::FilePart part;  ///< what the process needs of the file
+};
+/// Encodes a request for a file, and writes it to `out`.
+void encodeFindRequest(const FindRequest& request, std::string& out);
+/// Decodes the bytes of encodeFindRequest(), which need not be trusted. Throws std::runtime_error if they are invalid.
+FindRequest decodeFindRequest(std::string_view bytes);
 
 /// Encodes the result of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
 /// `files` are mapped files, in the order in which the receiver maps them. An array in a mapped file is encoded as a

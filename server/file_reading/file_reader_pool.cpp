@@ -9,7 +9,6 @@
 
 #include "file_reading/file_reader_messages.hpp"
 #include "file_reading/file_reader_service.hpp"
-#include "file_reading/folder_access.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::file_reading {
@@ -112,10 +111,9 @@ class FileReadConversation {
             MessageType answer{};
             transfer = channel.receive(answer, outcome, nullptr, limit, maxBytes);
             if (transfer != TransferResult::complete || answer == MessageType::outcome) break;
-            if (answer == MessageType::open_file && load_.folder) {
-                const fields::FileHandle part(openBelow(load_.folder->descriptor(), outcome));
-                const int descriptor = part.descriptor() < 0 ? Channel::kNoFile : part.descriptor();
-                transfer = channel.send(MessageType::file_descriptor, {}, descriptor, limit);
+            if (answer == MessageType::find_file && load_.folder) {
+                transfer = sendFoundFile(channel, limit);
+                if (refused) break;  // the process is not used again
                 continue;
             }
             if (answer != MessageType::new_file)
@@ -144,11 +142,25 @@ class FileReadConversation {
 
     // The body of the newest message from the process; after run(), the body of the `outcome` message.
     std::string outcome;
-    std::optional<Error> refused;  // why a new file was refused; empty if none was
+    std::optional<Error> refused;  // why a new file or a file of the folder was refused; empty if none was
 
   private:
     static int descriptorOf(const std::shared_ptr<const fields::FileHandle>& file) {
         return file ? file->descriptor() : Channel::kNoFile;
+    }
+
+    TransferResult sendFoundFile(const Channel& channel, const WaitLimit& limit) {
+        const auto [path, part] = decodeFindRequest(outcome);
+        const auto found = load_.folder->find(path, part, limit.until, limit.stop);
+        if (!found) {
+            if (limit.stop.stop_requested()) return TransferResult::timed_out;
+            refused = found.error();
+            return TransferResult::complete;
+        }
+        if (*found && !(*found)->file)
+            return channel.send(MessageType::file_bytes, (*found)->bytes, Channel::kNoFile, limit);
+        const int descriptor = *found ? (*found)->file->descriptor() : Channel::kNoFile;
+        return channel.send(MessageType::file_descriptor, {}, descriptor, limit);
     }
 
     int makeFile(WaitLimit& limit) {

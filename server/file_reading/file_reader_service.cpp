@@ -74,8 +74,10 @@ class RequestedObjectReader {
         if (request_.mayMap) newFile = [this](std::size_t bytes) { return requestFile(bytes); };
         const fields::FieldReadOptions options = session::optionsForReading(load, request_.limits, std::move(newFile));
         if (request_.isFolder) {
-            const auto open = [this](const std::string& path) { return openFile(path); };
-            return session::readZarr(open, load.name, options, {load.secondFormula, load.secondVariable});
+            const auto find = [this](const std::string& path, const fields::FilePart& part) {
+                return findFile(path, part);
+            };
+            return session::readZarr(find, load.name, options, {load.secondFormula, load.secondVariable});
         }
         if (request_.seriesLength > 0) {
             auto files = receiveSeries(channel_, request_.seriesLength);
@@ -100,21 +102,32 @@ class RequestedObjectReader {
         return file;
     }
 
-    // Gets the file at `path` in the requested folder from the server; returns an empty optional if there is no such
-    // file.
-    Result<std::optional<fields::FileContents>> openFile(const std::string& path) {
-        channel_.send(MessageType::open_file, path);
-        const fields::FileHandle file(receiveDescriptor(channel_));
+    // Gets a part of the file at `path` in the requested folder from the server; returns an empty optional if there is
+    // no such file. Keeps the file mapped that was opened last, so that a shard is opened once.
+    Result<std::optional<fields::FileContents>> findFile(const std::string& path, const fields::FilePart& part) {
+        if (lastFile_ && lastPath_ == path) return std::optional(lastFile_->cutTo(part));
+        std::string body;
+        encodeFindRequest({path, part}, body);
+        channel_.send(MessageType::find_file, body);
+        MessageType type{};
+        int descriptor = Channel::kNoFile;
+        if (channel_.receive(type, body, &descriptor) != TransferResult::complete) throw std::runtime_error("no file");
+        if (type == MessageType::file_bytes) return std::optional(fields::FileContents::ofString(std::move(body)));
+        const fields::FileHandle file(descriptor);
         if (file.descriptor() < 0) return std::optional<fields::FileContents>();
         auto contents = fields::FileContents::map(file.descriptor());
         if (!contents) return Error{contents.error().code, path + ": " + contents.error().message};
-        return std::optional(std::move(*contents));
+        lastPath_ = path;
+        lastFile_ = std::move(*contents);
+        return std::optional(lastFile_->cutTo(part));
     }
 
     const Channel& channel_;
     const ReadRequest request_;
     std::vector<fields::FileContents> sources_;
     slicing::MappedFiles mapped_;  // in the order in which FileReaderPool::read() maps the same files
+    std::string lastPath_;         // of the file in the folder that was opened last
+    std::optional<fields::FileContents> lastFile_;
 };
 
 // Reads the file that `body`, the body of a `file` message, requests, and replaces `body` by the body of the `outcome`

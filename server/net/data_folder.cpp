@@ -15,6 +15,7 @@
 #include "fields/field.hpp"
 #include "fields/readers/field_reader.hpp"
 #include "fields/readers/zarr.hpp"
+#include "file_reading/folder_access.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::net {
@@ -76,6 +77,24 @@ std::string versionOfFilesIn(const fs::path& folder) {
     }
     return std::to_string(count) + ':' + std::to_string(sum) + ';';
 }
+
+/// A Zarr folder on a disk.
+class ZarrFolderOnDisk final : public fields::FolderFiles {
+  public:
+    explicit ZarrFolderOnDisk(std::shared_ptr<const fields::FileHandle> folder) : folder_(std::move(folder)) {}
+
+    Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& /*part*/,
+                                                  std::chrono::steady_clock::time_point /*until*/,
+                                                  const std::stop_token& /*stop*/) const override {
+        const int file = file_reading::openBelow(folder_->descriptor(), path);
+        if (file < 0) return std::optional<fields::FoundFile>();
+        return std::optional(fields::FoundFile{std::make_shared<const fields::FileHandle>(file), {}});
+    }
+    std::string version() const override { return versionOfZarr(folder_->descriptor()); }
+
+  private:
+    const std::shared_ptr<const fields::FileHandle> folder_;
+};
 
 bool isZarr(const fs::path& folder) {
     const fields::FileHandle handle(openName(AT_FDCWD, folder.string(), O_DIRECTORY));
@@ -198,7 +217,7 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
     auto folder = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, O_DIRECTORY));
     if (folder->descriptor() < 0) return missing;
     if (opened.version = versionOfZarr(folder->descriptor()); !opened.version.empty()) {
-        opened.folder = std::move(folder);
+        opened.folder = std::make_shared<const ZarrFolderOnDisk>(std::move(folder));
         opened.chunks = versionOfFilesIn(folder_ / name);
         return opened;
     }
@@ -219,7 +238,7 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
 }
 
 std::string DataFolder::currentVersion(const OpenedEntry& opened) {
-    if (opened.folder) return versionOfZarr(opened.folder->descriptor());
+    if (opened.folder) return opened.folder->version();
     std::string version;
     for (const auto& file : opened.files) version += net::versionOf(file->descriptor());
     return version;

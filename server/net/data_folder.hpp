@@ -19,6 +19,7 @@
 #include "errors/error.hpp"
 #include "fields/array/mapped_file.hpp"
 #include "fields/field.hpp"
+#include "fields/readers/folder_files.hpp"
 #include "file_reading/file_reader_pool.hpp"
 #include "net/field_cache_files.hpp"
 #include "session/load.hpp"
@@ -71,7 +72,7 @@ class DataFolder {
     // A file, a Zarr folder or a series that open() has opened.
     struct OpenedEntry {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
-        std::shared_ptr<const fields::FileHandle> folder;  // the Zarr folder, instead of `files`; else null
+        std::shared_ptr<const fields::FolderFiles> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
         std::string version;  // changes when one of `files` changes, or the metadata of the Zarr folder
         // Changes when a chunk of the Zarr folder changes; empty without a Zarr folder. A change while a field is read

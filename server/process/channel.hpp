@@ -16,8 +16,8 @@ namespace oval4d::process {
 /// sends `object_missing`; the server replies with a `file_descriptor` for each mapped file to which the object refers,
 /// followed by `object`. After `file`, the server sends a `file_descriptor` for each file of the series, if a series is
 /// to be read. A file reader process replies to `file` with `outcome`. Before that, it may send `new_file` and
-/// `open_file`; the server replies to each with `file_descriptor`, which carries no file descriptor if there is no such
-/// file.
+/// `find_file`; the server replies to each with `file_descriptor`, which carries no file descriptor if there is no such
+/// file, or to `find_file` with `file_bytes`, if the file cannot be opened where it is.
 enum class MessageType : std::uint32_t {
     ready,            ///< empty
     draw,             ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into
@@ -28,7 +28,8 @@ enum class MessageType : std::uint32_t {
     file,             ///< file_reading::ReadRequest; may carry the file descriptor of the file
     file_descriptor,  ///< empty; carries the descriptor of a mapped file, a new file, or a file of a series or folder
     new_file,         ///< the size in bytes of the new file that the process needs, as std::size_t
-    open_file,        ///< the path of a file in the folder that is read
+    find_file,        ///< written by file_reading::encodeFindRequest()
+    file_bytes,       ///< the bytes of the part that `find_file` asked for
     outcome,          ///< the object that was read, or an error
 };
 

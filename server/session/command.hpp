@@ -19,7 +19,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "fields/readers/file_contents.hpp"
+#include "fields/readers/folder_files.hpp"
 #include "fields/scalar_function.hpp"
 #include "geometry/centering.hpp"
 #include "geometry/rotation.hpp"
@@ -89,7 +89,7 @@ struct LoadObject {
     /// The files of an array, instead of `data`. Each file contains one time step.
     std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
     /// A Zarr folder, instead of `data`.
-    std::shared_ptr<const fields::FileHandle> folder = {};
+    std::shared_ptr<const fields::FolderFiles> folder = {};
     std::string dataName = {};             ///< the name of an array in the server's data folder, instead of `data`
     geometry::Centering center = {};       ///< for a polytope, a surface or points: the point about which they turn
     std::optional<FinerLevel> finer = {};  ///< for an array in the server's data folder: see loadOfFinerLevel()

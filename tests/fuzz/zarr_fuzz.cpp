@@ -42,11 +42,11 @@ OVAL4D_FUZZER(zarr) {
         files.try_emplace(std::string(path), file);
     }
     const fields::FolderFileReader folder =
-        [&](const std::string& path) -> Result<std::optional<fields::FileContents>> {
+        [&](const std::string& path, const fields::FilePart& part) -> Result<std::optional<fields::FileContents>> {
         requireInFolder(path);
         const auto found = files.find(path);
         if (found == files.end()) return std::optional<fields::FileContents>();
-        return std::optional(fields::FileContents::copyOf(found->second));
+        return std::optional(fields::FileContents::copyOf(found->second).cutTo(part));
     };
     for (const char* variable : {"", "a", "../a"}) {
         for (const std::optional<fields::Box>& region :

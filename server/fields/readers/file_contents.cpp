@@ -3,11 +3,18 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 namespace oval4d::fields {
+
+FileContents FileContents::cutTo(const FilePart& part) const {
+    const std::uint64_t whole = bytes.size();
+    const std::uint64_t first = part.fromEnd ? whole - std::min(whole, part.size) : std::min(whole, part.offset);
+    return {owner, bytes.subspan(first, std::min(whole - first, part.size)), file};
+}
 
 FileContents FileContents::copyOf(std::string_view bytes) {
     const auto view = std::as_bytes(std::span(bytes));
@@ -17,6 +24,12 @@ FileContents FileContents::copyOf(std::string_view bytes) {
 FileContents FileContents::of(std::vector<std::byte> bytes) {
     auto owned = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
     const std::span<const std::byte> view = *owned;
+    return {std::move(owned), view};
+}
+
+FileContents FileContents::ofString(std::string bytes) {
+    auto owned = std::make_shared<const std::string>(std::move(bytes));
+    const std::span<const std::byte> view = std::as_bytes(std::span(*owned));
     return {std::move(owned), view};
 }
 

@@ -2,9 +2,12 @@
 // The bytes of a file to be read, in memory or mapped.
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +15,17 @@
 #include "fields/array/mapped_file.hpp"
 
 namespace oval4d::fields {
+
+/// A part of a file; by default, the whole file.
+struct FilePart {
+    static constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+
+    std::uint64_t offset = 0;   ///< of the part's first byte; ignored if `fromEnd` is true
+    std::uint64_t size = kAll;  ///< in bytes; a part that extends beyond the end of the file is cut off there
+    bool fromEnd = false;       ///< whether the part consists of the last `size` bytes of the file
+
+    bool isWhole() const { return size == kAll && (offset == 0 || fromEnd); }
+};
 
 /// The bytes of a file. Copies share the bytes.
 struct FileContents {
@@ -24,10 +38,15 @@ struct FileContents {
         if (file) file->releasePages();
     }
 
+    /// Returns the bytes of a part, or as many of them as the file has.
+    FileContents cutTo(const FilePart& part) const;
+
     /// Returns a copy of the bytes.
     static FileContents copyOf(std::string_view bytes);
     /// Takes ownership of the bytes.
     static FileContents of(std::vector<std::byte> bytes);
+    /// Takes ownership of the bytes.
+    static FileContents ofString(std::string bytes);
     /// Returns the bytes of a mapped file.
     static FileContents of(MappedFilePtr file);
     /// Maps the open file with the descriptor `file`, which the caller may close afterward. Errors: those of

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <numeric>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,14 +23,23 @@ namespace {
 
 constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // maximum size of a metadata file, in bytes
 
+// Returns a reader of metadata files. It keeps their texts, because the same file is asked for several times, and each
+// may be a request to a remote store.
 FolderTextReader textsOf(const FolderFileReader& folder) {
-    return [&folder](const std::string& path) -> Result<std::optional<std::string>> {
-        auto file = folder(path);
+    using Texts = std::map<std::string, std::optional<std::string>>;
+    return [&folder, known = Texts()](const std::string& path) mutable -> Result<std::optional<std::string>> {
+        if (const auto found = known.find(path); found != known.end()) return found->second;
+        auto file = folder(path, {});
         if (!file) return file.error();
-        if (!*file) return std::optional<std::string>();
-        const std::span<const std::byte> bytes = (*file)->bytes;
-        if (bytes.size() > kMaxMetadata) return Error{ErrorCode::too_large, path + " is too large for Zarr metadata"};
-        return std::optional(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+        std::optional<std::string> text;
+        if (*file) {
+            const std::span<const std::byte> bytes = (*file)->bytes;
+            if (bytes.size() > kMaxMetadata)
+                return Error{ErrorCode::too_large, path + " is too large for Zarr metadata"};
+            text.emplace(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+        }
+        known.emplace(path, text);
+        return text;
     };
 }
 

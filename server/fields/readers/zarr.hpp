@@ -2,32 +2,26 @@
 // Reader of Zarr folders, versions 2 and 3 (zarr-specs.readthedocs.io).
 
 #include <array>
-#include <functional>
-#include <optional>
-#include <string>
 #include <string_view>
 
 #include "errors/error.hpp"
 #include "fields/readers/field_array.hpp"
-#include "fields/readers/file_contents.hpp"
+#include "fields/readers/folder_files.hpp"
 
 namespace oval4d::fields {
-
-/// Returns the contents of a file in a folder by its relative path, such as "temperature/c/0/0"; an empty optional if
-/// there is no such file. Errors: those of FileContents::map().
-using FolderFileReader = std::function<Result<std::optional<FileContents>>(const std::string& path)>;
 
 /// A Zarr folder contains at least one of these files.
 inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarray", ".zgroup"};
 
-/// Reads an array from a Zarr folder, or the part of it in `options.region`, chunk by chunk; opens only the chunks that
-/// have samples of the part. `options.variable` is the path of the array in the folder. If this option is empty, reads
-/// the folder itself if it is an array. If the folder is a multiscale image (OME-Zarr), reads the level `options.level`
-/// or, without this option, the finest level of which the part has at most `options.maxInMemory` and
-/// `options.maxInFirstLevel` samples, or the coarsest level if there is no such level. If the folder is any other
-/// group, the group's consolidated metadata must list its arrays, and the array with the most dimensions is read.
-/// Types: Booleans, integers and floats of either byte order. Chunks may be parts of shards, be compressed by gzip,
-/// zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill value.
+/// Reads an array from a Zarr folder, or the part of it in `options.region`, chunk by chunk; reads only the chunks that
+/// have samples of the part, and of a shard the index and these chunks. `options.variable` is the path of the array in
+/// the folder. If this option is empty, reads the folder itself if it is an array. If the folder is a multiscale image
+/// (OME-Zarr), reads the level `options.level` or, without this option, the finest level of which the part has at most
+/// `options.maxInMemory` and `options.maxInFirstLevel` samples, or the coarsest level if there is no such level. If the
+/// folder is any other group, the group's consolidated metadata must list its arrays, and the array with the most
+/// dimensions is read. Types: Booleans, integers and floats of either byte order. Chunks may be parts of shards, be
+/// compressed by gzip, zlib, zstd or Blosc, and be in C or Fortran order; in missing chunks, all numbers are the fill
+/// value.
 ///
 /// The axes are those in `options.axes` or, if it is empty, those that the names of the dimensions state (xarray,
 /// OME-Zarr). The box is given by the arrays of coordinates beside the array, or by the scales of a multiscale image.

@@ -34,25 +34,31 @@ std::string ZarrChunkFiles::nameOf(const std::vector<std::size_t>& index) const 
 
 Result<std::optional<FileContents>> ZarrChunkFiles::contentsOf(const std::vector<std::size_t>& index) {
     ChunkPlace place = placeOf(index);
-    if (!array_.shards) return folder_(place.path);
-    if (place.path == shardPath_) return chunkInOpenShard(place.number);
-    auto file = folder_(place.path);
-    if (!file) return file.error();
-    shardPath_ = std::move(place.path);
-    shard_ = std::move(*file);
-    if (!shard_) return std::optional<FileContents>();
-    const auto found = shardIndexIn(shard_->bytes, *array_.shards);
-    if (!found) return inShard(shardPath_, found.error());
-    shardIndex_ = *found;
-    return chunkInOpenShard(place.number);
+    if (!array_.shards) return folder_(place.path, {});
+    if (place.path != shardPath_) {
+        if (auto error = readIndexOf(std::move(place.path))) return std::move(*error);
+    }
+    if (!storedIndex_) return std::optional<FileContents>();
+    const std::optional<FilePart> part = chunkInShard(shardIndex_, *array_.shards, place.number);
+    if (!part) return std::optional<FileContents>();
+    auto chunk = folder_(shardPath_, *part);
+    if (!chunk) return chunk.error();
+    if (!*chunk || (*chunk)->bytes.size() < part->size)
+        return inShard(shardPath_, badField("its index states a place beyond its end"));
+    return chunk;
 }
 
-Result<std::optional<FileContents>> ZarrChunkFiles::chunkInOpenShard(std::size_t number) const {
-    if (!shard_) return std::optional<FileContents>();
-    const auto chunk = chunkInShard(shard_->bytes, shardIndex_, *array_.shards, number);
-    if (!chunk) return inShard(shardPath_, chunk.error());
-    if (!*chunk) return std::optional<FileContents>();
-    return std::optional(FileContents{shard_->owner, **chunk, shard_->file});
+// Reads the index of a shard, which may be missing. Errors: `bad_field` if the shard is damaged; those of the folder.
+std::optional<Error> ZarrChunkFiles::readIndexOf(std::string shard) {
+    auto stored = folder_(shard, partOfShardIndex(*array_.shards));
+    if (!stored) return stored.error();
+    storedIndex_ = std::move(*stored);
+    shardPath_ = std::move(shard);
+    if (!storedIndex_) return {};
+    const auto index = checkedShardIndex(storedIndex_->bytes, *array_.shards);
+    if (!index) return inShard(shardPath_, index.error());
+    shardIndex_ = *index;
+    return {};
 }
 
 }  // namespace oval4d::fields

@@ -9,13 +9,13 @@
 
 #include "errors/error.hpp"
 #include "fields/readers/file_contents.hpp"
-#include "fields/readers/zarr.hpp"
+#include "fields/readers/folder_files.hpp"
 #include "fields/readers/zarr_metadata.hpp"
 
 namespace oval4d::fields {
 
 /// Finds the stored bytes of the chunks of an array. Each chunk is a file or a part of a shard, of which only the index
-/// and the chunks that are needed are read. Keeps the shard open that was opened last.
+/// and the chunks that are needed are read. Keeps the index of the shard that was read last.
 class ZarrChunkFiles {
   public:
     /// `folder` and `array` must outlive this object.
@@ -34,13 +34,13 @@ class ZarrChunkFiles {
         std::size_t number;  // of the chunk among the chunks of its shard
     };
     ChunkPlace placeOf(std::vector<std::size_t> index) const;
-    Result<std::optional<FileContents>> chunkInOpenShard(std::size_t number) const;
+    std::optional<Error> readIndexOf(std::string shard);
 
     const FolderFileReader& folder_;
     const ZarrArrayMetadata& array_;
-    std::string shardPath_;              // of the shard that was opened last
-    std::optional<FileContents> shard_;  // empty if there is no such file
-    std::span<const std::byte> shardIndex_;
+    std::string shardPath_;                    // of the shard whose index was read last
+    std::optional<FileContents> storedIndex_;  // with its checksum; empty if there is no such shard
+    std::span<const std::byte> shardIndex_;    // the part of `storedIndex_` before the checksum
 };
 
 }  // namespace oval4d::fields

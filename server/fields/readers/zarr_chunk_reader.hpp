@@ -14,8 +14,8 @@
 #include "errors/error.hpp"
 #include "fields/readers/chunk_codecs.hpp"
 #include "fields/readers/field_array.hpp"
+#include "fields/readers/folder_files.hpp"
 #include "fields/readers/numbers.hpp"
-#include "fields/readers/zarr.hpp"
 #include "fields/readers/zarr_chunk_files.hpp"
 #include "fields/readers/zarr_metadata.hpp"
 
@@ -41,27 +41,49 @@ class ChunkReader {
                                 const Afterward& afterward) {
         constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // numbers between two calls
         const std::size_t rank = array_.shape.size();
-        const auto firstChunk = [this](std::size_t i) { return part_.first[i] / array_.chunk[i]; };
-        std::vector<std::size_t> index(rank);
-        for (std::size_t i = 0; i < rank; ++i) index[i] = firstChunk(i);
-        std::size_t numbers = 0;
-        for (;;) {
-            if (auto chunk = readChunk(index, stride, to + first); !chunk) return chunk;
-            numbers += array_.decompressedChunkBytes() / sizeOf(array_.format.type);
-            if (numbers >= kNumbers) {
-                afterward();
-                numbers = 0;
-            }
-            std::size_t i = rank;
-            while (i > 0 && ++index[i - 1] * array_.chunk[i - 1] >= part_.first[i - 1] + part_.size[i - 1]) {
-                --i;
-                index[i] = firstChunk(i);
-            }
-            if (i == 0) return std::monostate{};
+        // Chunks are read shard by shard, so that the index of each shard is read once. Without shards, each chunk
+        // counts as a shard of its own.
+        const Indices perShard = array_.shards ? array_.shards->chunks : Indices(rank, 1);
+        Indices begin(rank), end(rank), beginShard(rank), endShard(rank);  // of the part
+        for (std::size_t i = 0; i < rank; ++i) {
+            begin[i] = part_.first[i] / array_.chunk[i];
+            end[i] = begin[i] + 1 + (part_.first[i] % array_.chunk[i] + part_.size[i] - 1) / array_.chunk[i];
+            beginShard[i] = begin[i] / perShard[i];
+            endShard[i] = (end[i] - 1) / perShard[i] + 1;
         }
+        std::size_t numbers = 0;
+        Indices shard = beginShard, from(rank), until(rank);
+        do {
+            for (std::size_t i = 0; i < rank; ++i) {
+                from[i] = std::max(begin[i], shard[i] * perShard[i]);
+                until[i] = std::min(end[i], (shard[i] + 1) * perShard[i]);
+            }
+            Indices index = from;
+            do {
+                if (auto chunk = readChunk(index, stride, to + first); !chunk) return chunk;
+                numbers += array_.decompressedChunkBytes() / sizeOf(array_.format.type);
+                if (numbers >= kNumbers) {
+                    afterward();
+                    numbers = 0;
+                }
+            } while (advance(index, from, until));
+        } while (advance(shard, beginShard, endShard));
+        return std::monostate{};
     }
 
   private:
+    using Indices = std::vector<std::size_t>;
+
+    // Moves `index` to the next place in C order among those from `begin` to `end` − 1 along each dimension. Returns
+    // false after the last place.
+    static bool advance(Indices& index, const Indices& begin, const Indices& end) {
+        for (std::size_t i = index.size(); i-- > 0;) {
+            if (++index[i] < end[i]) return true;
+            index[i] = begin[i];
+        }
+        return false;
+    }
+
     Result<std::monostate> readChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                                      float* to) {
         auto file = chunks_.contentsOf(index);

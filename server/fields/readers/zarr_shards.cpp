@@ -78,28 +78,27 @@ Result<ShardLayout> shardLayoutIn(const json& configuration, const std::vector<s
     return layout;
 }
 
-Result<std::span<const std::byte>> shardIndexIn(std::span<const std::byte> shard, const ShardLayout& layout) {
+FilePart partOfShardIndex(const ShardLayout& layout) {
+    const std::size_t size = layout.chunkCount() * kEntryBytes + (layout.hasChecksum ? kChecksumBytes : 0);
+    return {0, size, !layout.indexAtStart};
+}
+
+Result<std::span<const std::byte>> checkedShardIndex(std::span<const std::byte> stored, const ShardLayout& layout) {
+    if (stored.size() < partOfShardIndex(layout).size) return damagedShard("it is shorter than its index");
     const std::size_t size = layout.chunkCount() * kEntryBytes;
-    const std::size_t whole = size + (layout.hasChecksum ? kChecksumBytes : 0);
-    if (shard.size() < whole) return damagedShard("it is shorter than its index");
-    const std::span<const std::byte> stored = layout.indexAtStart ? shard.first(whole) : shard.last(whole);
     const std::span<const std::byte> index = stored.first(size);
     if (layout.hasChecksum && numberAt<std::uint32_t>(stored.data() + size, false) != checksumOf(index))
         return damagedShard("the checksum of its index is wrong");
     return index;
 }
 
-Result<std::optional<std::span<const std::byte>>> chunkInShard(std::span<const std::byte> shard,
-                                                               std::span<const std::byte> index,
-                                                               const ShardLayout& layout, std::size_t number) {
+std::optional<FilePart> chunkInShard(std::span<const std::byte> index, const ShardLayout& layout, std::size_t number) {
     constexpr std::uint64_t kMissing = std::numeric_limits<std::uint64_t>::max();
     const std::byte* const entry = index.data() + number * kEntryBytes;
     const auto offset = numberAt<std::uint64_t>(entry, layout.bigEndian);
     const auto size = numberAt<std::uint64_t>(entry + sizeof offset, layout.bigEndian);
-    if (offset == kMissing && size == kMissing) return std::optional<std::span<const std::byte>>();
-    if (offset > shard.size() || size > shard.size() - offset)
-        return damagedShard("its index states a place beyond its end");
-    return std::optional(shard.subspan(offset, size));
+    if (offset == kMissing && size == kMissing) return {};
+    return FilePart{offset, size};
 }
 
 }  // namespace oval4d::fields

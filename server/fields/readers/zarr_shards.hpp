@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "errors/error.hpp"
+#include "fields/readers/file_contents.hpp"
 
 namespace oval4d::fields {
 
@@ -28,15 +29,16 @@ struct ShardLayout {
 Result<ShardLayout> shardLayoutIn(const nlohmann::json& configuration, const std::vector<std::size_t>& shard,
                                   const std::vector<std::size_t>& chunk);
 
-/// Returns the index of a shard. `shard`: the bytes of the file, of which only those of the index are read. Error:
-/// `bad_field` if the file is too short, or if the checksum is wrong.
-Result<std::span<const std::byte>> shardIndexIn(std::span<const std::byte> shard, const ShardLayout& layout);
+/// Returns the part of a shard that contains its index and the checksum of the index.
+FilePart partOfShardIndex(const ShardLayout& layout);
 
-/// Returns the bytes of a chunk; an empty optional if the shard does not have it. `index` is that of the shard, and
-/// `number` the place of the chunk among the chunks of the shard, in C order. Error: `bad_field` if the index states a
-/// place beyond the file.
-Result<std::optional<std::span<const std::byte>>> chunkInShard(std::span<const std::byte> shard,
-                                                               std::span<const std::byte> index,
-                                                               const ShardLayout& layout, std::size_t number);
+/// Returns the index of a shard without its checksum. `stored`: the bytes of partOfShardIndex(). Error: `bad_field` if
+/// the file has fewer bytes, or if the checksum is wrong.
+Result<std::span<const std::byte>> checkedShardIndex(std::span<const std::byte> stored, const ShardLayout& layout);
+
+/// Returns the part of a shard that contains a chunk, as the index states it: it may lie beyond the end of the file.
+/// Returns an empty optional if the shard does not have the chunk. `index` is the result of checkedShardIndex(), and
+/// `number` the place of the chunk among the chunks of the shard, in C order.
+std::optional<FilePart> chunkInShard(std::span<const std::byte> index, const ShardLayout& layout, std::size_t number);
 
 }  // namespace oval4d::fields

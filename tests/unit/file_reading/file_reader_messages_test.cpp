@@ -61,6 +61,19 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     }
 }
 
+TEST(ReadingMessages, RequestsForFilesSurviveARoundTrip) {
+    std::string bytes;
+    encodeFindRequest({"c/0/1", {5, 7, true}}, bytes);
+    const auto [path, part] = decodeFindRequest(bytes);
+    EXPECT_EQ(path, "c/0/1");
+    EXPECT_EQ(part.offset, 5U);
+    EXPECT_EQ(part.size, 7U);
+    EXPECT_TRUE(part.fromEnd);
+    EXPECT_THROW((void)decodeFindRequest(std::string_view(bytes).substr(1)), std::runtime_error);
+    bytes.back() = 2;
+    EXPECT_THROW((void)decodeFindRequest(bytes), std::runtime_error);
+}
+
 TEST(ReadingMessages, PolytopesSurviveARoundTripExceptTheirSerial) {
     for (const char* name : {"5-cell", "24-cell", "120-cell", "runcinated tesseract", "{5/2,3,5}"}) {
         const auto sent = shared(name);

@@ -23,11 +23,12 @@ using Files = std::map<std::string, std::string>;  // the contents of each file 
 // Reads an array from the files. If `opened` is not null, adds to it the paths that are opened.
 Result<FieldArray> readFiles(const Files& files, const FieldReadOptions& options,
                              std::set<std::string>* opened = nullptr) {
-    const FolderFileReader folder = [&](const std::string& path) -> Result<std::optional<FileContents>> {
+    const FolderFileReader folder = [&](const std::string& path,
+                                        const FilePart& part) -> Result<std::optional<FileContents>> {
         if (opened != nullptr) opened->insert(path);
         const auto found = files.find(path);
         if (found == files.end()) return std::optional<FileContents>();
-        return std::optional(FileContents::copyOf(found->second));
+        return std::optional(FileContents::copyOf(found->second).cutTo(part));
     };
     return readZarr(folder, options);
 }
@@ -317,6 +318,29 @@ TEST(Zarr, ReadsChunksOfShards) {
         EXPECT_EQ(std::vector(ofPart.begin(), ofPart.end()), (std::vector<float>{4, 5, 14, 15}));
         EXPECT_TRUE(opened.contains("c/0/1") && !opened.contains("c/0/0") && !opened.contains("c/1/1"));
     }
+}
+
+TEST(Zarr, ReadsTheIndexOfAShardOnceAndOtherwiseOnlyItsChunks) {
+    const std::string shard =
+        shardOf({{0, chunkOf({0, 1})}, {1, chunkOf({2, 3})}, {2, chunkOf({10, 11})}, {3, chunkOf({12, 13})}}, false);
+    const Files files{{"zarr.json", shardedArray("end")}, {"c/0/0", shard}, {"c/0/1", shard}};
+    std::vector<std::string> read;  // the parts of the shards
+    const FolderFileReader folder = [&](const std::string& path,
+                                        const FilePart& part) -> Result<std::optional<FileContents>> {
+        if (path.starts_with('c'))
+            read.push_back(path + (part.fromEnd ? " end " : " " + std::to_string(part.offset) + ' ') +
+                           std::to_string(part.size));
+        const auto found = files.find(path);
+        if (found == files.end()) return std::optional<FileContents>();
+        return std::optional(FileContents::copyOf(found->second).cutTo(part));
+    };
+    const Box box{{0, 0, 0, 0}, {5, 2, 0, 0}}, region{{2, 0, 0, 0}, {5, 1, 0, 0}};
+    const auto field = readZarr(folder, {.box = box, .region = region});
+    ASSERT_TRUE(field) << field.error().message;
+    const auto samples = field->samples.values();
+    EXPECT_EQ(std::vector(samples.begin(), samples.end()), (std::vector<float>{2, 3, 0, 1, 12, 13, 10, 11}));
+    EXPECT_EQ(read, (std::vector<std::string>{"c/0/0 end 68", "c/0/0 8 8", "c/0/0 24 8", "c/0/1 end 68", "c/0/1 0 8",
+                                              "c/0/1 16 8"}));
 }
 
 TEST(Zarr, RefusesDamagedShards) {
