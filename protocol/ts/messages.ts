@@ -263,7 +263,7 @@ export interface LoadRequest {
      */
     name: string;
     /**
-     * The format of `data`: `"off"` is 4OFF, `"points"` and `"cloud"` are tables of points, and `"formula"` is a formula, which makes a field as the others do. Required with `data`.
+     * The format of `data`: `"off"` is 4OFF, `"points"` and `"cloud"` are tables of points, and `"formula"` is a formula, which makes a field as the others do. Required with `data`; with `path`, it may also be `"zarr"`.
      */
     format?: string;
     /**

@@ -372,7 +372,8 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
         return Error{ErrorCode::bad_polytope,
                      text::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }
-    const bool detected = load.isArrayInFiles() && load.format.empty();
+    constexpr std::string_view kZarr = "zarr";  // recognized by its files, whatever format is named
+    const bool detected = load.isArrayInFiles() && (load.format.empty() || load.format == kZarr);
     if (!detected && formatNamed(load.format) == nullptr) return unsupported(load.format);
     const bool array = detected || isArrayFormat(load.format);
     const auto refused = [&](const std::string& what) {

@@ -87,6 +87,15 @@ async def test_types_and_byte_orders(shared, version, type_):
     await compare(shared, shared.folder, name, values)
 
 
+async def test_the_format_may_be_named_with_a_path(shared):
+    zarr_files.write(shared.folder / "named", quadratic(SHAPE), CHUNK)
+    await compare(shared, shared.folder, "named", quadratic(SHAPE), format="zarr")
+    async with Client(shared) as client:
+        with pytest.raises(Refused) as refused:
+            await client.request("load", name="run", format="zarr", data="AAAA")
+    assert refused.value.code == "unsupported_format"
+
+
 @pytest.mark.parametrize("version", [2, 3])
 async def test_missing_chunks_have_the_fill_value(shared, version):
     values = quadratic(SHAPE)

@@ -850,7 +850,7 @@ class LoadRequest(_LoadRequest, total=False):
     # Chosen by the client; the answer or error has the same id.
     id: float
     # The format of `data`: `"off"` is 4OFF, `"points"` and `"cloud"` are tables of points, and `"formula"` is a
-    # formula, which makes a field as the others do. Required with `data`.
+    # formula, which makes a field as the others do. Required with `data`; with `path`, it may also be `"zarr"`.
     format: str
     # The text of the file, which is in Base64 if it is an array, or the formula. Absent with `path`.
     data: str
