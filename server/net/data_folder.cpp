@@ -1,6 +1,7 @@
 #include "net/data_folder.hpp"
 
 #include <fcntl.h>
+#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -11,11 +12,14 @@
 #include <system_error>
 #include <utility>
 
+#include <nlohmann/json.hpp>
+
 #include "fields/array/array_function.hpp"
 #include "fields/field.hpp"
 #include "fields/readers/field_reader.hpp"
 #include "fields/readers/zarr.hpp"
 #include "file_reading/folder_access.hpp"
+#include "net/stored_zarr_folder.hpp"
 #include "text/message_text.hpp"
 
 namespace oval4d::net {
@@ -152,8 +156,10 @@ Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings
 
 }  // namespace
 
-DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCacheFiles& fieldCacheFiles)
-    : folder_(folder.empty() ? fs::path() : fs::canonical(folder)),
+DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCacheFiles& fieldCacheFiles,
+                       const ObjectStoreLimits& storeLimits)
+    : folder_(folder.empty() || ObjectStore::isAddress(folder) ? fs::path() : fs::canonical(folder)),
+      store_(ObjectStore::isAddress(folder) ? std::make_unique<const ObjectStore>(folder, storeLimits) : nullptr),
       maxBytes_(bytes),
       fieldCacheFiles_(fieldCacheFiles) {
     std::error_code fault;
@@ -172,14 +178,31 @@ std::vector<std::string> DataFolder::names() const {
 }
 
 std::optional<std::vector<std::string>> DataFolder::knownNames() const {
-    if (folder_.empty()) return std::vector<std::string>();
+    if (folder_.empty() && !store_) return std::vector<std::string>();
     const std::lock_guard lock(namesMutex_);
     if (listed_ == Clock::time_point::min() || Clock::now() - listed_ >= kListedFor) return {};
     return names_;
 }
 
-std::vector<std::string> DataFolder::readNames() const {
+std::vector<std::string> DataFolder::namesInStore() const {
     std::vector<std::string> found;
+    const auto text = store_->get("index.json", {});  // an error is in the log
+    if (!text || !*text) return found;
+    const auto list = nlohmann::json::parse(**text, nullptr, false);
+    if (!list.is_array()) {
+        spdlog::warn("the object store lists no arrays: index.json is not a JSON array of strings");
+        return found;
+    }
+    for (const auto& each : list) {
+        if (!each.is_string()) continue;
+        auto name = each.get<std::string>();
+        if (isAllowedName(name)) found.push_back(std::move(name));
+    }
+    return found;
+}
+
+std::vector<std::string> DataFolder::readNames() const {
+    std::vector<std::string> found = store_ ? namesInStore() : std::vector<std::string>();
     std::error_code fault;
     for (fs::directory_iterator entry(folder_, fault), end; !fault && entry != end; entry.increment(fault)) {
         const std::string name = entry->path().filename().string();
@@ -203,8 +226,9 @@ std::vector<std::string> DataFolder::readNames() const {
 /// Opens the entry with this name: its file, its Zarr folder, or the files of its series.
 Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const {
     const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
-    if (folder_.empty()) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
+    if (folder_.empty() && !store_) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
     if (!isAllowedName(name)) return missing;
+    if (store_) return openInStore(name);
     const fields::FileHandle root(::open(folder_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY));
     auto file = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, 0));
     if (file->descriptor() < 0) return missing;
@@ -234,6 +258,18 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
         opened.version += version;
         opened.files.push_back(std::move(file));
     }
+    return opened;
+}
+
+Result<DataFolder::OpenedEntry> DataFolder::openInStore(const std::string& name) const {
+    auto folder = StoredZarrFolder::open(*store_, name);
+    if (!folder) return folder.error();
+    if (!*folder)
+        return Error{ErrorCode::not_found,
+                     "the object store of --data has no Zarr array or group " + text::inQuotes(name)};
+    OpenedEntry opened;
+    opened.version = (*folder)->version();
+    opened.folder = std::move(*folder);
     return opened;
 }
 

@@ -175,7 +175,7 @@ Server::Server(ServerOptions options, parallel::ForkJoin& forkJoin, process::Pro
                 [this](const process::ProcessLoss& loss) { onReaderLost(loss); }, childEnvironment_,
                 static_cast<std::size_t>(options_.loadWorkers)}),
       polytopes_(options_.polytopeCache),
-      data_(options_.data, options_.dataCache, fieldCacheFiles_),
+      data_(options_.data, options_.dataCache, fieldCacheFiles_, options_.dataStore),
       critical_(options_.criticalCache),
       pictureWorkers_(
           {.threads = workers_,

@@ -108,13 +108,21 @@ void addStore(CLI::App& app, ServerOptions& options) {
 void addData(CLI::App& app, ServerOptions& options) {
     add(app, "--data", options.data,
         "Folder of arrays (" + text::commaSeparated(session::arrayFormatNames()) +
-            ", zarr) that all clients may open; a folder in it is a series with one moment in each file");
+            ", zarr) that all clients may open; a folder in it is a series with one moment in each file. Or the "
+            "address, http://… or https://…, of an object store with Zarr arrays, of which only the needed chunks are "
+            "read");
     addBytes(app, "--data-cache", options.dataCache,
              "Memory for fields from the data folder, which sessions share; beyond it, those unused for the longest "
              "time are dropped, and a client must wait if sessions use all of it");
     addBytes(app, "--field-cache", options.fieldCache,
              "Disk space for fields from the data folder that are larger than --max-field-bytes and must be converted; "
              "beyond it, those unused for the longest time are dropped");
+    addSeconds(app, "--data-connect-timeout", options.dataStore.connectTimeout,
+               "Maximum time to connect to the object store of --data");
+    addSeconds(app, "--data-timeout", options.dataStore.timeout,
+               "Maximum time of one request to the object store of --data, including the connection");
+    addBytes(app, "--max-data-object", options.dataStore.objectBytes,
+             "Maximum size of an object, or of a part of one, that is read from the object store of --data");
     add(app, "--field-cache-folder", options.fieldCacheFolder,
         "Folder for these fields, on a disk; if empty, /var/tmp is used");
 }

@@ -9,6 +9,7 @@
 
 #include "export/export.hpp"
 #include "net/clients.hpp"
+#include "net/object_store.hpp"
 #include "parallel/fair_queue.hpp"
 #include "pipeline/frame_limits.hpp"
 #include "pipeline/pipeline.hpp"
@@ -61,7 +62,9 @@ struct ServerOptions {
     std::string store = "memory";                   ///< location of the sessions: see store::StoreOptions::url
     std::size_t storeQuota = store::kDefaultQuota;  ///< maximum total bytes of the sessions in a file or in memory
     std::size_t keptUndo = 100;                     ///< maximum number of undo steps stored with a session
-    std::string data;                               ///< folder of arrays that clients may open; empty: none
+    std::string data;                               ///< folder of arrays that clients may open, or address of an
+                                                    ///< object store with them; empty: none
+    ObjectStoreLimits dataStore;                    ///< limits on requests to this object store
     std::size_t dataCache = 1024U << 20U;           ///< maximum total memory of the fields from this folder
     std::string fieldCacheFolder;  ///< folder of the field cache (see FieldCacheFiles); empty: /var/tmp
     std::size_t fieldCache = std::size_t{16} << 30U;  ///< maximum total size of the files in the field cache

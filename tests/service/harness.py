@@ -27,8 +27,8 @@ DEADLINE = int(Path(__file__).parents[1].joinpath("hang_limit_seconds").read_tex
 # The server's own limits on the duration of anything. A test whose subject is one of them sets it, and no other test
 # depends on them, however slow the machine is.
 LONG_TIME = 10 * DEADLINE
-LONG_TIMES = {name: LONG_TIME for name in ("--draw-timeout", "--hello-timeout", "--idle-timeout", "--load-timeout",
-                                           "--max-file-time", "--write-timeout")}
+LONG_TIMES = {name: LONG_TIME for name in ("--data-connect-timeout", "--data-timeout", "--draw-timeout", "--hello-timeout",
+                                           "--idle-timeout", "--load-timeout", "--max-file-time", "--write-timeout")}
 # A client may be silent for twice this time. During a long command, the server reads nothing for half of this time, and
 # the Python client gives up if a ping of its own has no answer after 40 s.
 LONG_TIMES["--ping-interval"] = DEADLINE / 2

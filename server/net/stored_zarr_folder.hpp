@@ -1,0 +1,39 @@
+#pragma once
+// A Zarr folder in an object store.
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "errors/error.hpp"
+#include "fields/readers/folder_files.hpp"
+#include "net/object_store.hpp"
+
+namespace oval4d::net {
+
+/// A Zarr folder in an object store. Keeps its own metadata files, which are read first, so that all of a field is read
+/// with the same ones.
+class StoredZarrFolder final : public fields::FolderFiles {
+  public:
+    /// Reads the metadata of the folder called `name`. Returns null if there is no such Zarr folder. Errors: those of
+    /// ObjectStore::get(). `store` must outlive the folder.
+    static Result<std::shared_ptr<const StoredZarrFolder>> open(const ObjectStore& store, const std::string& name);
+
+    Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& part,
+                                                  std::chrono::steady_clock::time_point until,
+                                                  const std::stop_token& stop) const override;
+    /// Returns a string that depends on the metadata that open() has read.
+    std::string version() const override;
+
+  private:
+    StoredZarrFolder(const ObjectStore& store, const std::string& name) : store_(store), prefix_(name + '/') {}
+
+    const ObjectStore& store_;
+    const std::string prefix_;
+    std::map<std::string, std::optional<std::string>> metadata_;  // by path; empty optionals for missing files
+};
+
+}  // namespace oval4d::net
