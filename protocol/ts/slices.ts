@@ -150,7 +150,9 @@ export interface Fog {
 export interface SurfaceLevel {
     /** The index of the level in the `levels` of the state. */
     level: number;
+    /** 0xRRGGBB. */
     color: number;
+    /** From 0 to 1. */
     opacity: number;
     /** Whether the caps of the level are drawn. */
     caps: boolean;
@@ -206,7 +208,7 @@ export interface Slice extends Elements {
     label: string;
     /** The label is centered below this world position. */
     label_at: Vector;
-    /** The font size of the label, as a fraction of the scene's `text`. */
+    /** The font size of the label, as a multiple of SceneDescription.text; may be larger than 1. */
     label_size: number;
     /** Whether the slice is the focus slice. */
     focus: boolean;
@@ -262,7 +264,7 @@ export interface ObjectProjection {
 
 /** A line along which a field has the value of a level. A closed line ends at its first point. */
 export interface Contour {
-    /** The index of the level in the `levels` of the state; its color is in scene.surfaces. */
+    /** An index into the `levels` of the state. The entry of scene.surfaces with this `level` has the line's color. */
     level: number;
     /** The points' coordinates along the two axes of the section, in the object's units. */
     points: [number, number][];
@@ -272,7 +274,7 @@ export interface Contour {
 export interface PlanarSection {
     /** 0 to 3 for x, y, z, w; the smaller number is first. */
     axes: [number, number];
-    /** The points' coordinates along the two axes, in the polytope's units. */
+    /** The points' coordinates along the two axes, in the object's units. */
     points: [number, number][];
     /** Two indices of points for each edge. */
     edges: [number, number][];

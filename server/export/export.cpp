@@ -39,7 +39,9 @@ constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;
 
-// Returns an upper bound of the coordinates in the file.
+// Returns an upper bound of the absolute coordinates in the file, in millimeters, from which RoundingGrid chooses its
+// step. A file without an oval shows one object or slice, whose diameter is about `size`; the bound 2 · size leaves
+// room for balls, bars, a separate label, and the place of the body on a printer's plate.
 double extentOf(const ExportRequest& request, int slices) {
     return request.contents == ExportContentsKind::oval ? coordinateBound(slices, request.size) : 2 * request.size;
 }

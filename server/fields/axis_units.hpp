@@ -32,7 +32,7 @@ struct CommonCoordinate {
     double scale = 1;   ///< by how much the coordinate grows if w grows by 1
 
     double at(double w) const { return center + scale * w; }
-    /// Returns whether the coordinate is w itself, which is then not scaled, moved or rotated.
+    /// Returns whether this is the coordinate along the axis w of the box and equals the w of the picture: at(w) = w.
     bool isW() const;
 };
 /// Returns the coordinate that all points of a slice have in common after the field has been rotated by `orientation`;

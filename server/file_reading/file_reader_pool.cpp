@@ -140,7 +140,8 @@ class FileReadConversation {
         return mapped;
     }
 
-    // The body of the newest message from the process; after run(), the body of the `outcome` message.
+    // The body of the last message that run() received. If run() has returned TransferResult::complete and `refused` is
+    // empty, this was the `outcome` message.
     std::string outcome;
     std::optional<Error> refused;  // why a new file or a file of the folder was refused; empty if none was
 

@@ -11,13 +11,15 @@
 
 namespace oval4d::process {
 
-/// The types of messages; the comment on each describes the body. A child process first sends `ready` or `failed`. A
-/// rasterizer process replies to `draw` with `drawn` or `failed`. If the process lacks the object to draw, it first
-/// sends `object_missing`; the server replies with a `file_descriptor` for each mapped file to which the object refers,
-/// followed by `object`. After `file`, the server sends a `file_descriptor` for each file of the series, if a series is
-/// to be read. A file reader process replies to `file` with `outcome`. Before that, it may send `new_file` and
-/// `find_file`; the server replies to each with `file_descriptor`, which carries no file descriptor if there is no such
-/// file, or to `find_file` with `file_bytes`, if the file cannot be opened where it is.
+/// The types of messages; the comment on each describes the body. A child process starts with `ready`, or with `failed`
+/// if it cannot work. Then the server sends requests, one at a time:
+/// - To a rasterizer process, the server sends `draw`; the process answers `drawn` or `failed`. If the process does not
+///   have the object to draw, it sends `object_missing` before that, and the server sends a `file_descriptor` for each
+///   mapped file to which the object refers, then `object`.
+/// - To a file reader process, the server sends `file` and, to read a series, a `file_descriptor` for each file of the
+///   series; the process answers `outcome`. Before that, the process may ask for files with `new_file` and `find_file`.
+///   The server answers each with `file_descriptor`, which carries no file descriptor if there is no such file, or
+///   `find_file` with `file_bytes`, if the file cannot be opened where it is.
 enum class MessageType : std::uint32_t {
     ready,            ///< empty
     draw,             ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw into

@@ -174,8 +174,9 @@ void Renderer::Impl::prepareProjection(const scene::Scene& scene) {
     projectionSurfaces.prepare(scene, SurfaceBatch::Selection::projection);
 }
 
-// Adds the projection of the whole object, which must have been prepared, to the rasterizer. What is added later must
-// not be hidden by its depths.
+// Adds the projection of the whole object, which must have been prepared, to the rasterizer. So that the projection
+// never hides a slice, what is added later must not be tested against its depths: the caller adds a clearing of the
+// depth buffer first, or uses DepthUse::unused.
 void Renderer::Impl::addProjection() {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
@@ -188,8 +189,9 @@ void Renderer::Impl::addProjection() {
     shapeRasterizer.add(own.rasterizer, own.translucent(), Blending::alpha);
 }
 
-// Draws the projection of the whole object with OpenGL, if it is shown. Afterward, its depths are in the depth buffer;
-// slices must not be tested against them.
+// Draws the projection of the whole object with OpenGL, if it is shown. Leaves the depths of the projection in the
+// depth buffer. So that the projection never hides a slice, the caller must clear them before it draws slices with the
+// depth test.
 void Renderer::Impl::drawProjection(const scene::Scene& scene) {
     if (!scene.projectionPlacement.shown) return;
     projectionCollector.collect(scene, projectionLayers);

@@ -73,8 +73,9 @@ double translucent(double own, const Look& look) {
 
 }  // namespace
 
-// Sets the title, the circumradius, the look and the viewport of `out`. Sets objectChanged_ if `object` is not the
-// object of the last call.
+// Sets the title, the circumradius, the look and the viewport of `out`. If `object` is not the object of the last call,
+// sets objectChanged_, which stays set until compose() reads it, because layOutAndChooseDetail() may get a new object
+// before compose() does.
 void Composer::setObjectLookAndViewport(const Object& object, const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     objectChanged_ = objectChanged_ || object_ != info.serial;

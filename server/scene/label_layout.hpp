@@ -81,15 +81,19 @@ class LabelLayout {
     // slice. `scale`: as in overhang().
     Box labelBoxInInitialView(std::size_t i, double scale) const;
 
-    // Returns the place on the screen of a point in view coordinates, in viewport heights from the lower left corner.
+    // Returns the place in the picture of a point in view coordinates, in viewport heights from the lower left corner.
+    // `aspect`: the width of the picture, in viewport heights.
     static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);
 
-    // Returns whether the box of label i overlaps a slice other than slice i.
+    // Returns whether the box of label i overlaps a slice other than slice i. `box`: the result of boxSeenBy() for this
+    // label. `toView`: as in boxSeenBy(). `aspect`: the width of the picture, in viewport heights.
     bool overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
                             double aspect) const;
 
-    // Returns the box of the label of `placement` as `camera` sees it, in viewport heights from the lower left corner
-    // of the picture. The box of the focus slice's label includes the name of the section. `toView` is camera.view().
+    // Returns the box that the label of `placement` takes up in the picture that `camera` takes, in viewport heights
+    // from the lower left corner of the picture. The box of the focus slice's label includes the name of the section.
+    // `toView` is camera.view(), which the caller computes once for all labels. `aspect`: the width of the picture, in
+    // viewport heights.
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
 
     // Returns the smallest k such that, before the viewer moves the camera, no two labels overlap if only every k-th

@@ -117,7 +117,7 @@ struct SectionMatrixLayout {
 /// The layout of a whole picture.
 struct PictureLayout {
     Camera camera;
-    double sliceRadius = 1;  ///< the radius of the object's circumscribed sphere in slices, in world units
+    double sliceRadius = 1;                ///< the object's circumradius at the scale of the slices, in world units
     double ballRadius = 0, barRadius = 0;  ///< of the balls and bars of slices, in world units
     std::vector<SlicePlacement> placements;
     ProjectionPlacement projectionPlacement;

@@ -15,18 +15,18 @@
 
 namespace oval4d::slicing {
 
-/// Slices fields: cuts the domain like a polytope, and in each slice extracts the surfaces and samples the fog. Reuses
-/// its memory. Only one thread at a time may use a slicer.
+/// Slices fields: cuts the domain, the box on which the field is defined, like a polytope, and in each slice extracts
+/// the surfaces and samples the fog. Reuses its memory. Only one thread at a time may use a slicer.
 class FieldSlicer {
   public:
     /// If `forkJoin` is not null, processes slices on two cores. `forkJoin` must outlive this object.
     explicit FieldSlicer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), domains_(forkJoin) {}
 
-    /// Slices `field` rotated by `orientation`. The vertices, edges and faces of `out` are those of the slices of the
-    /// domain. `detail.steps` and `detail.fogSteps` must each have one entry per slice, or be empty. If `detail.steps`
-    /// is empty, no surfaces are extracted; if `detail.fogSteps` or `settings.fog` is empty, no fog is sampled.
-    /// Overwrites `out` and reuses its memory. Throws std::runtime_error if the samples are in a file that can no
-    /// longer be read.
+    /// Slices `field` rotated by `orientation`. `out` gets the vertices, edges and faces of the slices of field.domain
+    /// and, for each slice, its surfaces and fog. `detail.steps` and `detail.fogSteps` must each have one entry per
+    /// slice, or be empty. If `detail.steps` is empty, no surfaces are extracted; if `detail.fogSteps` or
+    /// `settings.fog` is empty, no fog is sampled. Overwrites `out` and reuses its memory. Throws std::runtime_error if
+    /// the samples are in a file that can no longer be read.
     void slice(const fields::Field& field, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
 

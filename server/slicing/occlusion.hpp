@@ -14,8 +14,8 @@
 
 namespace oval4d::slicing {
 
-/// The elements of a cell complex that are drawn: whether each vertex, edge and 2-face is. Whatever bounds an element
-/// that is drawn is drawn, too.
+/// Which elements of a cell complex are drawn: an entry for each vertex, edge and 2-face, true if it is drawn. The
+/// edges and vertices of a drawn 2-face and the ends of a drawn edge are drawn, too.
 struct DrawnElements {
     std::vector<bool> vertices, edges, faces;
 };
@@ -52,8 +52,9 @@ class OcclusionFinder {
     using Occluder = ProjectedCells::Occluder;
     using Triangle = ProjectedCells::Triangle;
 
-    // A 2-face at which cells may begin or cease to hide what is below: its two cells do not lie, in the projection, on
-    // its two sides.
+    // A 2-face at which cells may begin or cease to hide what is behind them. In the projection, its two cells are not
+    // known to lie on opposite sides of it. `box` contains its projection, and `top` is the largest fourth coordinate
+    // of its vertices.
     struct ContourFace {
         std::uint32_t face;
         Box box;

@@ -48,7 +48,9 @@ constexpr SurfaceLimits surfaceLimits(Quality quality) {
 /// takes one byte in a message, and two bytes of texture memory in a rendered picture.
 constexpr std::size_t maxFogSamples(Quality quality) { return quality == Quality::draft ? 250'000 : 2'000'000; }
 
-/// Returns the width of a lattice cube in a rendered picture, in pixels.
+/// Returns the intended width, in pixels, of a lattice cube of the surfaces (see SurfaceDetail::steps) and of a lattice
+/// square of the contours in a rendered picture. A draft has wider cubes, so that it takes less time. Messages and
+/// files use cubesAcross() instead.
 constexpr double pixelsPerCube(Quality quality) { return quality == Quality::full ? 3 : 4.5; }
 
 /// Returns the number of lattice cubes across the diameter of a field's circumscribed sphere, for messages and files.

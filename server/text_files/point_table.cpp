@@ -57,7 +57,7 @@ void removeUnits(std::vector<std::string_view>& names) {
 }
 
 // Returns the layout of a table whose columns have these names; an empty optional if fewer than two of them are names
-// of coordinates.
+// of coordinates. If no column is called w, a column called t or time is w.
 std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
     ColumnLayout layout;
     layout.count = names.size();
@@ -175,9 +175,11 @@ class PointReader {
         return true;
     }
 
-    // Uses as the header the last of the comments that name every column of the first row. If there is no such comment,
-    // warns of the first comment that names the coordinates in another order than x, y, z, w. `row_` must be the first
-    // row.
+    // Looks for a header in the comments above the first row, which must be in `row_`. A comment is a header if it
+    // names x, y, z and w and has as many names as the row has columns. A row that ends with a separator may have fewer
+    // columns than names; a row without the radius, one column fewer. Of several headers, uses the last one, which is
+    // the closest to the row. If there is none, the columns are read in the order x, y, z, w; then warns of the first
+    // comment that names them in another order, because it was not used.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
         const auto fits = [&](const ColumnLayout& layout) {
@@ -210,7 +212,8 @@ class PointReader {
         if (!layout_.otherColumns.empty()) warnings_.push_back("these columns were left out: " + layout_.otherColumns);
     }
 
-    // Returns whether a column, counted from 0, contains a coordinate or the radius, so that its content matters.
+    // Returns whether the content of a column, counted from 0, matters: whether it is a coordinate or the radius or, if
+    // there is no header, in any case.
     bool isRead(std::size_t column) const {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }

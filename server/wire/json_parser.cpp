@@ -157,7 +157,9 @@ std::string withNulls(std::string_view text) {
     return out;
 }
 
-// Returns the code unit of an escape such as "\\ud83d" at the start of the text; 0 if there is none.
+// Returns the UTF-16 code unit of the escape at the start of the text, which has six characters: a backslash, u and
+// four hexadecimal digits (RFC 8259, section 7). Returns 0 if the text does not begin with such an escape. The escape
+// of U+0000 also gives 0, which does not matter to callers that look for surrogates.
 unsigned escapedUnit(std::string_view text) {
     constexpr std::size_t kLength = 6;
     unsigned unit = 0;

@@ -5,11 +5,14 @@ import type { At, State } from "@oval4d/protocol";
 /** A point of a field: its coordinates in the box, and the values of the functions there. */
 export type FieldPoint = Pick<At, "place" | "value" | "second_value">;
 
-/** A point on the surface of a level of a field, on a cap, or on a contour. */
+/**
+ * A point of the picture on the surface or a contour of a level, or on a cap: the flat part that closes the body of the
+ * level where the boundary of the box cuts it.
+ */
 export interface LevelDescription {
     /** The index of the level in the `levels` of the state. */
     level: number;
-    /** Whether the point is on a cap, inside the body of the level. */
+    /** Whether the point is on a cap, where the value lies inside the body of the level and is not the level itself. */
     cap: boolean;
     /** The w of the slice in which the point is; undefined in the projection and in the matrix. */
     sliceW?: number | undefined;

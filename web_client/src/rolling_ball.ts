@@ -40,8 +40,9 @@ export function turnsOfTwist(ball: BallKind, angle: number): AnglesByPlane {
 }
 
 /**
- * The angles for a gamepad of the standard layout, whose sticks and buttons are held as now for `seconds` seconds. The
- * left stick rolls the 4-D ball and the right stick the 3-D ball; the triggers turn in zw, and the bumpers in xy.
+ * The angles by which a gamepad of the standard layout turns the object in `seconds` seconds, during which its sticks
+ * and buttons stay as they are. The left stick rolls the 4-D ball and the right stick the 3-D ball; the triggers turn
+ * in zw, and the bumpers in xy. A stick, trigger or bumper at its end turns at the rate kStickRate.
  */
 export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): AnglesByPlane {
     const rate = (value = 0): number => (Math.abs(value) < kStickDeadZone ? 0 : value * kStickRate * seconds);

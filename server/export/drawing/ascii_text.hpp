@@ -5,8 +5,9 @@
 
 namespace oval4d::exports {
 
-/// Returns UTF-8 text in ASCII, of which the texts in a Drawing consist: signs that units contain become words or signs
-/// of ASCII, such as "um" for "µm", "degC" for "°C" and "m^-3" for "m⁻³"; "?" replaces every other character.
+/// Converts UTF-8 text to ASCII, because the texts in a Drawing are ASCII. Replaces the signs that units contain by
+/// words or ASCII signs: "µm" becomes "um", "°C" becomes "degC", and "m⁻³" becomes "m^-3". Replaces every other
+/// character that is not ASCII by "?".
 std::string asciiText(std::string_view text);
 
 }  // namespace oval4d::exports

@@ -137,8 +137,10 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the color of a lit face: `color` under the light of pictures. `area` is any vector normal to the face,
-    /// in view space.
+    /// Returns the color of a face whose own color is `color`, with the diffuse lighting of scene::Style but no
+    /// specular light: each channel is multiplied by ambient + diffuse · |n · l|, for the unit normal n and the
+    /// direction l to the light, and is at most 255. Both sides of the face are lit. `area` is a normal of the face in
+    /// view space, of any length; 0 if the face has no area, which is lit by the ambient light alone.
     scene::Color lit(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;

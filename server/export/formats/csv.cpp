@@ -52,8 +52,9 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
 }
 
-// Returns a text as a cell of a table. Spreadsheets take a text that begins with certain signs for a formula, which an
-// apostrophe before it prevents.
+// Returns a text as a cell of a table: in quotation marks, with those inside doubled (RFC 4180, section 2). A
+// spreadsheet takes a text that begins with =, +, - or @ for a formula; therefore this function puts an apostrophe
+// before such a text.
 std::string csvText(const std::string& text) {
     std::string cell = "\"";
     if (text.find_first_of("=+-@") == 0) cell += '\'';

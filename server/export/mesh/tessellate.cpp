@@ -13,13 +13,14 @@ namespace {
 // passes pointers to elements of `corners` to the callback `vertex`: the pointers that tessellate() gave to it, and
 // those that the callback `combine` made where contours cross.
 struct TessellatorData {
-    // Each corner has its position and its index; corners made by `combine` have the index 0xffffffff. The container is
-    // a deque, because pointers to its elements remain valid when elements are appended.
+    // The position (x, y, 0) of each corner, and its index: the position in the order in which tessellate() passes the
+    // corners of all contours to GLU, or 0xffffffff if `combine` made it. The container is a deque, because the
+    // tessellator keeps pointers to its elements, and these remain valid when elements are appended.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
-    std::vector<std::uint32_t> out;
-    std::vector<Contour> contours;
-    bool crossed = false;
-    bool failed = false;
+    std::vector<std::uint32_t> out;  // the indices of the corners of the output; three for each triangle
+    std::vector<Contour> contours;   // the polygons of the output: the outline, if it was asked for
+    bool crossed = false;            // whether contours cross, so that `combine` made a corner
+    bool failed = false;             // whether GLU reported an error
 };
 
 using TessellatorCorner = decltype(TessellatorData::corners)::value_type;

@@ -54,11 +54,13 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     /// called before a client is added.
     void whenMoved(std::function<void()> moved) { moved_ = std::move(moved); }
 
-    /// Adds a client, or changes its stream if it was added before.
+    /// Adds a client, which is sent pictures of the kind `key` from now on; only states if key.stream is `none`. If the
+    /// client was added before, replaces the kind of its pictures.
     void add(const std::shared_ptr<Peer>& peer, const StreamKey& key);
     void remove(const Peer* peer) { subscribers_.erase(peer); }
     bool hasClients() const { return !subscribers_.empty(); }
-    /// Returns the stream of a client; null if it was not added. The pointer is valid until the next add() or remove().
+    /// Returns the kind of pictures that a client is sent; null if it was not added. The pointer is valid until the
+    /// next add() or remove().
     const StreamKey* streamOf(const Peer& peer) const;
     /// Returns the job queues of a client in this session. All connections of a client to a session share these job
     /// queues, so that a client with several connections gets no larger share of the workers.
@@ -85,8 +87,9 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     SnapshotPtr currentState();
     /// Returns a job for a worker. The job names the section of what is now the current state, and returns this state.
     std::function<SnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
-    /// Makes currentState() return `state`, the result of a currentStateJob(). If the session has changed since the job
-    /// was created, does nothing and returns false.
+    /// Keeps `state`, the result of a currentStateJob(), so that currentState() returns it, and keeps its named
+    /// section, so that the section need not be named again. If the session has changed since the job was created, does
+    /// nothing and returns false.
     bool keepIfCurrent(const SnapshotPtr& state);
 
     /// Returns the section that was named last, which need not be that of the current state; empty if none was.

@@ -175,7 +175,8 @@ void readLists(Tokenizer& file, RecordLayout layout, std::uint32_t records, std:
     }
 }
 
-// The layouts of vertices, 2-faces and cells.
+// The layouts of the records of vertices, of 2-faces and of cells, in this order. They may differ: readOff4() tries
+// several combinations.
 using RecordLayouts = std::array<RecordLayout, 3>;
 
 // Reads the records after the header. `file` is a copy, which begins after the header.

@@ -62,8 +62,8 @@ class SectionPainter {
     }
 
   private:
-    // Draws the unit of an axis below the name of the axis, unless the unit is wider than a panel. `name`: the middle
-    // of the baseline of the name.
+    // Draws the unit of an axis below the name of the axis, unless the unit is unknown or wider than a panel. `name`:
+    // the middle of the baseline of the name, in pixels.
     void paintUnit(const std::string& unit, const glm::vec2& name, Color color) const {
         const int size = static_cast<int>(std::lround(kUnitHeight * scene_.matrix.panel * height_));
         if (unit.empty() || size < 1) return;
@@ -72,6 +72,8 @@ class SectionPainter {
         overlay_.text(name.x, name.y - 1.8F * digits, size, unit, color);
     }
 
+    // Returns the pixel that shows a point of a section in the current panel. `p` has the coordinates of the point
+    // along the first and the second axis of the section, in the units of the object.
     glm::vec2 pixelOf(const glm::dvec2& p) const {
         return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
     }
@@ -84,7 +86,10 @@ class SectionPainter {
                 static_cast<float>(std::round(center_.x + half)), static_cast<float>(std::round(center_.y + half))};
     }
 
-    // Draws the lines in which the plane of the panel meets the planes of the other panels in this row and this column.
+    // Draws the two lines through the focus point, each with the color of the axis to which it is parallel; leaves out
+    // a line outside the panel. The planes of all panels contain the focus point. The planes of the panels in one row
+    // are all parallel to the axis of the row, so they meet in the line through the focus point along this axis: the
+    // vertical line of the panel. The horizontal line is likewise common to the planes of the panels in one column.
     void paintFocusLines(int row, int column) const {
         const glm::dvec4& point = scene_.sectionMatrix.point;
         const glm::vec2 at = center_ + pixelsPerUnit_ * glm::dvec2(point[column], point[row]);
@@ -150,7 +155,8 @@ class SectionPainter {
     std::vector<glm::vec2> points_, polygon_;
 };
 
-// Adds the focus point in the focus slice: a line along each of the axes x, y and z through it.
+// Marks the focus point in the focus slice by the lines through it along the axes x, y and z. Leaves out a line with an
+// end behind the eye.
 void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));

@@ -376,7 +376,8 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
 }
 
-// Draws a triangle, or a quad that is almost a parallelogram, of a shape other than a face.
+// Draws a patch of any form but Form::face that has three corners, or four that deviate from a parallelogram by at most
+// kMaxSkew pixels, so that ShapeVertex::place and the nearness can be taken as linear in the picture.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
                           Form form, DepthUse depth, float pixelSize) {
     // The gradient of a quantity is computed from its differences along the diagonals of the quad. A triangle is

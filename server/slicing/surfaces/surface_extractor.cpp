@@ -505,8 +505,9 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& c
     return true;
 }
 
-// Appends the points of a cube through which the boundary of the domain or of a hole may pass, and notes in `cube.cap`
-// where the surface is a cap.
+// Appends the points of a cube through which a wall or the boundary of a hole (where the function has no value) may
+// pass: for each patch (see CubeCase), the mean of the places where its edges leave the body, with the union of their
+// constraint masks. Notes in `cube.cap` at which of the edges from corner 0 the surface is a cap.
 void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
                                           glm::ivec3 place, CrossedCube& cube) {
     std::array<CubeCorner, 8> corners{};
@@ -579,7 +580,7 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
     return {inner.position + first * way, constraint};
 }
 
-// Moves each point of the current level onto the level set and the walls in its constraint mask (see constraints_), and
+// Moves each point of the current level onto the level set and the walls in its constraint mask (see kWalls), and
 // appends the points to `out`. The points of a batch make all their steps before those of the next batch, because the
 // samples of an array that one step reads are then still in the cache when the next step reads them again.
 void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section,
@@ -632,8 +633,10 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
     }
 }
 
-// Makes one step of Newton's method for the points `moving_`, of which there are at most FunctionPoints::kCapacity,
-// toward the level set and the walls in their constraint masks. Overwrites `at`.
+// Makes one step of Newton's method for each of the points `moving_`, of which there are at most
+// FunctionPoints::kCapacity, toward the level set f = level_ and the walls in its constraint mask (see kWalls). With
+// the gradient g of f in the slice, the step of a point that need not lie on a wall is −(f − level_) g / |g|².
+// Overwrites `at`.
 void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section,
                                      Evaluation& at) {
     if (moving_.empty()) return;
@@ -655,7 +658,10 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
     }
 }
 
-// Returns the step that moves a point onto the walls in its constraint mask.
+// Returns a step for a point of the surface with one condition for each wall on which the point must lie: the walls in
+// its constraint mask (see kWalls). The condition for a wall is that the signed distance from it, normal · p − offset,
+// becomes 0. The caller may add the condition for the level set; ConstrainedStep::solve() then gives the shortest step
+// that satisfies all conditions.
 ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
     ConstrainedStep step;
     for (unsigned rest = constraints_[point] & kWalls; rest != 0; rest &= rest - 1) {

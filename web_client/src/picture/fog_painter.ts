@@ -103,10 +103,12 @@ const kUniforms = [
 const kSamplers = ["lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const;
 
 const kBlock = 4; // cells of a lattice along each side of a block
-// The least fraction of light that a layer of fog lets through if it is as thick as the circumradius.
+// The least fraction of light that a layer of fog as thick as the circumradius lets through. Opaque fog (alpha 255)
+// lets through this fraction, too, so that its absorption is finite.
 const kClearest = 1e-4;
+/** The coordinates x, y, z of corner i of a box that extends from 0 to 1: the bits 0, 1 and 2 of i. */
 const kCorners = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [i & 1, (i >> 1) & 1, i >> 2]);
-/** The triangles of a box as indices of its corners, counterclockwise from outside. */
+/** The 12 triangles of a box, as three indices of corners each, counterclockwise as seen from outside. */
 const kTriangles = [
     ...[0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4],
     ...[2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6],
@@ -287,7 +289,12 @@ function makeTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
 }
 
-/** For each value of the fog: red, green and blue from 0 to 1, and the absorption per circumradius. */
+/**
+ * The four channels of each texel of the table, one texel for each value of the fog: red, green and blue from 0 to 1,
+ * and the absorption coefficient a per circumradius. A layer with the thickness d, in circumradii, lets through
+ * exp(−a·d) of the light. `table` has colors 0xAARRGGBB; AA / 255 is the opacity of a layer as thick as the
+ * circumradius.
+ */
 function colorTexelsOf(table: ArrayLike<number>): Float32Array {
     const looks = new Float32Array(4 * table.length);
     for (let i = 0; i < table.length; ++i) {
