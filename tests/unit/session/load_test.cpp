@@ -15,7 +15,6 @@
 #include "geometry/point_cloud.hpp"
 #include "geometry/surface_mesh.hpp"
 #include "polytopes/catalogue/catalogue.hpp"
-#include "session/example_fields.hpp"
 #include "session/load.hpp"
 #include "session/object_loader.hpp"
 #include "text/message_text.hpp"
@@ -270,68 +269,6 @@ TEST(Load, ASecondFunctionColorsTheSurfaces) {
     const auto moments = checkLoad(load, {});
     ASSERT_TRUE(moments);
     EXPECT_NE(moments->message.find("moments have no formula of values"), std::string::npos) << moments->message;
-}
-
-Set objectNamed(const std::string& name) {
-    Set set;
-    set.object = name;
-    return set;
-}
-
-Set formulaNamed(const std::string& name, const std::string& formula) {
-    Set set = objectNamed(name);
-    set.formula = LoadObject{name, std::string(kFormula), formula};
-    set.formula->box = fields::Box{glm::dvec4(-1), glm::dvec4(1)};
-    return set;
-}
-
-TEST(Formulas, OfASettingAreLoaded) {
-    Session session;
-    Set set = formulaNamed("mine", "x^2 + y^2 + z^2 + w^2");
-    set.levels = std::vector<double>{0.25};
-    must(session, set);
-    EXPECT_EQ(infoOf(session.current).name, "mine");
-    EXPECT_EQ(session.current.look.field.levels, std::vector<double>{0.25});
-    ASSERT_TRUE(session.loaded.contains("mine"));
-    const slicing::Object first = session.current.object;
-
-    must(session, set);
-    EXPECT_TRUE(session.current.object == first) << "the same formula is not loaded again";
-    must(session, Undo{});
-    EXPECT_EQ(infoOf(session.current).name, "5-cell");
-    must(session, objectNamed("mine"));
-    EXPECT_TRUE(session.current.object == first);
-
-    must(session, formulaNamed("mine", "x + y"));
-    EXPECT_EQ(slicing::fieldIn(session.current.object)->formula, "x + y");
-    EXPECT_EQ(session.loaded.size(), 1U);
-}
-
-TEST(Formulas, OfASettingThatIsRefusedAreNotLoaded) {
-    Session session;
-    expectRefused(session, formulaNamed("mine", "x +"), ErrorCode::bad_expression, "position 4");
-    expectRefused(session, formulaNamed("tesseract", "x"), ErrorCode::bad_polytope, "tesseract");
-    Set set = formulaNamed("mine", "x");
-    set.plain.of<double>("zoom") = 1e9;
-    expectRefused(session, set, ErrorCode::out_of_range, "zoom");
-    EXPECT_TRUE(session.loaded.empty());
-    Limits one;
-    one.maxLoaded = 1;
-    must(session, formulaNamed("mine", "x"), one);
-    expectRefused(session, formulaNamed("other", "y"), ErrorCode::too_many, "at most 1", one);
-    must(session, formulaNamed("mine", "y"), one);
-}
-
-// The examples that come with the program are shared, so that their own formulas need not be loaded.
-TEST(Formulas, OfExamplesAreNotLoaded) {
-    Session session;
-    must(session, objectNamed(exampleFields().front().name));
-    const fields::Field& example = *slicing::fieldIn(session.current.object);
-    Set set = formulaNamed(example.name, example.formula);
-    set.formula->box = example.box;
-    must(session, set);
-    EXPECT_TRUE(session.loaded.empty());
-    EXPECT_EQ(slicing::fieldIn(session.current.object), &example);
 }
 
 // The vertices of a 16-cell of circumradius 1.

@@ -1,0 +1,42 @@
+#pragma once
+// Zarr arrays whose files are in memory, for tests.
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fields/readers/zarr.hpp"
+#include "unit/fields/readers/files.hpp"
+
+namespace oval4d::fields::test {
+
+using Files = std::map<std::string, std::string>;  ///< the contents of each file by its path
+
+/// Reads an array from the files. If `opened` is not null, adds to it the paths that are opened.
+inline Result<FieldArray> readFiles(const Files& files, const FieldReadOptions& options,
+                                    std::set<std::string>* opened = nullptr) {
+    const FolderFileReader folder = [&](const std::string& path,
+                                        const FilePart& part) -> Result<std::optional<FileContents>> {
+        if (opened != nullptr) opened->insert(path);
+        const auto found = files.find(path);
+        if (found == files.end()) return std::optional<FileContents>();
+        return std::optional(FileContents::copyOf(found->second).cutTo(part));
+    };
+    return readZarr(folder, options);
+}
+
+/// Reads the variable with this name.
+inline Result<FieldArray> readFiles(const Files& files, const std::string& variable = "") {
+    return readFiles(files, FieldReadOptions{.variable = variable});
+}
+
+/// Returns the bytes of a chunk of these 32-bit floats.
+inline std::string chunkOf(const std::vector<float>& numbers) {
+    std::string bytes;
+    for (const float number : numbers) bytes += bytesOf(number);
+    return bytes;
+}
+
+}  // namespace oval4d::fields::test
