@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "polytopes/construction/polyhedra.hpp"
 #include "polytopes/construction/snub.hpp"
+#include "polytopes/construction/solids.hpp"
 #include "polytopes/polytope.hpp"
 #include "slicing/overloaded.hpp"
 
@@ -49,12 +51,12 @@ bool moveIntoUnitSphere(std::vector<glm::dvec3>& points) {
     return radius > 0;
 }
 
-// Returns the vertices of a regular polygon of circumradius 1 in the plane z = height.
-std::vector<glm::dvec3> regularPolygon(int sides, double height) {
+// Returns the vertices of a regular polygon in the plane z = height, turned by `turn` around the z axis.
+std::vector<glm::dvec3> regularPolygon(int sides, double height, double circumradius = 1, double turn = 0) {
     std::vector<glm::dvec3> vertices;
     for (int i = 0; i < sides; ++i) {
-        const double angle = 2 * std::numbers::pi * i / sides;
-        vertices.emplace_back(std::cos(angle), std::sin(angle), height);
+        const double angle = 2 * std::numbers::pi * i / sides + turn;
+        vertices.emplace_back(circumradius * std::cos(angle), circumradius * std::sin(angle), height);
     }
     return vertices;
 }
@@ -65,47 +67,143 @@ bool NamedSection::isOf(const Object& shown, const geometry::Rotation& rotation,
     return object == infoOf(shown).serial && w == focusW && orientation == rotation;
 }
 
-// A shape that has a name. Its circumradius is 1.
+// A shape that has a name. The circumradius of those that shapes() returns is 1.
 struct SectionNamer::Shape {
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
-    double edge = 0;                      // the length of all edges
+    std::vector<double> edges;            // the lengths of the edges, each once
     // The distances of a vertex from all vertices, in ascending order: one list for all vertices with the same
     // distances. Most shapes have only one list.
     std::vector<std::vector<double>> distances;
+
+    // A shape whose vertices and edges have these positions and lengths.
+    Shape(const std::vector<glm::dvec3>& vertices, std::vector<double> edgeLengths) : edges(std::move(edgeLengths)) {
+        findDistancesOf(vertices);
+    }
 
     // `dimension` is 1 for a segment, 2 for polygons and 3 for polyhedra. Takes the pairs of vertices with the least
     // distance from each other as the edges.
     Shape(std::string shapeName, int dimension, std::vector<glm::dvec3> vertices) : name(std::move(shapeName)) {
         moveIntoUnitSphere(vertices);
+        findDistancesOf(vertices);
+        edges = {distances.front()[1]};
         std::size_t edgeEnds = 0;
         std::vector<double> ofVertex;
         for (const glm::dvec3& vertex : vertices) {
             findDistances(vertices, vertex, ofVertex);
-            if (!hasVertex(ofVertex)) distances.push_back(ofVertex);
-            edge = ofVertex[1];
-            edgeEnds += std::count_if(ofVertex.begin(), ofVertex.end(), [&](double d) { return near(d, edge); });
+            edgeEnds += std::ranges::count_if(ofVertex, [&](double distance) { return hasEdge(distance); });
         }
-        const std::size_t edges = edgeEnds / 2;
-        const std::size_t faces = dimension == 3 ? edges + 2 - vertices.size() : dimension - 1;  // Euler's formula
-        counts = {vertices.size(), edges, faces};
+        const std::size_t edgeCount = edgeEnds / 2;
+        const std::size_t faces = dimension == 3 ? edgeCount + 2 - vertices.size() : dimension - 1;  // Euler's formula
+        counts = {vertices.size(), edgeCount, faces};
     }
 
+    Shape(std::string shapeName, polytopes::SolidMesh mesh) : name(std::move(shapeName)) {
+        moveIntoUnitSphere(mesh.vertices);
+        findDistancesOf(mesh.vertices);
+        std::size_t sides = 0;
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            const auto loop = mesh.faces[f];
+            for (std::size_t i = 0; i < loop.size(); ++i, ++sides) {
+                const double length = glm::distance(mesh.vertices[loop[i]], mesh.vertices[loop[(i + 1) % loop.size()]]);
+                if (!hasEdge(length)) edges.push_back(length);
+            }
+        }
+        counts = {mesh.vertices.size(), sides / 2, mesh.faces.size()};
+    }
+
+    void findDistancesOf(const std::vector<glm::dvec3>& vertices) {
+        std::vector<double> ofVertex;
+        for (const glm::dvec3& vertex : vertices) {
+            findDistances(vertices, vertex, ofVertex);
+            if (!hasVertex(ofVertex)) distances.push_back(ofVertex);
+        }
+    }
     // Returns whether one of the vertices has these distances from all vertices.
     bool hasVertex(const std::vector<double>& ofVertex) const {
         return std::any_of(distances.begin(), distances.end(), [&](const std::vector<double>& known) {
             return std::equal(known.begin(), known.end(), ofVertex.begin(), near);
         });
     }
+    bool hasEdge(double length) const {
+        return std::ranges::any_of(edges, [length](double known) { return near(known, length); });
+    }
+};
+
+// All polyhedra of one kind over regular polygons with the same number of sides, or all cuboids. They have the same
+// name and different proportions.
+struct SectionNamer::Family {
+    enum class Kind : std::uint8_t { cuboid, prism, antiprism, pyramid, bipyramid };
+
+    Kind kind;
+    int sides;  // of the polygon; 4 for cuboids
+    std::string name;
+    std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
+
+    Family(Kind familyKind, int sidesOfBase, std::string familyName)
+        : kind(familyKind), sides(sidesOfBase), name(std::move(familyName)) {
+        const auto n = static_cast<std::size_t>(sides);
+        if (kind == Kind::cuboid || kind == Kind::prism) counts = {2 * n, 3 * n, n + 2};
+        if (kind == Kind::antiprism) counts = {2 * n, 4 * n, 2 * n + 2};
+        if (kind == Kind::pyramid) counts = {n + 1, 2 * n, n + 1};
+        if (kind == Kind::bipyramid) counts = {n + 2, 3 * n, 2 * n};
+    }
+
+    // Returns the members of the family that may have edges of these lengths, which are in ascending order: one cuboid,
+    // or up to two others, because either length may be that of the sides of the polygon.
+    std::vector<Shape> membersWithEdges(const std::vector<double>& lengths) const {
+        const double shortest = lengths.front(), longest = lengths.back();
+        std::vector<Shape> members;
+        if (kind == Kind::cuboid) {
+            const double middle = lengths[lengths.size() / 2];
+            std::vector<glm::dvec3> vertices;
+            for (const double x : {0.0, shortest}) {
+                for (const double y : {0.0, middle}) vertices.insert(vertices.end(), {{x, y, 0}, {x, y, longest}});
+            }
+            members.emplace_back(vertices, std::vector{shortest, middle, longest});
+            return members;
+        }
+        for (const auto& [side, lateral] : {std::pair{shortest, longest}, std::pair{longest, shortest}}) {
+            const std::vector<glm::dvec3> vertices = verticesOf(side, lateral);
+            if (!vertices.empty()) members.emplace_back(vertices, std::vector{side, lateral});
+        }
+        return members;
+    }
+
+    // Returns the vertices of the member whose polygon has sides of the length `side`, and whose other edges have the
+    // length `lateral`; an empty list if there is none.
+    std::vector<glm::dvec3> verticesOf(double side, double lateral) const {
+        const double radius = side / (2 * std::sin(std::numbers::pi / sides));
+        const double turn = kind == Kind::antiprism ? std::numbers::pi / sides : 0;
+        const bool hasApex = kind == Kind::pyramid || kind == Kind::bipyramid;
+        const double across = hasApex ? radius : 2 * radius * std::sin(turn / 2);  // the width of a lateral edge
+        const double height = std::sqrt(lateral * lateral - across * across);
+        if (!(height > kTolerance)) return {};
+        std::vector<glm::dvec3> vertices = regularPolygon(sides, 0, radius);
+        if (hasApex) {
+            vertices.emplace_back(0, 0, height);
+            if (kind == Kind::bipyramid) vertices.emplace_back(0, 0, -height);
+        } else {
+            const auto top = regularPolygon(sides, height, radius, turn);
+            vertices.insert(vertices.end(), top.begin(), top.end());
+        }
+        return vertices;
+    }
 };
 
 const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
     using polytopes::RegularPolygon;
     static const std::vector<Shape> kShapes = [] {
+        const auto named = polytopes::namedPolyhedra();
         std::vector<Shape> shapes;
-        for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
-            if (polytopes::isConvex(solid))
-                shapes.emplace_back(std::string(solid.name), 3, polytopes::verticesOf(solid));
+        for (const polytopes::NamedPolyhedron& solid : named) {
+            if (!polytopes::isConvex(solid)) continue;
+            shapes.emplace_back(std::string(solid.name), 3, polytopes::verticesOf(solid));
+            const polytopes::Solid dual{&solid, 0, false, true};
+            const std::string nameOfDual = polytopes::nameOf(dual);
+            // The duals of the Platonic solids are Platonic solids.
+            if (std::ranges::none_of(named, [&](const auto& other) { return other.name == nameOfDual; }))
+                shapes.emplace_back(nameOfDual, polytopes::meshOf(dual));
         }
         for (int n = 3; n <= kMaxSides; ++n) {
             const RegularPolygon polygon{n, 1};
@@ -117,21 +215,34 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
                 prism.insert(prism.end(), bottom.begin(), bottom.end());
                 shapes.emplace_back(polytopes::adjectiveOf(polygon) + " prism", 3, std::move(prism));
             }
-            if (n != 3) {  // for n = 3, the antiprism is an octahedron, which is a Platonic solid
+            if (n != 3) {  // for n = 3, the antiprism is an octahedron, and the trapezohedron a cube
                 shapes.emplace_back(polytopes::adjectiveOf(polygon) + " antiprism", 3,
                                     polytopes::snubOf(polygon, {2, 1}).vertices);
+                const polytopes::Solid trapezohedron{nullptr, n, true, true};
+                shapes.emplace_back(polytopes::nameOf(trapezohedron), polytopes::meshOf(trapezohedron));
             }
         }
-        std::vector<glm::dvec3> rhombic;
-        for (const double x : {-1, 1}) {
-            rhombic.insert(rhombic.end(), {{2 * x, 0, 0}, {0, 2 * x, 0}, {0, 0, 2 * x}});
-            for (const double y : {-1, 1}) rhombic.insert(rhombic.end(), {{x, y, -1}, {x, y, 1}});
-        }
-        shapes.emplace_back("rhombic dodecahedron", 3, rhombic);
         shapes.emplace_back("segment", 1, std::vector<glm::dvec3>{{-1, 0, 0}, {1, 0, 0}});
         return shapes;
     }();
     return kShapes;
+}
+
+const std::vector<SectionNamer::Family>& SectionNamer::families() {
+    using Kind = Family::Kind;
+    static const std::vector<Family> kFamilies = [] {
+        std::vector<Family> families;
+        families.emplace_back(Kind::cuboid, 4, "cuboid");
+        for (int n = 3; n <= kMaxSides; ++n) {
+            const std::string adjective = polytopes::adjectiveOf({n, 1});
+            if (n != 4) families.emplace_back(Kind::prism, n, adjective + " prism");  // for n = 4, it is a cuboid
+            families.emplace_back(Kind::antiprism, n, adjective + " antiprism");
+            if (n != 3) families.emplace_back(Kind::pyramid, n, adjective + " pyramid");  // for n = 3, a tetrahedron
+            families.emplace_back(Kind::bipyramid, n, adjective + " bipyramid");
+        }
+        return families;
+    }();
+    return kFamilies;
 }
 
 bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& orientation, double w) {
@@ -163,16 +274,16 @@ bool SectionNamer::mayHaveName(const Object& object, const geometry::Rotation& o
 std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {
     const std::array counts{slices.vertexCount(slice), slices.edgeCount(slice), slices.faceCount(slice)};
     if (counts == std::array<std::size_t, 3>{1, 0, 0}) return kPoint;
-    const auto hasTheseCounts = [&](const Shape& shape) { return shape.counts == counts; };
-    if (std::none_of(shapes().begin(), shapes().end(), hasTheseCounts)) return {};
+    const auto hasTheseCounts = [&](const auto& shape) { return shape.counts == counts; };
+    if (std::ranges::none_of(shapes(), hasTheseCounts) && std::ranges::none_of(families(), hasTheseCounts)) return {};
     const auto first = slices.vertices.begin() + slices.vertexBegin[slice];
     vertices_.assign(first, first + static_cast<std::ptrdiff_t>(counts[0]));
     if (!moveIntoUnitSphere(vertices_)) return {};
     const auto edges = std::span(slices.edges).subspan(slices.edgeBegin[slice], counts[1]);
     for (const Shape& shape : shapes()) {
-        if (hasTheseCounts(shape) && edgesHaveLength(edges, shape.edge) && verticesAreThoseOf(shape)) return shape.name;
+        if (hasTheseCounts(shape) && edgesAreThoseOf(shape, edges) && verticesAreThoseOf(shape)) return shape.name;
     }
-    return {};
+    return nameOfFamily(slices, slice);
 }
 
 std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges) {
@@ -187,17 +298,37 @@ std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int 
     for (const Shape& shape : shapes()) {
         if (shape.counts[0] == vertices_.size() && verticesAreThoseOf(shape)) return shape.name;
     }
-    return {};
+    // If no edge crosses the hyperplane, a slice of such a family is the convex hull.
+    return vertices_.size() == slices.vertexCount(slice) ? nameOfFamily(slices, slice) : std::string_view();
 }
 
 bool SectionNamer::isSolid(std::string_view name) {
     const auto shape = std::ranges::find(shapes(), name, &Shape::name);
-    return shape != shapes().end() && shape->counts[2] > 1;
+    if (shape != shapes().end()) return shape->counts[2] > 1;
+    return std::ranges::find(families(), name, &Family::name) != families().end();
 }
 
-bool SectionNamer::edgesHaveLength(std::span<const std::array<std::uint32_t, 2>> edges, double length) const {
+// Returns the name of the family to which a slice belongs, or an empty string. `vertices_` must have its vertices.
+std::string_view SectionNamer::nameOfFamily(const SliceSet& slices, int slice) {
+    const std::array counts{slices.vertexCount(slice), slices.edgeCount(slice), slices.faceCount(slice)};
+    const auto edges = std::span(slices.edges).subspan(slices.edgeBegin[slice], counts[1]);
+    lengths_.clear();
+    for (const Family& family : families()) {
+        if (family.counts != counts) continue;
+        if (lengths_.empty()) {
+            for (const auto& [a, b] : edges) lengths_.push_back(glm::distance(vertices_[a], vertices_[b]));
+            std::ranges::sort(lengths_);
+        }
+        for (const Shape& member : family.membersWithEdges(lengths_)) {
+            if (edgesAreThoseOf(member, edges) && verticesAreThoseOf(member)) return family.name;
+        }
+    }
+    return {};
+}
+
+bool SectionNamer::edgesAreThoseOf(const Shape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const {
     return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-        return near(glm::distance(vertices_[edge[0]], vertices_[edge[1]]), length);
+        return shape.hasEdge(glm::distance(vertices_[edge[0]], vertices_[edge[1]]));
     });
 }
 

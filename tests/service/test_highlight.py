@@ -143,6 +143,8 @@ async def test_the_label_names_the_section(server):
         await client.request("set", polytope="tesseract")
         assert await label() == ("cube", "w = 0, cube")
         await client.request("rotate", planes=["xw"], angles=[0.1])
+        assert await label() == ("cuboid", "w = 0, cuboid")
+        await client.request("rotate", planes=["yw"], angles=[0.1])
         assert await label() == ("", "w = 0")
         await client.request("set", polytope="600-cell")
         await client.request("toward", element="vertex", immediately=True)

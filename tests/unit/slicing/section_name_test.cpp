@@ -1,12 +1,16 @@
 #include "slicing/section_name.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <numbers>
 #include <random>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -69,12 +73,12 @@ const Sections kSections[] = {
     {"5-cell", 2, {"triangle", "segment"}, {"triangle", "segment"}},
     {"5-cell", 3, {"tetrahedron", "point"}, {"tetrahedron", "point"}},
     {"8-cell", 0, {"point", "tetrahedron", "octahedron"}, {"point", "tetrahedron", "octahedron"}},
-    {"8-cell", 1, {"segment", ""}, {"segment", ""}},
-    {"8-cell", 2, {"square", ""}, {"square", ""}},
+    {"8-cell", 1, {"segment", "triangular prism"}, {"segment", "triangular prism"}},
+    {"8-cell", 2, {"square", "cuboid"}, {"square", "cuboid"}},
     {"8-cell", 3, {"cube"}, {"cube"}},
     {"16-cell", 0, {"point", "octahedron"}, {"point", "octahedron"}},
-    {"16-cell", 1, {"segment", ""}, {"segment", "square"}},
-    {"16-cell", 2, {"triangle", ""}, {"triangle", "segment"}},
+    {"16-cell", 1, {"segment", "square bipyramid"}, {"segment", "square"}},
+    {"16-cell", 2, {"triangle", "hexagonal bipyramid"}, {"triangle", "segment"}},
     {"16-cell", 3, {"tetrahedron"}, {"tetrahedron"}},
     {"24-cell", 0, {"point", "cube", "rhombic dodecahedron"}, {"point", "cube", "octahedron"}},
     {"24-cell", 1, {"segment", "", "", ""}, {"segment", "triangle", "", "segment"}},
@@ -123,7 +127,8 @@ TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
     }
 }
 
-TEST(SectionNamePair, betweenTheVerticesAreThoseOfTheUniformSectionsOnly) {
+// A polyhedron over a regular polygon has its name at any height; other polyhedra only if they are uniform.
+TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
     struct Row {
         const char* polytope;
         int first;
@@ -142,7 +147,8 @@ TEST(SectionNamePair, betweenTheVerticesAreThoseOfTheUniformSectionsOnly) {
         const geometry::Rotation orientation = beginningWith(p, row.first);
         EXPECT_EQ(nameOfSlice(cutAt(p, orientation, row.w * p.circumradius)), row.name);
         const std::string beside = nameOfSlice(cutAt(p, orientation, (row.w + 1e-4) * p.circumradius));
-        EXPECT_EQ(beside, std::string_view(row.name) == "tetrahedron" ? "tetrahedron" : "");
+        const std::string_view name(row.name);
+        EXPECT_EQ(beside, name == "tetrahedron" || name == "triangular prism" ? name : "");
     }
 }
 
@@ -173,6 +179,99 @@ TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
         }
     }
     EXPECT_EQ(seen.size(), 18U + 17 + 17);
+}
+
+// The middle section of a prism over a polyhedron is this polyhedron, and so is each section of its pyramid between the
+// base and the apex.
+TEST(SectionNamePair, areThoseOfCatalanSolidsAndOfDualsOfAntiprisms) {
+    for (const char* solid :
+         {"triakis tetrahedron", "rhombic dodecahedron", "triakis octahedron", "tetrakis hexahedron",
+          "deltoidal icositetrahedron", "disdyakis dodecahedron", "pentagonal icositetrahedron",
+          "rhombic triacontahedron", "triakis icosahedron", "pentakis dodecahedron", "deltoidal hexecontahedron",
+          "disdyakis triacontahedron", "pentagonal hexecontahedron", "square trapezohedron", "pentagonal trapezohedron",
+          "hexagonal bipyramid"}) {
+        for (const char* over : {"prism of ", "pyramid of "}) {
+            SCOPED_TRACE(std::string(over) + solid);
+            const polytopes::Polytope& p = named(std::string(over) + solid);
+            const auto [least, most] = std::ranges::minmax(levelsOf(p, geometry::Rotation()));
+            EXPECT_EQ(nameOfSlice(cutAt(p, geometry::Rotation(), (2 * least + most) / 3)), solid);
+        }
+    }
+}
+
+TEST(SectionNamePair, areThoseOfPrismsAndCuboidsOfAnyHeight) {
+    // Every section of a duoprism by w = const is a prism over its first polygon, the one with fewer sides.
+    for (const auto& [duoprism, name] : {std::pair{"3,5-duoprism", "triangular prism"},
+                                         {"4,5-duoprism", "cuboid"},
+                                         {"5,7-duoprism", "pentagonal prism"},
+                                         {"20,25-duoprism", "20-gonal prism"},
+                                         {"21,25-duoprism", ""}}) {
+        SCOPED_TRACE(duoprism);
+        const polytopes::Polytope& p = named(duoprism);
+        for (const double w : {0.0, 0.1, -0.2}) EXPECT_EQ(nameOfSlice(cutAt(p, geometry::Rotation(), w)), name);
+    }
+    // A plane that turns about a 2-face of a tesseract's cube cuts a cuboid; one that turns about an edge, none.
+    const polytopes::Polytope& tesseract = named("8-cell");
+    EXPECT_EQ(nameOfSlice(cutAt(tesseract, ontoW({0.1, 0, 0, 1}), 0)), "cuboid");
+    EXPECT_EQ(nameOfSlice(cutAt(tesseract, ontoW({0.1, 0.1, 0, 1}), 0)), "");
+    EXPECT_EQ(nameOfSlice(cutAt(tesseract, ontoW({0, 1, 1, 1}), 0)), "hexagonal prism");
+}
+
+/// Returns the slice with these vertices, these edges, and as many faces as a convex polyhedron with them has.
+SliceSet sliceWith(const Points& points, const std::vector<std::array<std::uint32_t, 2>>& edges) {
+    SliceSet slice;
+    slice.vertices = points;
+    slice.vertexSource.resize(points.size());
+    slice.edges = edges;
+    slice.vertexBegin = {0, static_cast<std::uint32_t>(points.size())};
+    slice.edgeBegin = {0, static_cast<std::uint32_t>(edges.size())};
+    slice.faceBegin = {0, static_cast<std::uint32_t>(edges.size() + 2 - points.size())};
+    return slice;
+}
+
+TEST(SectionNamePair, areThoseOfRightPolyhedraOverRegularPolygonsOnly) {
+    // Over a pentagon with the radius 1 in the plane z = 0 stand an antiprism, a pyramid and a bipyramid.
+    constexpr std::uint32_t kSides = 5;
+    const auto pointAt = [](double turns, double z) {
+        const double angle = 2 * std::numbers::pi * turns / kSides;
+        return glm::dvec3(std::cos(angle), std::sin(angle), z);
+    };
+    for (const double height : {0.3, 1.0, 4.0}) {
+        SCOPED_TRACE(height);
+        Points pyramid, antiprism;
+        std::vector<std::array<std::uint32_t, 2>> base, toApex, toSecondApex, lateral;
+        for (std::uint32_t i = 0; i < kSides; ++i) {
+            const std::uint32_t next = (i + 1) % kSides;
+            pyramid.push_back(pointAt(i, 0));
+            base.push_back({i, next});
+            toApex.push_back({i, kSides});
+            toSecondApex.push_back({i, kSides + 1});
+            lateral.insert(lateral.end(), {{i, kSides + i}, {next, kSides + i}, {kSides + i, kSides + next}});
+        }
+        antiprism = pyramid;
+        for (std::uint32_t i = 0; i < kSides; ++i) antiprism.push_back(pointAt(i + 0.5, height));
+        pyramid.emplace_back(0, 0, height);
+        Points bipyramid = pyramid;
+        bipyramid.emplace_back(0, 0, -height);
+        const auto joined = [](auto edges, const auto& more) {
+            edges.insert(edges.end(), more.begin(), more.end());
+            return edges;
+        };
+        const auto pyramidEdges = joined(base, toApex);
+        const auto shapes = std::map<std::string, SliceSet>{
+            {"pentagonal pyramid", sliceWith(pyramid, pyramidEdges)},
+            {"pentagonal bipyramid", sliceWith(bipyramid, joined(pyramidEdges, toSecondApex))},
+            {"pentagonal antiprism", sliceWith(antiprism, joined(base, lateral))}};
+        for (const auto& [name, slice] : shapes) {
+            EXPECT_EQ(nameOfSlice(slice), name);
+            EXPECT_EQ(SectionNamer().nameOfObjectVertices(slice, 0, 0), name);
+            SliceSet oblique = slice, stretched = slice;
+            for (glm::dvec3& v : oblique.vertices) v.x += 0.1 * v.z;
+            for (glm::dvec3& v : stretched.vertices) v.x *= 1.1;
+            EXPECT_EQ(nameOfSlice(oblique), "") << name;
+            EXPECT_EQ(nameOfSlice(stretched), "") << name;
+        }
+    }
 }
 
 TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
