@@ -302,6 +302,25 @@ test("slider: Play and its speed follow keys and other clients", async () => {
     await close();
 });
 
+test("slider: in the list of speeds, letters are the keys of the page, and arrows choose a speed", async () => {
+    const { page, script, errors, close } = await openSlider();
+    await page.focus("#focus-speed");
+    await page.keyboard.press("k");
+    const { alpha, revision } = await stateAfter(page, script);
+    assert.ok(alpha > Math.PI / 36);
+    await page.keyboard.press("Control+z");
+    await script.until((state) => state.revision > revision && state.alpha < alpha, "the undo");
+    await page.keyboard.press("Shift+F");
+    await script.until(({ speed }) => speed === 2, "the key of the speed");
+    const before = await script.state();
+    await page.keyboard.press("2"); // the list's: it may choose a speed that begins with 2, and turns nothing
+    await page.keyboard.press("0"); // likewise: it does not move the focus
+    const { orientation, slices } = await stateAfter(page, script);
+    assert.deepEqual([orientation, slices], [before.orientation, before.slices]);
+    assert.deepEqual(errors, []);
+    await close();
+});
+
 /** The w of the focus slice, with the decimals that the page shows. */
 function shownW({ section, slices }) {
     return section.w.toFixed(Math.max(2, Math.ceil(-Math.log10(slices.spacing)) + 1));

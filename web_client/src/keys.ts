@@ -9,6 +9,7 @@ const kTextFields = "textarea, select, [contenteditable], input:not([type=radio]
 const kButtons = "button, a[href]";
 const kButtonKeys = /^( |Enter)$/;
 const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // the keys that sliders, radio buttons and checkboxes use
+const kNumber = /^[\d.]/; // how the name of a number begins in a list; the list uses the keys of these characters
 
 /** The members of a `key` message. */
 export interface KeyStroke {
@@ -18,13 +19,21 @@ export interface KeyStroke {
 }
 
 /**
- * Whether the control that has the focus uses the key: every key in a text field; Enter and the space bar on a button;
- * Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio button or a checkbox.
+ * Whether the control that has the focus uses the key: every key in a text field or a list of names; Enter and the
+ * space bar on a button; Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio
+ * button, a checkbox or a list of numbers; and on the latter also digits and the decimal point.
  */
 export function isForControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;
+    if (target instanceof HTMLSelectElement && isListOfNumbers(target)) {
+        return kInputKeys.test(key) || kNumber.test(key);
+    }
     if (target.matches(kTextFields)) return true;
     return target.matches(kButtons) ? kButtonKeys.test(key) : target.matches("input") && kInputKeys.test(key);
+}
+
+function isListOfNumbers({ options }: HTMLSelectElement): boolean {
+    return options.length > 0 && [...options].every(({ text }) => kNumber.test(text));
 }
 
 /** The action of Ctrl-Z, Ctrl-Shift-Z and Ctrl-Y or, on a Mac, of Cmd-Z and so on; undefined for other keys. */
