@@ -50,6 +50,9 @@ test("command line: Tab completes what is unique, or what the possible words hav
         "hide te": "hide tetrahedron",
         "key ct": "key ctrl-r",
         "export 3": "export 3mf",
+        "export stl si": "export stl size=",
+        "export STL fit=5 body=sk": "export STL fit=5 body=skeleton",
+        "export svg of=ma": "export svg of=matrix",
         "help rot": "help rotate",
     };
     for (const [line, expected] of Object.entries(cases)) {
@@ -64,6 +67,8 @@ test("command line: Tab completes what is unique, or what the possible words hav
     assert.equal(line, "set co");
     assert.deepEqual(options.sort(), ["color=", "coordinates="]);
     assert.equal((await completed(page, "set sl")).line, "set slices=");
+    assert.deepEqual((await completed(page, "export svg ")).options, ["of=", "size=", "at=", "fit="]);
+    assert.deepEqual((await completed(page, "export latency s")).options, []);
     assert.equal((await completed(page, "polytope trunc")).line, "polytope truncated ");
     assert.equal((await completed(page, "polytope hexacosichoron", "Tab")).line, "polytope 600-cell");
     await page.fill("#command", "set h=1 end");

@@ -4,7 +4,7 @@ import type { KeyBinding } from "@oval4d/protocol";
 
 import type { Catalogue } from "./catalogue";
 import { kCommands, kElementKinds, kPlanes, kSettings } from "./commands";
-import { kFormats } from "./export_formats";
+import { fileOptionsOf, kFormats } from "./export_formats";
 
 /** The names that depend on the session and on the server. */
 export interface CompletableNames {
@@ -39,7 +39,8 @@ export function completionsOf(line: string, names: CompletableNames): Completion
     const word = kOfRestOfLine.includes(completes) ? rest : /\S*$/.exec(rest)![0];
     const start = line.length - word.length;
     if (completes === "setting") return settingCompletions(line, start, rest, names);
-    if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument is completed
+    if (completes === "format" && word !== rest) return fileOptionCompletions(line, rest, word);
+    if (word !== rest) return { start, options: [], suffix: "" }; // of other commands, only the first argument
     return completionsUnlessComplete(line, start, valuesOf(completes, word, names));
 }
 
@@ -50,6 +51,17 @@ function settingCompletions(line: string, start: number, rest: string, names: Co
     if (name !== "") return completionsUnlessComplete(line, line.length - value.length, valuesOf(name, value, names));
     const all = [...kSettings.keys(), ...kPageSettings.keys()].map((one) => `${one}=`);
     return completionsUnlessComplete(line, start, filterByPrefix(all, line.slice(start)));
+}
+
+/** The completions of the last word of `export FORMAT NAME=VALUE …`. */
+function fileOptionCompletions(line: string, rest: string, word: string): Completions {
+    const name = /^\S+/.exec(rest)![0].toLowerCase();
+    const format = kFormats.flatMap(({ formats }) => formats).find((one) => one.name === name);
+    const options = format ? fileOptionsOf(format) : new Map<string, string[]>();
+    const [, option, value = ""] = /^(\w+)=(.*)$/.exec(word) ?? [];
+    const found = option === undefined ? [...options.keys()].map((one) => `${one}=`) : (options.get(option) ?? []);
+    const typed = option === undefined ? word : value;
+    return completionsUnlessComplete(line, line.length - typed.length, filterByPrefix(found, typed));
 }
 
 /**

@@ -5,7 +5,7 @@ import type { Background, Client, ExportedFile, FileOptions, State, Viewport } f
 import { Dialog } from "./dialog";
 import { download, fileName } from "./download";
 import { byId, element } from "./element";
-import { type ExportFormat, kFormats } from "./export_formats";
+import { type ExportFormat, type FileOptionName, kFormats } from "./export_formats";
 import { focusW, toSentence } from "./format";
 import { readStored, writeStored } from "./storage";
 
@@ -15,7 +15,7 @@ const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 /** The options of a file, without its format; see the message `get`. */
 type OptionValue = string | number | boolean;
 type ChosenOptions = Record<string, OptionValue>;
-const kOptionReaders: Record<keyof Omit<FileOptions, "format">, (value: string) => OptionValue> = {
+const kOptionReaders: Record<FileOptionName, (value: string) => OptionValue> = {
     of: String,
     body: String,
     size: Number,

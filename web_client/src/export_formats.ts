@@ -25,6 +25,21 @@ export interface ExportFormat {
     objects?: "fields" | "polytopes";
 }
 
+/**
+ * The options of files on the command line, each with a list of its values; empty for an option that is a number or a
+ * list, and for `of`, whose values depend on the format.
+ */
+export const kFileOptions = {
+    of: [],
+    body: ["solid", "skeleton"],
+    size: [],
+    label: ["none", "engraved", "separate"],
+    at: [],
+    fit: [],
+    exact: ["on", "off"],
+} satisfies Record<string, string[]>;
+export type FileOptionName = keyof typeof kFileOptions;
+
 const kAboutPng = "The picture; scripts can restore its state from the file";
 const kPng: ExportFormat = {
     name: "png",
@@ -75,4 +90,14 @@ function choicesOf(row: FormatTableRow): ExportOption[] {
     if (row.bodies) return ["of", "body", ...exact, "size", "label"];
     const side = row.group === "figure" ? ["side" as const] : [];
     return [...(row.of.length > 1 ? ["of" as const] : []), ...exact, ...side];
+}
+
+/** The options that the command line offers for this format, each with a list of its values. */
+export function fileOptionsOf({ choices, of }: ExportFormat): Map<string, string[]> {
+    const applies = (name: string): boolean => {
+        if (name === "at" || name === "fit") return of.includes("oval");
+        return choices.includes((name === "size" && choices.includes("side") ? "side" : name) as ExportOption);
+    };
+    const all = Object.entries<string[]>({ ...kFileOptions, of }).filter(([name]) => applies(name));
+    return new Map(all);
 }
