@@ -36,8 +36,6 @@ Words split(std::string_view line) {
     }
 }
 
-bool isUnit(std::string_view word) { return word == "°" || word == "deg" || word == "rad"; }
-
 // Joins words that are separated by blanks, but belong together: a word that ends with a character in `separators` and
 // the next word; a word and the next one that begins with such a character; and a number and its unit. Examples are
 // "highlight=cell: 3" and "30 °". All words must be views into the same string.
@@ -45,7 +43,7 @@ Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
     for (const std::string_view word : words) {
         const bool continues =
-            !joined.empty() && (isUnit(word) || separators.find(joined.back().back()) != separators.npos ||
+            !joined.empty() && (isAngleUnit(word) || separators.find(joined.back().back()) != separators.npos ||
                                 separators.find(word.front()) != separators.npos);
         if (continues) {
             const char* const begin = joined.back().data();

@@ -34,6 +34,8 @@ constexpr auto kNames =
     std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
 // Unicode characters that are accepted in place of pi, phi and -.
 constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
+// The degree sign, and two characters that look like it: keyboards of Spain and Portugal type the ordinal indicator.
+constexpr auto kDegreeSigns = std::to_array<std::string_view>({"°", "º", "˚"});
 
 constexpr std::size_t kMaxLength = 1000;
 constexpr int kMaxDepth = 64;
@@ -144,7 +146,8 @@ class Parser {
         ValueWithUnit term = atom();
         skipBlanks();
         const std::size_t start = at_;
-        const bool isInDegrees = take("°") || takeWord("deg");
+        const bool isInDegrees =
+            std::ranges::any_of(kDegreeSigns, [this](std::string_view sign) { return take(sign); }) || takeWord("deg");
         if (!isInDegrees && !takeWord("rad")) return term;
         if (!units_) failAt(start, "a number without a unit is expected, because it is not an angle");
         if (term.hasUnit) failAt(start, "the angle has a unit already");
@@ -256,6 +259,10 @@ Result<ValueWithUnit> evaluated(std::string_view given, bool units) {
 }
 
 }  // namespace
+
+bool isAngleUnit(std::string_view word) {
+    return word == "deg" || word == "rad" || std::ranges::find(kDegreeSigns, word) != kDegreeSigns.end();
+}
 
 Result<double> evaluate(std::string_view text) {
     const auto term = evaluated(text, false);

@@ -19,12 +19,15 @@ Result<double> evaluate(std::string_view text);
 /// Evaluates one or more expressions that are not angles, with commas between them. Errors: those of evaluate().
 Result<std::vector<double>> evaluateList(std::string_view text);
 
+/// Returns whether a word is a unit of evaluateAngle().
+bool isAngleUnit(std::string_view word);
+
 /// Evaluates an expression that is an angle, and returns it in radians. The units ° and deg (both degrees) and rad
-/// (radians) may follow a number, a name or a parenthesis. A unit applies to the whole product in which it stands:
-/// 45/2° is 22.5°. Error `bad_expression`: for a syntax error or a value that is not finite; for a product with two
-/// units; and for an angle that is in radians already, but has a unit of degrees, such as pi/8°. Error `out_of_range`:
-/// if the sum of those terms that are numbers without a unit is more than a full turn, because degrees are probably
-/// meant.
+/// (radians) may follow a number, a name or a parenthesis; º and ˚, which look like °, are read as °. A unit applies to
+/// the whole product in which it stands: 45/2° is 22.5°. Error `bad_expression`: for a syntax error or a value that is
+/// not finite; for a product with two units; and for an angle that is in radians already, but has a unit of degrees,
+/// such as pi/8°. Error `out_of_range`: if the sum of those terms that are numbers without a unit is more than a full
+/// turn, because degrees are probably meant.
 Result<double> evaluateAngle(std::string_view text);
 
 /// Returns the rotation in these planes by these angles. `planes` is a list of planes such as "xw" or "xw,yz" (see

@@ -31,6 +31,7 @@ test("state fields: an angle is typed in degrees or as an expression, and is sho
         "-30": -30 * kRadian,
         "10°": 10 * kRadian,
         "10 deg": 10 * kRadian,
+        "10º": 10 * kRadian, // the ordinal indicator, as Spanish keyboards type it
         "pi/8": Math.PI / 8,
         "pi / sqrt(3) - pi / 8": Math.PI / Math.sqrt(3) - Math.PI / 8,
         "90/4": 22.5 * kRadian,

@@ -35,10 +35,18 @@ export function angleExpression(text: string): string {
 
 /** Removes the blanks before "°", "deg" and "rad", but not before the function deg(). */
 export function withoutBlanksBeforeUnits(text: string): string {
-    return text.replace(/\s+(?=°|(?:deg|rad)(?![a-z(]))/gi, "");
+    return withDegreeSigns(text).replace(/\s+(?=°|(?:deg|rad)(?![a-z(]))/gi, "");
 }
 
 /** Removes the blanks around operators: the command line takes a value without blanks. */
 export function withoutBlanksAroundOperators(text: string): string {
-    return text.trim().replace(/\s*([-−+*/^()°])\s*/g, "$1");
+    return withDegreeSigns(text.trim()).replace(/\s*([-−+*/^()°])\s*/g, "$1");
+}
+
+/**
+ * Replaces two characters that look like the degree sign, as the command line does: keyboards of Spain and Portugal
+ * type the ordinal indicator.
+ */
+function withDegreeSigns(text: string): string {
+    return text.replace(/[º˚]/g, "°");
 }

@@ -36,11 +36,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Arithmetic{"sin(pi/6)", std::sin(pi / 6)}, Arithmetic{"cos(0)", 1},
                     Arithmetic{"tan(0.5)", std::tan(0.5)}, Arithmetic{"asin(1)", pi / 2}, Arithmetic{"acos(1)", 0},
                     Arithmetic{"atan(1)*4", pi}, Arithmetic{"30°", pi / 6}, Arithmetic{"30 deg", pi / 6},
-                    Arithmetic{"-90°/2", -pi / 4}, Arithmetic{"(10+20)°", pi / 6}, Arithmetic{"2rad", 2},
-                    Arithmetic{"45deg+pi/4", pi / 2}, Arithmetic{"45/2°", pi / 8}, Arithmetic{"45°/2", pi / 8},
-                    Arithmetic{"2*45/3 deg", pi / 6}, Arithmetic{"-1/2rad", -0.5}, Arithmetic{"pi/8rad", pi / 8},
-                    Arithmetic{"30\u00a0°", pi / 6}, Arithmetic{"30\u202f\u2009deg", pi / 6},
-                    Arithmetic{"3*10^1°", pi / 6}, Arithmetic{"sqrt(900)°", pi / 6}));
+                    Arithmetic{"30º", pi / 6}, Arithmetic{"30 ˚", pi / 6}, Arithmetic{"-90°/2", -pi / 4},
+                    Arithmetic{"(10+20)°", pi / 6}, Arithmetic{"2rad", 2}, Arithmetic{"45deg+pi/4", pi / 2},
+                    Arithmetic{"45/2°", pi / 8}, Arithmetic{"45°/2", pi / 8}, Arithmetic{"2*45/3 deg", pi / 6},
+                    Arithmetic{"-1/2rad", -0.5}, Arithmetic{"pi/8rad", pi / 8}, Arithmetic{"30\u00a0°", pi / 6},
+                    Arithmetic{"30\u202f\u2009deg", pi / 6}, Arithmetic{"3*10^1°", pi / 6},
+                    Arithmetic{"sqrt(900)°", pi / 6}));
 
 TEST(Expressions, AskAboutAnglesThatAreProbablyDegrees) {
     for (const char* text : {"30", "-30", " 45.5 ", "6.3", "−30", "9e1", "1E2", "(90)", "+(−(90))", "360/5", "45+45",
