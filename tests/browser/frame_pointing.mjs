@@ -103,7 +103,7 @@ test("frame pointing: the server names what is under the mouse, with the words o
     await hoverAt(...at);
     const text = await labeled(page, /volume/);
     const sizes = "volume 3.77 · w −?[\\d.]+ … −?[\\d.]+";
-    assert.match(text, new RegExp(`^Cell ${source} · octahedron · ${sizes} · slice w 0.2$`));
+    assert.match(text, new RegExp(`^Cell ${source} · octahedron · ${sizes} · slice w 0.20$`));
     const [{ type, what, width, height, x, y }] = await asked();
     assert.deepEqual([type, what, width, height], ["get", "at", size.width, size.height]);
     assert.ok(Math.hypot(x - at[0], y - at[1]) < 1);

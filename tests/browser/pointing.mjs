@@ -44,7 +44,7 @@ test("pointing: a cell under the mouse is named, and lit in its slices, the proj
     const { highlight, projection, scene } = await picture();
     assert.equal(highlight.own_vertices.length, 6, "an octahedron");
     const range = rangeOf(verticesFrom(seen, highlight.own_vertices));
-    assert.equal(text, `Cell ${cell} · octahedron · volume 3.77 · ${range} · slice w 0.2`);
+    assert.equal(text, `Cell ${cell} · octahedron · volume 3.77 · ${range} · slice w 0.20`);
 
     const places = edgesAround(seen, size, cell);
     assert.ok(places.length >= 4, "the cell is in several slices");

@@ -112,7 +112,7 @@ test("pointing light: without parallel coordinates, elements are lit like kept o
     const textAt = async (place) => {
         const { shown } = await firstWith(opened, "cell", [place]);
         const range = `w ${rounded(shown.least_w)} … ${rounded(shown.most_w)}`;
-        return `Cell ${shown.highlight.number} · octahedron · volume 3.77 · ${range} · slice w 0.2`;
+        return `Cell ${shown.highlight.number} · octahedron · volume 3.77 · ${range} · slice w 0.20`;
     };
     const { text, kept } = await pointLikeKept(opened, at, /volume/);
     assert.equal(text, await textAt(at));
@@ -145,7 +145,7 @@ test("pointing light: what is cut from the element itself is lit before the serv
     await page.evaluate(() => void (window.isHeld = ({ type }) => type === "measure"));
     const { source: cell, at } = faceIn(seen, size, 1);
     await moveTo(...at);
-    assert.equal(await named(page, /^Cell/), `Cell ${cell} · octahedron · slice w 0.2`);
+    assert.equal(await named(page, /^Cell/), `Cell ${cell} · octahedron · slice w 0.20`);
     const withCell = await shot(page);
     assert.throws(() => assertSame(before, withCell, [-1000, 0]), "its faces are lit");
 

@@ -6,7 +6,7 @@ import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 import { byId } from "./element";
 import type { ElementMeasurements } from "./element_measurements";
 import type { FieldPoint, FieldSamples, LevelDescription } from "./field_samples";
-import { capitalize, formatCoordinate, formatFieldValue, formatLength } from "./format";
+import { capitalize, formatCoordinate, formatFieldValue, formatLength, formatW } from "./format";
 import type { AreaPoint } from "./hover";
 import { spokenReferenceFrame } from "./reference_frame";
 
@@ -121,7 +121,7 @@ function describeLevel(
         const name = values?.quantity?.name || values?.variable || "second value";
         parts.push(`${name} ${withUnit(second, values?.quantity?.unit)}`);
     }
-    if (sliceW !== undefined) parts.push(`slice w ${formatCoordinate(sliceW, slices?.spacing ?? 1)}`);
+    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, slices?.spacing ?? 1)}`); // as below the slice
     return parts.join(" · ");
 }
 
@@ -149,6 +149,6 @@ function describe(described: ElementDescription, measured: Partial<Measured>, st
         const [least, most] = measured.range.map(format);
         parts.push(least === most ? `w ${least}` : `w ${least} … ${most}`);
     }
-    if (sliceW !== undefined) parts.push(`slice w ${format(sliceW)}`);
+    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, spacing)}`); // as below the slice
     return parts.join(" · ");
 }
