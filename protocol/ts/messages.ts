@@ -1298,7 +1298,7 @@ export interface State {
      */
     field?: FieldDefinition;
     /**
-     * The section of the focus hyperplane. Names are those of regular polygons, Platonic, Archimedean and Catalan solids, cuboids, and right prisms, antiprisms, pyramids and bipyramids over regular polygons.
+     * The section of the focus hyperplane. Names are those of regular polygons, Platonic, Archimedean, Catalan and Kepler–Poinsot solids, cuboids, and right prisms, antiprisms, pyramids and bipyramids over regular polygons.
      */
     section: {
         /**

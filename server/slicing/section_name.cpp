@@ -4,7 +4,9 @@
 #include <cmath>
 #include <initializer_list>
 #include <numbers>
+#include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -87,15 +89,18 @@ struct SectionNamer::Shape {
         moveIntoUnitSphere(vertices);
         findDistancesOf(vertices);
         edges = {distances.front()[1]};
-        std::size_t edgeEnds = 0;
-        std::vector<double> ofVertex;
-        for (const glm::dvec3& vertex : vertices) {
-            findDistances(vertices, vertex, ofVertex);
-            edgeEnds += std::ranges::count_if(ofVertex, [&](double distance) { return hasEdge(distance); });
-        }
-        const std::size_t edgeCount = edgeEnds / 2;
+        const std::size_t edgeCount = countEdges(vertices);
         const std::size_t faces = dimension == 3 ? edgeCount + 2 - vertices.size() : dimension - 1;  // Euler's formula
         counts = {vertices.size(), edgeCount, faces};
+    }
+
+    // A regular star whose edges have this length. Its center is 0, and its faces have `sides` sides.
+    Shape(std::string shapeName, std::vector<glm::dvec3> vertices, double edge, std::size_t sides)
+        : name(std::move(shapeName)), edges{edge / glm::length(vertices.front())} {
+        moveIntoUnitSphere(vertices);
+        findDistancesOf(vertices);
+        const std::size_t edgeCount = countEdges(vertices);
+        counts = {vertices.size(), edgeCount, 2 * edgeCount / sides};
     }
 
     Shape(std::string shapeName, polytopes::SolidMesh mesh) : name(std::move(shapeName)) {
@@ -119,6 +124,16 @@ struct SectionNamer::Shape {
             if (!hasVertex(ofVertex)) distances.push_back(ofVertex);
         }
     }
+    // Returns the number of pairs of vertices whose distance is the length of an edge.
+    std::size_t countEdges(const std::vector<glm::dvec3>& vertices) const {
+        std::size_t ends = 0;
+        std::vector<double> ofVertex;
+        for (const glm::dvec3& vertex : vertices) {
+            findDistances(vertices, vertex, ofVertex);
+            ends += std::ranges::count_if(ofVertex, [&](double distance) { return hasEdge(distance); });
+        }
+        return ends / 2;
+    }
     // Returns whether one of the vertices has these distances from all vertices.
     bool hasVertex(const std::vector<double>& ofVertex) const {
         return std::any_of(distances.begin(), distances.end(), [&](const std::vector<double>& known) {
@@ -130,19 +145,19 @@ struct SectionNamer::Shape {
     }
 };
 
-// All polyhedra of one kind over regular polygons with the same number of sides, or all cuboids. They have the same
-// name and different proportions.
+// All polyhedra of one kind over regular polygons of the same kind, or all cuboids. They have the same name and
+// different proportions.
 struct SectionNamer::Family {
     enum class Kind : std::uint8_t { cuboid, prism, antiprism, pyramid, bipyramid };
 
     Kind kind;
-    int sides;  // of the polygon; 4 for cuboids
+    polytopes::RegularPolygon base;  // a square for cuboids
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
 
-    Family(Kind familyKind, int sidesOfBase, std::string familyName)
-        : kind(familyKind), sides(sidesOfBase), name(std::move(familyName)) {
-        const auto n = static_cast<std::size_t>(sides);
+    Family(Kind familyKind, polytopes::RegularPolygon polygon, std::string familyName)
+        : kind(familyKind), base(polygon), name(std::move(familyName)) {
+        const auto n = static_cast<std::size_t>(base.numerator);
         if (kind == Kind::cuboid || kind == Kind::prism) counts = {2 * n, 3 * n, n + 2};
         if (kind == Kind::antiprism) counts = {2 * n, 4 * n, 2 * n + 2};
         if (kind == Kind::pyramid) counts = {n + 1, 2 * n, n + 1};
@@ -173,7 +188,8 @@ struct SectionNamer::Family {
     // Returns the vertices of the member whose polygon has sides of the length `side`, and whose other edges have the
     // length `lateral`; an empty list if there is none.
     std::vector<glm::dvec3> verticesOf(double side, double lateral) const {
-        const double radius = side / (2 * std::sin(std::numbers::pi / sides));
+        const int sides = base.numerator;
+        const double radius = side / (2 * std::sin(std::numbers::pi * base.denominator / sides));
         const double turn = kind == Kind::antiprism ? std::numbers::pi / sides : 0;
         const bool hasApex = kind == Kind::pyramid || kind == Kind::bipyramid;
         const double across = hasApex ? radius : 2 * radius * std::sin(turn / 2);  // the width of a lateral edge
@@ -197,7 +213,15 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
         const auto named = polytopes::namedPolyhedra();
         std::vector<Shape> shapes;
         for (const polytopes::NamedPolyhedron& solid : named) {
-            if (!polytopes::isConvex(solid)) continue;
+            if (!polytopes::isConvex(solid)) {
+                // The diagram of {p, q} is xpoqo; that of its dual {q, p} is opoqx.
+                const std::string_view diagram = solid.linearNotation;
+                const char sides = diagram.starts_with('x') ? diagram[1] : diagram[diagram.size() - 2];
+                constexpr double kEdge = 2;
+                shapes.emplace_back(std::string(solid.name), polytopes::verticesOf(solid), kEdge,
+                                    static_cast<std::size_t>(sides - '0'));
+                continue;
+            }
             shapes.emplace_back(std::string(solid.name), 3, polytopes::verticesOf(solid));
             const polytopes::Solid dual{&solid, 0, false, true};
             const std::string nameOfDual = polytopes::nameOf(dual);
@@ -230,15 +254,22 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
 
 const std::vector<SectionNamer::Family>& SectionNamer::families() {
     using Kind = Family::Kind;
+    using polytopes::RegularPolygon;
     static const std::vector<Family> kFamilies = [] {
         std::vector<Family> families;
-        families.emplace_back(Kind::cuboid, 4, "cuboid");
+        families.emplace_back(Kind::cuboid, RegularPolygon{4, 1}, "cuboid");
         for (int n = 3; n <= kMaxSides; ++n) {
-            const std::string adjective = polytopes::adjectiveOf({n, 1});
-            if (n != 4) families.emplace_back(Kind::prism, n, adjective + " prism");  // for n = 4, it is a cuboid
-            families.emplace_back(Kind::antiprism, n, adjective + " antiprism");
-            if (n != 3) families.emplace_back(Kind::pyramid, n, adjective + " pyramid");  // for n = 3, a tetrahedron
-            families.emplace_back(Kind::bipyramid, n, adjective + " bipyramid");
+            const RegularPolygon polygon{n, 1};
+            const std::string adjective = polytopes::adjectiveOf(polygon);
+            if (n != 4) families.emplace_back(Kind::prism, polygon, adjective + " prism");  // for n = 4, it is a cuboid
+            families.emplace_back(Kind::antiprism, polygon, adjective + " antiprism");
+            if (n != 3) families.emplace_back(Kind::pyramid, polygon, adjective + " pyramid");  // else a tetrahedron
+            families.emplace_back(Kind::bipyramid, polygon, adjective + " bipyramid");
+            for (int d = 2; 2 * d < n; ++d) {
+                const RegularPolygon star{n, d};
+                if (std::gcd(n, d) == 1)
+                    families.emplace_back(Kind::prism, star, polytopes::adjectiveOf(star) + " prism");
+            }
         }
         return families;
     }();
@@ -283,7 +314,7 @@ std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {
     for (const Shape& shape : shapes()) {
         if (hasTheseCounts(shape) && edgesAreThoseOf(shape, edges) && verticesAreThoseOf(shape)) return shape.name;
     }
-    return nameOfFamily(slices, slice);
+    return nameOfFamily(slices, slice, true);
 }
 
 std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges) {
@@ -298,8 +329,8 @@ std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int 
     for (const Shape& shape : shapes()) {
         if (shape.counts[0] == vertices_.size() && verticesAreThoseOf(shape)) return shape.name;
     }
-    // If no edge crosses the hyperplane, a slice of such a family is the convex hull.
-    return vertices_.size() == slices.vertexCount(slice) ? nameOfFamily(slices, slice) : std::string_view();
+    // If no edge crosses the hyperplane, a convex slice is the convex hull.
+    return vertices_.size() == slices.vertexCount(slice) ? nameOfFamily(slices, slice, false) : std::string_view();
 }
 
 bool SectionNamer::isSolid(std::string_view name) {
@@ -308,13 +339,14 @@ bool SectionNamer::isSolid(std::string_view name) {
     return std::ranges::find(families(), name, &Family::name) != families().end();
 }
 
-// Returns the name of the family to which a slice belongs, or an empty string. `vertices_` must have its vertices.
-std::string_view SectionNamer::nameOfFamily(const SliceSet& slices, int slice) {
+// Returns the name of the family to which a slice belongs, or an empty string; if `withStars` is false, also for a
+// prism over a star polygon. `vertices_` must have the vertices of the slice.
+std::string_view SectionNamer::nameOfFamily(const SliceSet& slices, int slice, bool withStars) {
     const std::array counts{slices.vertexCount(slice), slices.edgeCount(slice), slices.faceCount(slice)};
     const auto edges = std::span(slices.edges).subspan(slices.edgeBegin[slice], counts[1]);
     lengths_.clear();
     for (const Family& family : families()) {
-        if (family.counts != counts) continue;
+        if (family.counts != counts || (!withStars && family.base.denominator != 1)) continue;
         if (lengths_.empty()) {
             for (const auto& [a, b] : edges) lengths_.push_back(glm::distance(vertices_[a], vertices_[b]));
             std::ranges::sort(lengths_);

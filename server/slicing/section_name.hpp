@@ -37,10 +37,11 @@ struct NamedSection {
 
 /// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
 /// geometrically similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the
-/// point, the segment, the regular polygons with up to 20 sides, the Platonic, Archimedean and Catalan solids, the
-/// cuboids, the right prisms, antiprisms, pyramids and bipyramids of any height whose bases are such polygons, and the
-/// duals of the uniform antiprisms among these. All other shapes have no name, including slices that are not convex or
-/// have several components.
+/// point, the segment, the regular polygons with up to 20 sides, the Platonic, Archimedean, Catalan and Kepler–Poinsot
+/// solids, the cuboids, the right prisms, antiprisms, pyramids and bipyramids of any height whose bases are such
+/// polygons, the duals of the uniform antiprisms among these, and the right prisms of any height whose bases are
+/// regular star polygons with up to 20 sides. All other shapes have no name, including all others that are not convex
+/// or have several components.
 ///
 /// If no named shape has the same numbers of vertices, edges and faces as a slice, a call of nameOfSlice() takes less
 /// than 1 µs, regardless of the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2
@@ -78,7 +79,7 @@ class SectionNamer {
     struct Family;
     static const std::vector<Shape>& shapes();
     static const std::vector<Family>& families();
-    std::string_view nameOfFamily(const SliceSet& slices, int slice);
+    std::string_view nameOfFamily(const SliceSet& slices, int slice, bool withStars);
     bool edgesAreThoseOf(const Shape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const;
     bool verticesAreThoseOf(const Shape& shape);
 

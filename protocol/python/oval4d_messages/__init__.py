@@ -500,8 +500,8 @@ class _StateSection(TypedDict):
 
 
 class StateSection(_StateSection, total=False):
-    """The section of the focus hyperplane. Names are those of regular polygons, Platonic, Archimedean and Catalan
-    solids, cuboids, and right prisms, antiprisms, pyramids and bipyramids over regular polygons."""
+    """The section of the focus hyperplane. Names are those of regular polygons, Platonic, Archimedean, Catalan and
+    Kepler–Poinsot solids, cuboids, and right prisms, antiprisms, pyramids and bipyramids over regular polygons."""
     # Present for a field if all points of the focus slice have one coordinate in `box` in common, such as the time:
     # unless a rotation or the frame of reference mixes the axes.
     coordinate: CommonCoordinate
@@ -582,8 +582,8 @@ class _State(TypedDict):
     shown: StateShown
     # How the viewer has moved the camera from its initial position. Not part of the undo history.
     camera: StateCamera
-    # The section of the focus hyperplane. Names are those of regular polygons, Platonic, Archimedean and Catalan
-    # solids, cuboids, and right prisms, antiprisms, pyramids and bipyramids over regular polygons.
+    # The section of the focus hyperplane. Names are those of regular polygons, Platonic, Archimedean, Catalan and
+    # Kepler–Poinsot solids, cuboids, and right prisms, antiprisms, pyramids and bipyramids over regular polygons.
     section: StateSection
     # How much space a unit of w is worth, if w is time: the object's w is multiplied by it. See Frames of reference.
     pace: float

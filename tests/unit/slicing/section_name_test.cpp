@@ -382,14 +382,33 @@ TEST(SectionNamePair, areNotThoseOfSolidsWithTurnedCaps) {
     }
 }
 
-TEST(SectionNamePair, areNotThoseOfStars) {
+TEST(SectionNamePair, areThoseOfRegularStars) {
+    std::size_t stars = 0;
     for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
         if (isConvex(solid)) continue;
+        ++stars;
         SCOPED_TRACE(solid.name);
         const polytopes::Polytope& p = named(std::string(solid.name) + " prism");
-        const SliceSet cut = cutAt(p, geometry::Rotation(), 0);
-        EXPECT_EQ(cut.edgeCount(0), 30U);
-        EXPECT_EQ(nameOfSlice(cut), "");
+        for (const double w : {0.0, 0.5}) {
+            const SliceSet cut = cutAt(p, geometry::Rotation(), w);
+            EXPECT_EQ(cut.edgeCount(0), 30U);
+            EXPECT_EQ(nameOfSlice(cut), solid.name);
+        }
+        // The name of the hull: the vertices are those of an icosahedron or a dodecahedron.
+        const SliceSet base = cutAt(p, geometry::Rotation(), 1);
+        EXPECT_EQ(SectionNamer().nameOfObjectVertices(base, 0, p.edges.size()),
+                  base.vertexCount(0) == 12 ? "icosahedron" : "dodecahedron");
+    }
+    EXPECT_EQ(stars, 4U);
+}
+
+TEST(SectionNamePair, areThoseOfPrismsOverStarPolygons) {
+    // The polygon with fewer sides comes first, and is the base of the sections.
+    for (const auto& [duoprism, name] : {std::pair{"5/2,7-duoprism", "pentagrammic prism"},
+                                         {"7/2,8-duoprism", "7/2-gonal prism"},
+                                         {"7/3,8-duoprism", "7/3-gonal prism"}}) {
+        SCOPED_TRACE(duoprism);
+        EXPECT_EQ(nameOfSlice(cutAt(named(duoprism), geometry::Rotation(), 0.1)), name);
     }
 }
 
