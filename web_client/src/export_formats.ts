@@ -1,5 +1,7 @@
 // The formats in which a session can be exported: those of the protocol, and PNG, the picture itself.
 
+import type { FileOptions } from "@oval4d/protocol";
+
 import table from "../../protocol/export_formats.json";
 
 export type ExportOption = "of" | "body" | "size" | "label" | "exact" | "side" | "pixels" | "background";
@@ -25,6 +27,9 @@ export interface ExportFormat {
     objects?: "fields" | "polytopes";
 }
 
+/** The name of an option of a file; see the message `get`. */
+export type FileOptionName = keyof Omit<FileOptions, "format">;
+
 /**
  * The options of files on the command line, each with a list of its values; empty for an option that is a number or a
  * list, and for `of`, whose values depend on the format.
@@ -37,8 +42,7 @@ export const kFileOptions = {
     at: [],
     fit: [],
     exact: ["on", "off"],
-} satisfies Record<string, string[]>;
-export type FileOptionName = keyof typeof kFileOptions;
+} satisfies Record<FileOptionName, string[]>;
 
 const kAboutPng = "The picture; scripts can restore its state from the file";
 const kPng: ExportFormat = {
