@@ -140,6 +140,28 @@ test("phone link: the server's own token is added to the link only if the user w
     await server.stop();
 });
 
+test("phone link: a link that is too long for a QR code is shown and copied without one", async () => {
+    const server = await startServer({ options: ["--token", "long".repeat(600)] });
+    const { page, errors, close } = await openPage({ url: server.url });
+    await ready(page);
+    await openDialog(page);
+    await page.waitForSelector("#phone-key");
+    const link = await read(page);
+    assert.equal(await page.locator("#phone-too-long").isVisible(), false);
+    await page.click("#phone-adds-token");
+    await page.waitForSelector("#phone-too-long");
+    assert.match(await page.locator("#phone-too-long").textContent(), /too long for a QR code.*[Cc]opy it.*leave out/);
+    assert.equal(await page.locator("#phone-code").isVisible(), false);
+    assert.ok((await page.inputValue("#phone-link")).length > 2400, "the link is shown");
+    await page.click("#phone-adds-token");
+    await page.waitForSelector("#phone-code");
+    assert.equal(await read(page), link);
+    assert.equal(await page.locator("#phone-too-long").isVisible(), false);
+    assert.deepEqual(errors, []);
+    await close();
+    await server.stop();
+});
+
 test("phone link: an address that phones can reach is shown without a warning", async () => {
     const host = "oval.test"; // stands for the name of the computer in a network
     const server = await startServer({ options: ["--allow-host", host] });

@@ -1,7 +1,7 @@
 // The dialog that shows the link to the session as a QR code, so that a phone can take part in the session.
 
 import type { Client, Credentials } from "@oval4d/protocol";
-import { correction, generate } from "lean-qr";
+import { correction, generate, type Bitmap2D } from "lean-qr";
 import { toSvgPath } from "lean-qr/extras/svg";
 
 import { Dialog } from "./dialog";
@@ -9,10 +9,12 @@ import { byId } from "./element";
 import { isOwnComputer, serverTokenOfAddress, shareLink } from "./link";
 
 const kQuietZone = 4; // modules of white around the code, without which readers may not find it (ISO/IEC 18004)
+const kTooMuchData = 4; // the code of lean-qr's error for a text that fits into no QR code
 
 export class PhoneLinkDialog {
     private readonly dialog = new Dialog("phone");
     private readonly code = document.querySelector<SVGSVGElement>("#phone-code")!;
+    private readonly tooLong = byId("phone-too-long");
     private readonly link = byId<HTMLTextAreaElement>("phone-link");
     private readonly addsToken = byId<HTMLInputElement>("phone-adds-token");
     private readonly copyButton = byId("phone-copy");
@@ -58,7 +60,14 @@ export class PhoneLinkDialog {
         if (link === this.link.value) return;
         this.link.value = link;
         this.status.textContent = "";
-        const code = generate(link, { minCorrectionLevel: correction.M });
+        const code = codeOf(link);
+        this.code.toggleAttribute("hidden", !code);
+        this.tooLong.hidden = code !== undefined;
+        if (!code) {
+            const shorter = this.addsToken.checked ? ", or leave out the server’s token, without which it is shorter" : "";
+            this.tooLong.textContent = `The link is too long for a QR code. Copy it, and send it to the phone${shorter}.`;
+            return;
+        }
         const side = String(code.size + 2 * kQuietZone);
         this.code.setAttribute("viewBox", `${-kQuietZone} ${-kQuietZone} ${side} ${side}`);
         this.code.querySelector("path")!.setAttribute("d", toSvgPath(code));
@@ -74,6 +83,16 @@ export class PhoneLinkDialog {
             this.link.select();
             this.status.textContent = "The link is selected: copy it with Ctrl-C, or Cmd-C on a Mac.";
         }
+    }
+}
+
+/** The QR code of a link; undefined if the link is too long for one, which has room for 2331 bytes at this level. */
+function codeOf(link: string): Bitmap2D | undefined {
+    try {
+        return generate(link, { minCorrectionLevel: correction.M });
+    } catch (error) {
+        if ((error as { code?: number }).code !== kTooMuchData) throw error;
+        return undefined;
     }
 }
 
