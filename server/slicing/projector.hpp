@@ -66,8 +66,8 @@ class Projector {
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
-    /// Returns whether ProjectionOptions::occlusionSteps were too few in the last project(), so that it left out only elements of
-    /// cells turned away.
+    /// Returns whether ProjectionOptions::occlusionSteps were too few in the last project(), so that it left out only
+    /// elements of cells turned away.
     bool lacksSteps() const { return lacksSteps_; }
 
   private:

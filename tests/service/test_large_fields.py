@@ -146,9 +146,10 @@ async def test_a_file_that_is_shortened_while_it_is_shown_harms_only_its_session
                 with pytest.raises(Refused, match="shortened") as refused:
                     await victim.request("get", what="file", format=format_, of="focus")
                 assert refused.value.code == "bad_field"
-            with pytest.raises(Refused, match="shortened") as refused:
-                await victim.request("get", what="critical")
-            assert refused.value.code == "bad_field"
+            for type_, members in (("get", {"what": "critical"}), ("key", {"key": ")"})):
+                with pytest.raises(Refused, match="shortened") as refused:
+                    await victim.request(type_, **members)
+                assert refused.value.code == "bad_field"
             assert await slices_of(other) == expected
             await other.request_frame(**SIZE)
             assert [server.process.pid, *server.drawing_processes()] == pids

@@ -18,12 +18,14 @@ Error logAndClassifyFailure(const session::State& state, const std::string& sess
                             const std::exception& why, const Error& otherwise) {
     const fields::Field* const field = slicing::fieldIn(state.object);
     if (field != nullptr && field->isLost()) {
-        spdlog::warn("picture or file not made session={} revision={} reason=\"{}\"", sessionId, revision, why.what());
+        spdlog::warn("picture, file or command not completed session={} revision={} reason=\"{}\"", sessionId, revision,
+                     why.what());
         return {ErrorCode::bad_field,
                 "the file of this field has been changed or shortened, or cannot be read any more; load it again"};
     }
     if (dynamic_cast<const slicing::TooManySliceEdges*>(&why) != nullptr) return {ErrorCode::too_large, why.what()};
-    spdlog::error("picture or file failed session={} revision={} fault=\"{}\"", sessionId, revision, why.what());
+    spdlog::error("picture, file or command failed session={} revision={} fault=\"{}\"", sessionId, revision,
+                  why.what());
     return otherwise;
 }
 

@@ -17,9 +17,10 @@ namespace oval4d::net {
 /// request.
 void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id);
 
-/// Returns the error for a client to whom a picture, a file or the critical values of a state cannot be sent, because
-/// making them has failed with `why`: `bad_field` if the file of the state's field can no longer be read, `too_large`
-/// if the slices have too many edges, else `otherwise`. Logs the failure unless it returns `too_large`.
+/// Returns the error for a client to whom a picture, a file or the critical values of a state cannot be sent, or whose
+/// command cannot be applied to a state, because the work has failed with `why`: `bad_field` if the file of the
+/// state's field can no longer be read, `too_large` if the slices have too many edges, else `otherwise`. Logs the
+/// failure unless it returns `too_large`.
 Error logAndClassifyFailure(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                             const std::exception& why, const Error& otherwise);
 

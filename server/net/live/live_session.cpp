@@ -1,7 +1,5 @@
 #include "net/live/live_session.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/dispatch.hpp>
@@ -168,8 +166,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     } catch (const parallel::QueueFull&) {
         done = kTooManyJobs;
     } catch (const std::exception& fault) {
-        spdlog::error("command failed session={} fault=\"{}\"", credentials_.id, fault.what());
-        done = kInternalError;
+        done = logAndClassifyFailure(session_.current, credentials_.id, revision(), fault, kInternalError);
     }
     if (!done) co_return done.error();
     CommandResult applied{revision(), loader.warnings(), true};
