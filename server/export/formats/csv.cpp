@@ -135,6 +135,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
                 slicing::placeSection(field, toFunction, planes.w(i), section);
                 slicing::evaluateInSection(*field.second->function, section, std::span(std::as_const(surface.points)),
                                            values);
+                field.second->function->releasePages();
                 out += ',';
                 if (const auto mean = slicing::meanOnSurface(surface, values)) appendDecimal(out, *mean);
             }

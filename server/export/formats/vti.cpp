@@ -73,6 +73,7 @@ std::vector<float> sample(const fields::Field& field, const SliceLattice& lattic
                 if (isOutside[i]) out[i] = std::numeric_limits<float>::quiet_NaN();
             }
         }
+        field.function->releasePages();
     }
     return values;
 }

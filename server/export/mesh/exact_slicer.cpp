@@ -28,7 +28,10 @@ const fields::Field& withRoomForTables(const fields::Field& field, const Budget&
 
 ExactSlicer::ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
                          const Budget& budget)
-    : budget_(budget), options_(std::move(options)), slicer_(withRoomForTables(field, budget), orientation) {}
+    : field_(field),
+      budget_(budget),
+      options_(std::move(options)),
+      slicer_(withRoomForTables(field, budget), orientation) {}
 
 void ExactSlicer::slice(double w, double level, std::size_t others, slicing::ClosedSurface& out) {
     const std::size_t limit = budget_.triangleLimit();
@@ -44,6 +47,7 @@ void ExactSlicer::slice(double w, double level, std::size_t others, slicing::Clo
                                              return budget_.mustStop();
                                          }},
                                     out);
+    field_.function->releasePages();
     budget_.checkTimeAndStop();
     if (!done) {
         throw ExportRefused{{ExportRefusal::Cause::too_large, "the exact surfaces have more than the allowed " +

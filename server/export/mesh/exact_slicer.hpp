@@ -31,10 +31,11 @@ class ExactSlicer {
 
     /// Slices the body of one level by the hyperplane at `w`. Overwrites `out`. `others` is the number of triangles
     /// that the export has made before; the limits apply to these and the new triangles together. Throws ExportRefused
-    /// if a limit is exceeded or a stop is requested.
+    /// if a limit is exceeded or a stop is requested. Afterward, the pages of the field's file are released.
     void slice(double w, double level, std::size_t others, slicing::ClosedSurface& out);
 
   private:
+    const fields::Field& field_;
     const Budget& budget_;
     const SurfaceOptions options_;
     slicing::ClosedSurfaceSlicer slicer_;

@@ -55,7 +55,6 @@ FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
                                    surface_.secondValues);
         field_.second->function->releasePages();
     }
-    field_.function->releasePages();
     field_.requireReadable();
     return {surface_, points_};
 }

@@ -1,6 +1,7 @@
 #include "export/mesh/field_surfaces.hpp"
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -142,6 +143,33 @@ fields::Field noise(std::size_t side, std::mt19937& random, double holes = 0) {
     fields::Field field = fields::makeField("noise", function, box);
     field.array = function;
     return field;
+}
+
+// Counts how often its pages are released.
+class MappedFunction : public slicing::TestFunction {
+  public:
+    using TestFunction::TestFunction;
+    void releasePages() const override { ++released; }
+
+    mutable std::atomic<int> released = 0;
+};
+
+TEST(FilesOfFields, releaseThePagesOfMappedArraysAfterEachSlice) {
+    const auto radius = [](const glm::dvec4& p) { return glm::length(p); };
+    const auto first = std::make_shared<const MappedFunction>(radius, 1.0);
+    const auto second = std::make_shared<const MappedFunction>(radius, 1.0);
+    fields::Field ball = fields::makeField("ball", first, {glm::dvec4(-1), glm::dvec4(1)});
+    fields::setSecondFunction(ball, {.function = second});
+    const ExactField field(std::move(ball), {}, {-1, 3, 0.1}, {{0.9}});
+    const int atFirst = first->released, atSecond = second->released;
+    EXPECT_TRUE(field.file("csv", ExportContentsKind::oval).starts_with("n,w,volume"));
+    EXPECT_GE(first->released, atFirst + 3);
+    EXPECT_GE(second->released, atSecond + 3);
+    const int beforeLattice = first->released;
+    const ExportRequest lattice{.format = formatNamed("vti"), .contents = ExportContentsKind::focus};
+    const auto made = bytesOf(exports::exportScene(field.scene, field.object, {}, lattice, kUnhurried, {}));
+    EXPECT_TRUE(made.starts_with("<?xml"));
+    EXPECT_GE(first->released, beforeLattice + 64) << "after each layer of the lattice";
 }
 
 // In general position, and where the hyperplane contains lattice points, so that many triangles have no area.
