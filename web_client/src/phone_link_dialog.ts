@@ -64,8 +64,9 @@ export class PhoneLinkDialog {
         this.code.toggleAttribute("hidden", !code);
         this.tooLong.hidden = code !== undefined;
         if (!code) {
-            const shorter = this.addsToken.checked ? ", or leave out the server’s token, without which it is shorter" : "";
-            this.tooLong.textContent = `The link is too long for a QR code. Copy it, and send it to the phone${shorter}.`;
+            const orShorter = this.addsToken.checked ? ", or leave out the server’s token" : "";
+            this.tooLong.textContent =
+                `The link is too long for a QR code. Copy it, and send it to the phone${orShorter}.`;
             return;
         }
         const side = String(code.size + 2 * kQuietZone);

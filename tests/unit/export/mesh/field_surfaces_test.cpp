@@ -161,15 +161,15 @@ TEST(FilesOfFields, releaseThePagesOfMappedArraysAfterEachSlice) {
     fields::Field ball = fields::makeField("ball", first, {glm::dvec4(-1), glm::dvec4(1)});
     fields::setSecondFunction(ball, {.function = second});
     const ExactField field(std::move(ball), {}, {-1, 3, 0.1}, {{0.9}});
-    const int atFirst = first->released, atSecond = second->released;
+    const int atFirst = first->released.load(), atSecond = second->released.load();
     EXPECT_TRUE(field.file("csv", ExportContentsKind::oval).starts_with("n,w,volume"));
-    EXPECT_GE(first->released, atFirst + 3);
-    EXPECT_GE(second->released, atSecond + 3);
-    const int beforeLattice = first->released;
+    EXPECT_GE(first->released.load(), atFirst + 3);
+    EXPECT_GE(second->released.load(), atSecond + 3);
+    const int beforeLattice = first->released.load();
     const ExportRequest lattice{.format = formatNamed("vti"), .contents = ExportContentsKind::focus};
     const auto made = bytesOf(exports::exportScene(field.scene, field.object, {}, lattice, kUnhurried, {}));
     EXPECT_TRUE(made.starts_with("<?xml"));
-    EXPECT_GE(first->released, beforeLattice + 64) << "after each layer of the lattice";
+    EXPECT_GE(first->released.load(), beforeLattice + 64) << "after each layer of the lattice";
 }
 
 // In general position, and where the hyperplane contains lattice points, so that many triangles have no area.
