@@ -34,6 +34,19 @@ Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t di
     return found;
 }
 
+std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes) {
+    std::vector<std::size_t> kept;
+    std::size_t surplus = sizes.size() > 4 ? sizes.size() - 4 : 0;
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        if (surplus > 0 && sizes[i] == 1) {
+            --surplus;
+        } else {
+            kept.push_back(i);
+        }
+    }
+    return kept;
+}
+
 Result<AxisMapping> AxisMapping::of(std::span<const Dimension> dimensions, std::size_t maxSamples) {
     AxisMapping mapping;
     std::size_t count = 1;

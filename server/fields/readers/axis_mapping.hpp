@@ -36,6 +36,12 @@ struct Dimension {
 /// does not have as many letters as there are dimensions, or contains another letter, or an axis twice.
 Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t dimensions);
 
+/// Returns the indices of the dimensions of an array that are mapped to axes, in ascending order. `sizes` are the sizes
+/// of the dimensions. If there are more than 4 dimensions, leaves out dimensions of size 1, from the first on, until 4
+/// remain: an array often has such a dimension for the only member of an ensemble. More than 4 indices are returned if
+/// too many dimensions are larger; parseAxes() refuses such an array.
+std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes);
+
 /// A part of an array that is read at once.
 struct Slab {
     std::array<std::size_t, 4> start;  ///< the indices of its first number, in the order of StridedLayout::size

@@ -169,24 +169,28 @@ std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, 
     return file.bytes.subspan(offset, size);
 }
 
-// Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers.
+// Reads the dataset slab by slab, and converts its numbers to samples. `stored` is the HDF5 type of the numbers, and
+// `kept` are the dimensions that `mapping` maps to axes (see dimensionsWithAxes()); the others have the size 1.
 Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options, hid_t dataset, hid_t stored,
-                                const AxisMapping& mapping, const NumberFormat& format) {
+                                const std::vector<std::size_t>& kept, const AxisMapping& mapping,
+                                const NumberFormat& format) {
     const Handle space(H5Dget_space(dataset), H5Sclose);
     const auto dimensions = static_cast<std::size_t>(H5Sget_simple_extent_ndims(*space));
+    std::vector<hsize_t> start(dimensions, 0), size(dimensions, 1);
     auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
     std::vector<std::byte> numbers;
     for (const Slab& slab : mapping.slabs(kSlabSize)) {
-        std::array<hsize_t, 4> start{}, size{};
-        std::copy(slab.start.begin(), slab.start.end(), start.begin());
-        std::copy(slab.layout.size.begin(), slab.layout.size.end(), size.begin());
-        const std::size_t skipped = 4 - dimensions;
-        const hsize_t count = size[0] * size[1] * size[2] * size[3];
+        hsize_t count = 1;
+        for (std::size_t i = 0; i < kept.size(); ++i) {
+            const std::size_t at = 4 - kept.size() + i;  // a slab has leading dimensions of size 1
+            start[kept[i]] = slab.start.at(at);
+            size[kept[i]] = slab.layout.size.at(at);
+            count *= size[kept[i]];
+        }
         const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose);
         numbers.resize(count * sizeOf(format.type));
-        if (H5Sselect_hyperslab(*space, H5S_SELECT_SET, start.data() + skipped, nullptr, size.data() + skipped,
-                                nullptr) < 0 ||
+        if (H5Sselect_hyperslab(*space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0 ||
             H5Dread(dataset, stored, *memory, *space, H5P_DEFAULT, numbers.data()) < 0) {
             return badField(
                 "the dataset cannot be read: it is damaged, or it is compressed in a way that is not supported");
@@ -198,7 +202,8 @@ Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions
     return buffer->take();
 }
 
-// Chooses among the candidates: the datasets that contain numbers and have 1 to 4 dimensions. Returns the path of the
+// Chooses among the candidates: the datasets that contain numbers and have 1 to 4 dimensions (see
+// dimensionsWithAxes()). Returns the path of the
 // candidate with the most dimensions, or of the first of several such candidates; an empty string if there is no
 // candidate. Adds a warning if there are several candidates.
 std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
@@ -209,10 +214,12 @@ std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets,
         if (!dataset) continue;
         const Handle type(H5Dget_type(*dataset), H5Tclose);
         const auto size = sizeOfDataset(*dataset);
-        if (!type || !size || size->size() > 4 || !formatOf(*type)) continue;
+        if (!type || !size || !formatOf(*type)) continue;
+        const std::size_t kept = dimensionsWithAxes(*size).size();
+        if (kept > 4) continue;
         ++candidates;
-        if (size->size() <= dimensions) continue;
-        dimensions = size->size();
+        if (kept <= dimensions) continue;
+        dimensions = kept;
         chosen = name;
     }
     if (candidates > 1)
@@ -265,10 +272,11 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
     const auto format = type ? formatOf(*type) : std::nullopt;
     const auto size = sizeOfDataset(*dataset);
     if (!format || !size) return badField("the dataset " + text::inQuotes(name) + " is not an array of real numbers");
-    const auto axes = parseAxes(options.axes, size->size());
+    const std::vector<std::size_t> kept = dimensionsWithAxes(*size);
+    const auto axes = parseAxes(options.axes, kept.size());
     if (!axes) return axes.error();
     std::vector<Dimension> dimensions;
-    for (std::size_t i = 0; i < size->size(); ++i) dimensions.push_back({(*size)[i], (*axes)[i]});
+    for (std::size_t i = 0; i < kept.size(); ++i) dimensions.push_back({(*size)[kept[i]], (*axes)[i]});
     const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
     field.shape = mapping->shape();
@@ -283,7 +291,7 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
         field.samples = std::move(*inPlace);
         return field;
     }
-    auto samples = readSlabs(file, options, *dataset, *type, *mapping, *format);
+    auto samples = readSlabs(file, options, *dataset, *type, kept, *mapping, *format);
     if (!samples) return samples.error();
     field.samples = *samples;
     return field;

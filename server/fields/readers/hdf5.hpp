@@ -13,7 +13,8 @@ namespace oval4d::fields {
 /// Returns whether the bytes are the start of an HDF5 file. This includes NetCDF-4 files.
 bool isHdf5Start(std::span<const std::byte> start);
 
-/// Reads a dataset of integers, real numbers, or Booleans as h5py writes them, with 1 to 4 dimensions.
+/// Reads a dataset of integers, real numbers, or Booleans as h5py writes them, with 1 to 4 dimensions (see
+/// dimensionsWithAxes()).
 /// `options.variable` is the path of the dataset, which may contain soft links. If this option is empty, the dataset
 /// with the most dimensions is read; of several such datasets, the first by path. A dataset that is stored in one piece
 /// is used in place or converted as in readNpy(), without the HDF5 library; other datasets are read by slabs. The box

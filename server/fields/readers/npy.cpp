@@ -143,12 +143,13 @@ Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& opt
     }
     auto shape = header->shape;
     if (header->fortranOrder) std::reverse(shape.begin(), shape.end());  // from the slowest dimension to the fastest
-    auto axes = parseAxes(options.axes, shape.size());
+    const std::vector<std::size_t> kept = dimensionsWithAxes(shape);
+    auto axes = parseAxes(options.axes, kept.size());
     if (!axes) return axes.error();
     // `options.axes` is in the order of the shape in the header, so it is reversed as the shape is.
     if (header->fortranOrder) std::reverse(axes->begin(), axes->end());
     std::vector<Dimension> dimensions;
-    for (std::size_t i = 0; i < shape.size(); ++i) dimensions.push_back({shape[i], (*axes)[i]});
+    for (std::size_t i = 0; i < kept.size(); ++i) dimensions.push_back({shape[kept[i]], (*axes)[i]});
     const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
     const auto data = file.bytes.subspan(headerAt + length);

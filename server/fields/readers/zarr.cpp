@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,20 +72,6 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
     std::vector<double> at;
     for (const float value : values) at.push_back(first + offset + value);
     return at;
-}
-
-// Sets `kept` to the dimensions of the array, in ascending order. If there are more than four, leaves out dimensions of
-// size 1 until four remain.
-void squeeze(ZarrArrayMetadata& array, std::vector<std::size_t>& kept) {
-    kept.resize(array.shape.size());
-    std::iota(kept.begin(), kept.end(), std::size_t{0});
-    for (std::size_t i = 0; i < kept.size() && kept.size() > 4;) {
-        if (array.shape[kept[i]] == 1) {
-            kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
-        } else {
-            ++i;
-        }
-    }
 }
 
 // Returns the dimensions with their axes. Sets the box and the units of `field`, and adds warnings to it.
@@ -180,7 +165,7 @@ AxisPart samplesCovering(double from, double to, double min, double max, std::si
 struct ArrayPart {
     ZarrArrayMetadata array;
     IndexBox indices;
-    std::vector<std::size_t> kept;      // see squeeze()
+    std::vector<std::size_t> kept;      // see dimensionsWithAxes()
     std::vector<Dimension> dimensions;  // those in `kept`, with the sizes of the part
     FieldArray field;                   // without its shape and its samples
     std::uint32_t finer = 0;            // see ImageLevel
@@ -218,7 +203,7 @@ std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart&
 Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
                          const FieldReadOptions& options, bool isCoarser = false) {
     ArrayPart part{std::move(array), {}, {}, {}, {}};
-    squeeze(part.array, part.kept);
+    part.kept = dimensionsWithAxes(part.array.shape);
     part.indices = {std::vector<std::size_t>(part.array.shape.size(), 0), part.array.shape};
     auto dimensions = mapDimensions(folder, zarr, part.array, part.kept, options, part.field);
     if (!dimensions) return dimensions.error();

@@ -6,6 +6,7 @@
 #include <hdf5.h>
 #include <netcdf.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -119,6 +120,44 @@ TEST(Hdf5, RefusesFilesThatReferToOthers) {
     const auto linked = readHdf5(FileContents::copyOf(readFile(path)), {.variable = "f"});
     ASSERT_FALSE(linked);
     EXPECT_NE(linked.error().message.find("other files"), std::string::npos);
+}
+
+// Writes the numbers of numbers() as a dataset with these sizes, in chunks of at most two numbers along a dimension, or
+// in one piece.
+std::string hdf5OfSizes(const std::vector<hsize_t>& sizes, bool isChunked) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "a.h5").string();
+    const std::vector<float> samples = numbers();
+    const int rank = static_cast<int>(sizes.size());
+    std::vector<hsize_t> chunk;
+    for (const hsize_t size : sizes) chunk.push_back(std::min<hsize_t>(size, 2));
+    const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+    const hid_t space = H5Screate_simple(rank, sizes.data(), nullptr), list = H5Pcreate(H5P_DATASET_CREATE);
+    if (isChunked) H5Pset_chunk(list, rank, chunk.data());
+    const hid_t dataset = H5Dcreate2(file, "f", H5T_IEEE_F32LE, space, H5P_DEFAULT, list, H5P_DEFAULT);
+    H5Dwrite(dataset, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, samples.data());
+    H5Dclose(dataset);
+    H5Pclose(list);
+    H5Sclose(space);
+    H5Fclose(file);
+    return readFile(path);
+}
+
+TEST(Hdf5, LeavesOutDimensionsOfSizeOneIfThereAreMoreThanFour) {
+    const std::vector<hsize_t> four{kShape[3], kShape[2], kShape[1], kShape[0]};
+    const FieldArray expected = readOrFail(hdf5OfSizes(four, false));
+    for (const std::size_t at : {0U, 2U, 4U}) {
+        for (const bool isChunked : {false, true}) {
+            std::vector<hsize_t> five = four;
+            five.insert(five.begin() + static_cast<std::ptrdiff_t>(at), 1);
+            const FieldArray field = readOrFail(hdf5OfSizes(five, isChunked));
+            EXPECT_EQ(field.shape, expected.shape) << at;
+            EXPECT_EQ(sampleBits(field), sampleBits(expected)) << at;
+        }
+    }
+    const auto field = readHdf5(FileContents::copyOf(hdf5OfSizes({2, 2, 5, 3, 2}, false)), {});
+    ASSERT_FALSE(field);
+    EXPECT_NE(field.error().message.find("1 to 4 dimensions"), std::string::npos) << field.error().message;
 }
 
 // NetCDF before version 4.4.1 did not write the attribute _NCProperties.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <functional>
+#include <numeric>
 #include <stdexcept>
 
 #include "unit/fields/readers/files.hpp"
@@ -139,6 +140,20 @@ TEST(Npy, GivesMissingAxesOneSample) {
     EXPECT_EQ(readNpyOrFail(npy("(2, 3)", numbers)).shape, (Shape{3, 2, 1, 1}));
     EXPECT_EQ(readNpyOrFail(npy("(1, 2, 3)", numbers)).shape, (Shape{3, 2, 1, 1}));
     EXPECT_EQ(readNpyOrFail(npy("(3, 1, 2)", numbers), {.axes = "wyx"}).shape, (Shape{2, 1, 1, 3}));
+}
+
+TEST(Npy, LeavesOutDimensionsOfSizeOneIfThereAreMoreThanFour) {
+    std::vector<float> numbers(120);
+    std::iota(numbers.begin(), numbers.end(), 0.F);
+    const FieldArray expected = readNpyOrFail(npy("(2, 3, 4, 5)", numbers));
+    for (const std::string shape : {"(1, 2, 3, 4, 5)", "(2, 3, 1, 4, 5)", "(1, 2, 1, 3, 4, 1, 5)", "(2, 3, 4, 5, 1)"}) {
+        const FieldArray field = readNpyOrFail(npy(shape, numbers));
+        EXPECT_EQ(field.shape, expected.shape) << shape;
+        EXPECT_TRUE(std::ranges::equal(field.samples.values(), expected.samples.values())) << shape;
+    }
+    EXPECT_EQ(readNpyOrFail(npy("(1, 1, 1, 1, 120)", numbers)).shape, (Shape{120, 1, 1, 1}));
+    EXPECT_EQ(readNpyOrFail(npy("(1, 2, 3, 4, 5)", numbers), {.axes = "xyzt"}).shape, (Shape{2, 3, 4, 5}));
+    expectError(npy("(2, 3, 2, 2, 5)", numbers), ErrorCode::bad_field, "has 5 dimensions; 1 to 4 are allowed");
 }
 
 TEST(Npy, ReadsAllVersionsAndNotations) {
