@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <utility>
@@ -217,6 +219,24 @@ std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape
     return {};
 }
 
+// Returns a warning for each axis along which the box of a formula is so far from 0 that the surfaces get steps.
+// Functions take coordinates as 32-bit floats, and the distance between neighboring floats grows with their magnitude.
+std::vector<std::string> warningsOfRounding(const fields::Box& box) {
+    constexpr double kFewestFloats = 1000;  // in the range of the box along an axis
+    std::vector<std::string> warnings;
+    for (int axis = 0; axis < 4; ++axis) {
+        const auto farthest = static_cast<float>(std::max(std::abs(box.min[axis]), std::abs(box.max[axis])));
+        const double step = std::nextafter(farthest, std::numeric_limits<float>::infinity()) - farthest;
+        if (box.max[axis] - box.min[axis] >= kFewestFloats * step) continue;
+        const std::string name(1, "xyzw"[axis]);
+        warnings.push_back("the box is far from 0 along " + name + ": " + name + " is rounded to multiples of " +
+                           text::roundedDecimal(step) + ", so surfaces have steps; a box around 0 has none, with " +
+                           name + " + " + text::roundedDecimal(box.center()[axis]) + " in place of " + name +
+                           " in the formula");
+    }
+    return warnings;
+}
+
 // Makes a field from the array that `read` returns for these options, and sets the field's second function.
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::FieldReadOptions options,
@@ -311,7 +331,7 @@ Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
     if (auto error = checkBox(box, kAnyNumberOfSamples)) return std::move(*error);
     auto field = fields::fieldFromFormula(load.name, load.data, box, load.secondFormula);
     if (!field) return field.error();
-    return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), {}};
+    return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), warningsOfRounding(box)};
 }
 
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,

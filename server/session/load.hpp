@@ -36,8 +36,8 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
 /// Returns the command that reads a field with this name from its file in the data folder again.
 LoadObject loadOf(const std::string& name, const fields::FileSource& source);
 
-/// Makes a field from the formula in `load`. Takes less than a millisecond. Errors: those of
-/// fields::fieldFromFormula().
+/// Makes a field from the formula in `load`. Takes less than a millisecond. Warns if the box is so far from 0 that the
+/// surfaces get steps from rounded coordinates. Errors: those of fields::fieldFromFormula().
 Result<ObjectWithWarnings> readFormula(const LoadObject& load);
 
 /// The source of the second function of an array: a formula, or another variable of its file. Both are empty if there

@@ -8,6 +8,7 @@ import { test } from "./support/suite.mjs";
 import { common, named, openWithScript, presented, restart, scriptFor } from "./support/browser.mjs";
 import { startReplaceableServer } from "./support/proxy.mjs";
 import { startServer } from "./support/server.mjs";
+import { startImageStore } from "./support/zarr.mjs";
 
 const file = (name, text) => ({ name, mimeType: "", buffer: Buffer.from(text) });
 const kVertices = "1 1 1 -0.447214\n1 -1 -1 -0.447214\n-1 1 -1 -0.447214\n-1 -1 1 -0.447214\n0 0 0 1.788854\n";
@@ -320,6 +321,26 @@ test("loading: after a restart of the server, a field of its data folder is open
     await close();
     await server.stop();
     await rm(folder, { recursive: true });
+});
+
+test("loading: while a coarse level of an image is shown, the page says that a finer one follows", async () => {
+    const store = await startImageStore();
+    const server = await startServer({ options: ["--data", store.url, "--first-level-bytes", "4k"] });
+    const { page, script, errors, close } = await openWithScript({ url: server.url });
+    await script.request({ type: "load", name: "image", path: "image" });
+    const refining = page.locator("#refining");
+    await page.waitForFunction(() => document.getElementById("refining").textContent !== "");
+    assert.equal(await refining.textContent(), "Refining… 4 × 4 × 4 × 4 samples are shown.");
+    assert.equal(await refining.isVisible(), true);
+    store.releaseFineLevel();
+    await page.waitForFunction(() => document.getElementById("refining").textContent === "");
+    assert.equal(await refining.isVisible(), false);
+    const { field } = await script.until((one) => !one.field?.resolution?.refining, "the fine level");
+    assert.deepEqual(field.shape, [8, 8, 8, 8]);
+    assert.deepEqual(errors, []);
+    await close();
+    await server.stop();
+    store.stop();
 });
 
 test("loading: if a polytope cannot be loaded again, the rest of the view is restored", async () => {

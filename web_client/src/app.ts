@@ -391,6 +391,7 @@ export class App {
         this.colorControls.update(state);
         this.fieldPanel.update(state);
         this.exportDialog.updateSlices(state);
+        showRefining(state);
         this.connection.stateShown(state.revision);
     }
 
@@ -499,6 +500,7 @@ export class App {
         }
         const [loaded, changed] = await Promise.allSettled(answers);
         if (loaded!.status === "rejected") throw loaded!.reason;
+        this.notice.showAll(loaded!.value.warnings ?? []);
         if (changed?.status === "rejected") this.notice.show((changed.reason as Error).message);
         return (changed?.status === "fulfilled" ? changed : loaded!).value.revision;
     }
@@ -506,7 +508,8 @@ export class App {
     /** Loads a field of the server's data folder. */
     private async loadFromDataFolder(path: string): Promise<void> {
         const data = { name: nameOf({ name: path }), path };
-        await this.request({ type: "load", ...data });
+        const { warnings = [] } = await this.request({ type: "load", ...data });
+        this.notice.showAll(warnings);
         this.fileLoading.keep(data);
     }
 

@@ -128,6 +128,21 @@ TEST(Load, WarnsOfFaultsOfASurface) {
     EXPECT_LT(glm::distance(slicing::vertexInFile(far->object, 0), glm::dvec4(1000, 0, 0, 1)), 1e-9);
 }
 
+TEST(Load, WarnsOfABoxOfAFormulaThatIsFarFromZero) {
+    LoadObject load{"far", std::string(kFormula), "y - x + w"};
+    load.box = fields::Box{{1e6, -1, 0, -3e7}, {1e6 + 1, 1, 1e-6, -3e7 + 100}};
+    const auto far = readObject(load, Limits{});
+    ASSERT_TRUE(far) << far.error().message;
+    ASSERT_EQ(far->warnings.size(), 2U);
+    EXPECT_NE(far->warnings[0].find("along x: x is rounded to multiples of 0.0625"), std::string::npos)
+        << far->warnings[0];
+    EXPECT_NE(far->warnings[1].find("along w: w is rounded to multiples of 2,"), std::string::npos) << far->warnings[1];
+    load.box = fields::Box{{1e3, -1e9, 0, 0}, {1e3 + 1, 1e9, 1e-9, 1e30}};
+    const auto exact = readObject(load, Limits{});
+    ASSERT_TRUE(exact) << exact.error().message;
+    EXPECT_TRUE(exact->warnings.empty());
+}
+
 TEST(Load, RefusesInvalidSurfaces) {
     Session session;
     const std::string vertices = "4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n";

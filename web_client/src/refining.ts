@@ -1,0 +1,12 @@
+// Shows, at the top of the picture, that a coarse level of a multiscale image is shown and that a finer one is to follow.
+
+import type { State } from "@oval4d/protocol";
+
+import { byId } from "./element";
+
+export function showRefining({ field }: State): void {
+    const root = byId("refining");
+    const { shape, resolution } = field ?? {};
+    const text = shape && resolution?.refining ? `Refining… ${shape.join(" × ")} samples are shown.` : "";
+    if (root.textContent !== text) root.textContent = text; // a screen reader speaks only changes
+}
