@@ -325,7 +325,7 @@ test("loading: after a restart of the server, a field of its data folder is open
 
 test("loading: while a coarse level of an image is shown, the page says that a finer one follows", async () => {
     const store = await startImageStore();
-    const server = await startServer({ options: ["--data", store.url, "--first-level-bytes", "4k"] });
+    const server = await startServer({ options: ["--data", store.url, "--data-timeout", "120", "--first-level-bytes", "4k"] });
     const { page, script, errors, close } = await openWithScript({ url: server.url });
     await script.request({ type: "load", name: "image", path: "image" });
     const refining = page.locator("#refining");
