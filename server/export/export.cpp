@@ -201,7 +201,7 @@ class Exporter {
             budget_.checkTimeAndStop();
             const LabelText text(scene_.title, wOf(group.slice));
             if (request_.label == LabelPlacement::engraved) {
-                done += text.engrave(group.bodies.front().mesh, request_.size, grid_) ? 1 : 0;
+                done += text.engrave(group.bodies.front().mesh, request_.size, grid_, budget_) ? 1 : 0;
                 continue;
             }
             const BoundingBox box = boxOf(group.bodies.front().mesh);

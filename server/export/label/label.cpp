@@ -108,9 +108,11 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Cel
 }
 
 /// Returns whether the mesh is convex and consists of exactly these faces, none of which has a hole.
-bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, const RoundingGrid& grid) {
+bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, const RoundingGrid& grid,
+              const Budget& budget) {
     std::size_t triangles = 0;
     for (const auto& [cell, face] : faces) {
+        budget.checkTimeAndStop();
         triangles += face.loop.size() - 2;
         for (const glm::dvec3& p : mesh.points) {
             if (glm::dot(p - face.middle, face.normal) > 4 * grid.step()) return false;
@@ -180,12 +182,13 @@ bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placemen
 LabelText::LabelText(const std::string& name, const std::string& w)
     : versions_{letteringOf({name + "  " + w}), letteringOf({name, w})} {}
 
-bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid) const {
+bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const Budget& budget) const {
     const auto faces = facesOf(mesh);
-    if (!isConvex(mesh, faces, grid)) return false;
+    if (!isConvex(mesh, faces, grid, budget)) return false;
     std::vector<TextPlacement> placements;
     for (const auto& [cell, face] : faces) {
         for (std::size_t i = 0; i < face.loop.size(); ++i) {
+            budget.checkTimeAndStop();
             const glm::dvec3 along = mesh.points[face.loop[(i + 1) % face.loop.size()]] - mesh.points[face.loop[i]];
             const glm::dvec3 right = glm::normalize(along - glm::dot(along, face.normal) * face.normal);
             for (const Lettering& text : versions_) {
@@ -200,6 +203,7 @@ bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid) const
     }
     std::ranges::stable_sort(placements, std::greater<>{}, &TextPlacement::height);
     return std::ranges::any_of(placements, [&](const TextPlacement& placement) {
+        budget.checkTimeAndStop();
         return engraveText(mesh, faces.at(placement.cell), placement, grid);
     });
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "export/budget.hpp"
 #include "export/label/letters.hpp"
 #include "export/mesh/mesh.hpp"
 
@@ -21,8 +22,9 @@ class LabelText {
     /// Engraves the text into a convex body, on the face where the letters can be largest. Triangles with the same
     /// entry in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
     /// ExportRequest::size, in millimeters. Returns false and leaves the mesh unchanged if the body is not convex or is
-    /// too thin, or if the letters would be less than 1 mm high.
-    bool engrave(Mesh& mesh, double size, const RoundingGrid& grid) const;
+    /// too thin, or if the letters would be less than 1 mm high. Takes quadratic time in the number of faces; throws
+    /// ExportRefused as Budget::checkTimeAndStop() does.
+    bool engrave(Mesh& mesh, double size, const RoundingGrid& grid, const Budget& budget) const;
 
     /// Returns a body that carries the label: a plate with the text engraved into its top side. The letters are
     /// size / 15 high, but at least 3 and at most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is

@@ -72,7 +72,7 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
                 solidOf(cutAt(p, randomRotation(random), 0.1 * trial), 0, 40 / p.circumradius, grid, unhurried());
             if (mesh.triangles.empty()) continue;
             const Mesh plain = mesh;
-            if (!label.engrave(mesh, 80, grid)) {
+            if (!label.engrave(mesh, 80, grid, unhurried())) {
                 EXPECT_EQ(mesh.triangles, plain.triangles);
                 continue;
             }
@@ -93,7 +93,19 @@ TEST(Label, isRefusedWhereThereIsNoRoom) {
     const Polytope& p = named("600-cell");
     const RoundingGrid grid(20, 20);
     Mesh mesh = solidOf(cutAt(p, {}, 0.1), 0, 10 / p.circumradius, grid, unhurried());
-    EXPECT_FALSE(LabelText("600-cell", "w = 0.1").engrave(mesh, 20, grid));
+    EXPECT_FALSE(LabelText("600-cell", "w = 0.1").engrave(mesh, 20, grid, unhurried()));
+}
+
+TEST(Label, engravingObeysTheTimeLimit) {
+    const Polytope& p = named("8-cell");
+    const RoundingGrid grid(80, 80);
+    Mesh mesh = solidOf(cutAt(p, {}, 0.1), 0, 40 / p.circumradius, grid, unhurried());
+    const std::size_t triangles = mesh.triangles.size();
+    std::chrono::steady_clock::time_point now;
+    const Budget budget({.time = std::chrono::seconds(20), .now = [&] { return now; }}, {});
+    now += std::chrono::seconds(21);
+    EXPECT_THROW(LabelText("8-cell", "w = 0.1").engrave(mesh, 80, grid, budget), ExportRefused);
+    EXPECT_EQ(mesh.triangles.size(), triangles);
 }
 
 TEST(Label, aPlateIsABodyOfItsOwn) {
