@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+
+#include "text/message_text.hpp"
 
 namespace oval4d::fields {
 
@@ -59,6 +62,21 @@ std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geome
         found = {axis, field.center[axis], 1 / factors[axis]};
     }
     return found;
+}
+
+std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing) {
+    const auto coordinate = commonCoordinate(field, orientation);
+    if (!coordinate) return {};
+    const std::string& unit = field.units.at(static_cast<std::size_t>(coordinate->axis));
+    if (unit.empty() && coordinate->isW()) return {};
+    // Two digits of the distance between neighboring slices; 15 digits are what a double holds.
+    const double step = std::abs(coordinate->scale) * spacing, value = coordinate->at(w);
+    const double decimals = step > 0 ? std::clamp(1 - std::floor(std::log10(step)), 0.0, 15.0) : 3;
+    const double unitOfLastDigit = std::pow(10, -decimals);
+    std::string text = text::roundedDecimal(std::round(value / unitOfLastDigit) * unitOfLastDigit);
+    if (coordinate->axis != 3 || unit.empty()) text.insert(0, std::string("box ") + "xyzw"[coordinate->axis] + " = ");
+    if (!unit.empty()) text.append(" ").append(unit);
+    return text;
 }
 
 std::string lengthUnit(const PictureUnits& units) {

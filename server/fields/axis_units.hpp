@@ -40,6 +40,12 @@ struct CommonCoordinate {
 /// of a slice have the same w in the box of an array, and after a quarter turn in xw, the same x.
 std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation);
 
+/// Returns the coordinate in the box of a field that all points of the slice `w` have in common, as a text: "130 s" for a
+/// coordinate along the axis w whose unit is known, else "box x = 0.5 m" or "box w = 130". Returns an empty text if
+/// there is no such coordinate, or if it is w itself, without a unit. `spacing` is the distance between slices; the text
+/// has as many decimals as are needed to distinguish neighboring slices.
+std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing);
+
 /// Returns the unit of lengths in a hyperplane w = const of the picture: the unit of the axes x, y and z if all three
 /// have the same unit and are to scale, else an empty string.
 std::string lengthUnit(const PictureUnits& units);

@@ -191,15 +191,19 @@ void Composer::removeHighlightColor(Scene& out) {
 }
 
 // Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the convex hull of
-// those vertices of the polytope that lie in the hyperplane, provided that this hull is a solid.
+// those vertices of the polytope that lie in the hyperplane, provided that this hull is a solid. The label of a field
+// shows the moment or the place of the slice in the box instead.
 void Composer::nameSection(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
     out.sectionNames = {};
     std::string& focusName = layoutInput_.focusName;
     focusName.clear();
-    if (!slicing::propertiesOf(object).sectionsHaveNames || slice < 0 || slice >= slices.planes.count) return;
+    if (slice < 0 || slice >= slices.planes.count) return;
     const double w = slices.planes.w(slice);
+    if (const fields::Field* const field = slicing::fieldIn(object))
+        focusName = fields::placeInBox(*field, orientation, w, slices.planes.spacing);
+    if (!slicing::propertiesOf(object).sectionsHaveNames) return;
     if (!section_ || !section_->isOf(object, orientation, w)) {
         section_ = slicing::NamedSection{
             slicing::infoOf(object).serial,

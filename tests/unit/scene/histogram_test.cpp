@@ -1,5 +1,6 @@
 // The histogram of a field's values in the picture.
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -83,6 +84,9 @@ TEST(Histogram, SaysWhatTheValuesAndTheAxesMeasure) {
     EXPECT_EQ(pictures.composed(lookAt({1})).histogram.quantity, "temperature, K");
     EXPECT_EQ(pictures.scene.axisUnits[0].text, "m");
     EXPECT_EQ(pictures.scene.axisUnits[3].text, "s");
+    const auto focus = std::ranges::find_if(pictures.scene.placements, &scene::SlicePlacement::focus);
+    ASSERT_NE(focus, pictures.scene.placements.end());
+    EXPECT_TRUE(focus->label.ends_with(" s")) << focus->label;
     pictures.composed(lookAt({1}), geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.5, 0.3}));
     EXPECT_EQ(pictures.scene.axisUnits[0].text, "");
 }
