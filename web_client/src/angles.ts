@@ -6,9 +6,9 @@ const kMaxDenominator = 60; // the largest denominator of a fraction of pi that 
 const kTolerance = 1e-9;
 
 /**
- * Converts an angle to a text for editing: in degrees, if two decimals express the angle exactly; otherwise as a
- * fraction of pi with a denominator up to kMaxDenominator, if one equals the angle; otherwise in degrees with up to ten
- * decimals.
+ * Converts an angle to a text for editing. Uses degrees if two decimals express the angle exactly. Otherwise uses a
+ * fraction of pi with a denominator up to kMaxDenominator, if such a fraction equals the angle. Otherwise uses degrees
+ * with up to ten decimals.
  */
 export function editableAngle(radians: number): string {
     const degrees = (radians * 180) / Math.PI;
@@ -33,7 +33,7 @@ export function angleExpression(text: string): string {
     return withoutBlanksBeforeUnits(typed);
 }
 
-/** Removes the blanks before "°", "deg" and "rad", but not before the function deg(). */
+/** Removes the blanks before the units "°", "deg" and "rad". Keeps the blanks before a call of the function deg(). */
 export function withoutBlanksBeforeUnits(text: string): string {
     return withDegreeSigns(text).replace(/\s+(?=°|(?:deg|rad)(?![a-z(]))/gi, "");
 }
@@ -44,8 +44,8 @@ export function withoutBlanksAroundOperators(text: string): string {
 }
 
 /**
- * Replaces two characters that look like the degree sign, as the command line does: keyboards of Spain and Portugal
- * type the ordinal indicator.
+ * Replaces "º" and "˚", which look like the degree sign, by the degree sign "°". Keyboards of Spain and Portugal type
+ * "º". The server's command line also accepts both.
  */
 function withDegreeSigns(text: string): string {
     return text.replace(/[º˚]/g, "°");

@@ -56,7 +56,8 @@ import { Tools } from "./tools";
 import { Tour } from "./tour";
 import { TourObjectSwitch } from "./tour_object_switch";
 
-// Milliseconds without a change of the size, after which pictures of the new size are requested.
+// After a change of the drawing's size, the page waits this many milliseconds without another change. Then it requests
+// pictures of the new size.
 const kResizeDelay = 120;
 
 export class App {
@@ -246,7 +247,7 @@ export class App {
     private readonly colorControls = new ColorControls((change) => void this.send({ type: "set", ...change }));
     private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
     private state: State | undefined;
-    private objectSince = 0; // the revision of the state with which the object of `state` appeared
+    private objectSince = 0; // the revision of the first state with the present object
     private resizing: ReturnType<typeof setTimeout> | undefined;
     private hadTools = true; // whether the tools were open before full screen
 
@@ -271,7 +272,7 @@ export class App {
         document.addEventListener("pointerdown", () => this.keyboard.cancelSequence());
         this.polytopeButton.addEventListener("click", () => this.openPicker());
         document.querySelector("header")!.addEventListener("mousedown", (event) => {
-            // The drawing keeps the focus, as when a button of Tools is clicked.
+            // A click on a button of the header leaves the keyboard focus on the drawing.
             if (event.target instanceof Element && event.target.closest("button")) event.preventDefault();
         });
         byId("export-button").addEventListener("click", () => this.openExport());
@@ -283,14 +284,14 @@ export class App {
         this.listenForToolsButton();
         document.addEventListener("visibilitychange", () => this.updateStreamAndConnection());
         window.addEventListener("online", () => this.updateStreamAndConnection());
-        // Does not close the connection: the server may be on this computer.
+        // An "offline" event only tests the connection: a server on this computer can be reached without a network.
         window.addEventListener("offline", () => this.client.test());
         window.addEventListener("hashchange", () => this.session.joinShared());
         window.addEventListener("popstate", () => this.session.joinSessionOfHistoryEntry());
         window.addEventListener("pageshow", (event) => event.persisted && this.client.connect());
         this.drawing.focus();
         if (this.session.useFirstVisitView()) this.welcomeLine.showAndRememberVisit();
-        // There is no connection yet: this sets the size for the first hello.
+        // Without a connection, hello() only stores the size, which the client then sends in its first message `hello`.
         this.client.hello({ viewport: this.stage.size }).catch(() => {});
         this.client.connect();
     }
@@ -301,7 +302,7 @@ export class App {
         this.tour.start();
     }
 
-    /** Handles a new connection. The server may be another one than before, with another key table. */
+    /** Handles a new connection. The new server may be a different one, with a different key table. */
     private async connectionOpened(): Promise<void> {
         this.keyRepeatLimiter.prepareForNewConnection();
         this.latency.prepareForNewConnection();
@@ -358,9 +359,9 @@ export class App {
     }
 
     /**
-     * Sends a message `hello` with a change of its members. If the server refuses the message, shows the reason. Without
-     * a connection, shows nothing: the client sends the changed `hello` when it is connected again, and if the server
-     * then refuses this message, `onRefused` is called.
+     * Sends a message `hello` with changed members. If the server refuses the message, shows the reason. Without a
+     * connection, shows nothing: the client sends the changed members when it connects again, and calls `onRefused` if
+     * the server then refuses them.
      */
     private helloShowingRefusal(change: Parameters<Client["hello"]>[0]): void {
         this.client.hello(change).catch((error: Error) => {
@@ -370,8 +371,8 @@ export class App {
 
     private update(state: State): void {
         const before = this.state;
-        // After a change to another session, whose revisions begin anew, the object may be the same, but the revision
-        // may be less.
+        // Whether `before` is an earlier state with the same object in the same session. In another session, the object
+        // may be the same, but revisions start again, so the new revision may be lower.
         const isContinued = before && before.object_serial === state.object_serial && before.revision <= state.revision;
         if (!isContinued) this.objectSince = state.revision;
         this.state = state;
@@ -587,8 +588,8 @@ export class App {
     }
 
     /**
-     * The hit tester of the picture that is shown. If the page must ask the server for it and gets an error, shows the
-     * error, and resolves to undefined.
+     * Resolves to the hit tester of the picture that is shown, which finds the element at a pixel. If the page must
+     * request the hit tester and the server refuses, shows the error, and resolves to undefined.
      */
     private async requestHitTester(): Promise<HitTester | undefined> {
         try {

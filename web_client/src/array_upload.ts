@@ -5,8 +5,8 @@ import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 import { FileError, sizeText, utf16Of } from "./files";
 
 const kTooLarge = 413; // the HTTP status if a proxy or the server refuses a file because of its size
-const kMaxReason = 200; // the most characters of an answer that are quoted as the reason
-const kHeader = 512; // bytes at the start of a file; those of an array include a control character, which no text does
+const kMaxReason = 200; // the most characters of a proxy's answer that the page shows as the reason
+const kHeader = 512; // isBinaryFile() reads this many bytes; in an array, they include a control character
 
 /** Whether a file is binary, not a text. Only the server finds out whether it is an array, and in which format. */
 export async function isBinaryFile(file: File): Promise<boolean> {
@@ -27,7 +27,7 @@ export function uploadArray(
     limit: number,
     sent: (part: number) => void,
 ): Promise<Done> {
-    // fetch() does not report progress.
+    // XMLHttpRequest is used because fetch() does not report progress.
     const request = new XMLHttpRequest();
     const path = `api/v1/sessions/${encodeURIComponent(session)}/fields/${encodeURIComponent(name)}`;
     request.open("PUT", new URL(path, new URL(".", location.href)));
@@ -45,7 +45,9 @@ export function uploadArray(
     });
 }
 
-/** The server's message in an answer; undefined if the answer is another text, such as the page of a proxy. */
+/**
+ * Parses the server's message in an answer. Returns undefined if the answer is another text, such as a proxy's page.
+ */
 function messageIn(text: string): Done | ErrorMessage | undefined {
     try {
         const message = JSON.parse(text) as Partial<Done | ErrorMessage> | null;
@@ -57,8 +59,8 @@ function messageIn(text: string): Done | ErrorMessage | undefined {
 }
 
 /**
- * The reason why a file was not loaded, for an answer that is not a message of the server. Quotes the answer only if
- * its type is text/plain.
+ * The reason why a file was not loaded, made from an HTTP answer that is not a message of the server. Quotes the answer
+ * only if its type is text/plain.
  */
 function refusalOf(request: XMLHttpRequest, limit: number): string {
     const isPlain = /^text\/plain\b/i.test(request.getResponseHeader("Content-Type") ?? "");

@@ -1,14 +1,14 @@
-// Search of the catalogue by name, alias, short name or symbol.
+// Searches the catalogue of polytopes by name, alias, short name or symbol.
 
 import type { CatalogueEntry } from "@oval4d/protocol";
 
-/** A family of polytopes, and those of its entries that were found. */
+/** A family of polytopes, with those of its members that a search has found. */
 export interface Family {
     name: string;
     entries: CatalogueEntry[];
 }
 
-/** How well a name matches what is searched for; smaller numbers are better matches. */
+/** How well a name matches the text that the user searches for. Smaller numbers are better matches. */
 const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 
 const kMostCompared = 64; // the search for similar names compares only this many letters at the start of a name

@@ -1,4 +1,4 @@
-// Clicks on the picture, and the menu of the element under the pointer.
+// Handles clicks on the picture, and the menu of the element under the pointer.
 
 import type { Command, PolytopeElement, State } from "@oval4d/protocol";
 
@@ -14,15 +14,15 @@ const kLeastDisc = 12; // pixels: a click this near to the center of a slice hit
 interface ClickActions {
     state: () => State | undefined;
     /**
-     * Resolves to the hit tester of the picture that is shown. If the server does not send it, tells the user why, and
-     * resolves to undefined.
+     * Resolves to the hit tester of the shown picture, which finds the element at a pixel. If the server does not send
+     * it, tells the user why, and resolves to undefined.
      */
     hitTester: () => Promise<HitTester | undefined>;
     /** Called at each click, before its effect. */
     began: () => void;
     /**
-     * Moves the focus point to the point that a panel of the matrix shows at the point `at` of the drawing; returns
-     * false if no panel is there.
+     * Moves the focus point to the point of 4-D space that a matrix panel shows at the point `at` of the drawing.
+     * Returns false if no panel is at this point.
      */
     moveFocusPoint: (at: AreaPoint) => boolean;
     send: (command: Command) => void;
@@ -42,12 +42,14 @@ export class Clicks {
     }
 
     /**
-     * A click on an element highlights it and, if the element is in a slice, makes this slice the focus slice. A click
-     * in a matrix panel, but on no element, moves the focus point there. Anywhere else, a click on the surface of a
-     * field in a slice, or near a slice, makes that slice the focus slice and keeps the highlight; a click on the
-     * surface in the projection, which is that of the focus slice, changes nothing; and a click on the background
-     * removes the highlight. The point is in pixels of the drawing. `isTap` tells that the click was made by a finger;
-     * the name of the element or surface is then shown, too.
+     * Handles a click at a point, given in pixels of the drawing. The effect depends on what is there:
+     * - An element: it is highlighted. If it is in a slice, this slice becomes the focus slice.
+     * - A panel of the matrix, but no element: the focus point moves there.
+     * - The surface of a field in a slice, or a place near a slice: the slice becomes the focus slice.
+     * - The surface in the projection: nothing changes.
+     * - The background: the highlight is removed.
+     *
+     * `isTap` tells that a finger made the click. The name of the element or surface is then shown, too.
      */
     async click({ x, y }: AreaPoint, isTap: boolean): Promise<void> {
         const { orbit, size } = this.stage;

@@ -14,8 +14,8 @@ interface LabelAndTooltip {
 }
 
 /**
- * The labels of the colorings, for polytopes and for fields. A coloring that lacks the label for a kind of object looks
- * like `plain` on such objects.
+ * The labels of the colorings, for polytopes and for fields. A coloring without a label for a kind of object has no
+ * effect on such objects: they look as with `plain`.
  */
 const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAndTooltip }> = {
     cell: {
@@ -170,14 +170,16 @@ export class ColorControls {
     }
 }
 
-/** The coloring that the picture shows: the chosen one, or `plain` if this has no effect on the object. */
+/**
+ * The coloring that the picture shows: the chosen coloring, or `plain` if the chosen one has no effect on the object.
+ */
 function coloringSeen(state: State): Coloring {
     return kColorings[state.color][isField(state) ? "field" : "polytope"] ? state.color : "plain";
 }
 
 /**
- * The legend of the color scale of the coloring `seen`. If `seen` has no color scale, but the caps are colored by
- * value: the legend of the scale of values. Undefined if the picture has no color scale.
+ * The legend of the picture's color scale; undefined if the picture has no color scale. It belongs to `seen`, the
+ * coloring of the picture. If `seen` has no scale but the caps of a field are colored by value, it belongs to the caps.
  */
 function scaleOf(state: State, seen: Coloring): ScaleLegend | undefined {
     const { caps, field } = state;

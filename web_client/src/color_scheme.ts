@@ -1,5 +1,5 @@
-// The color scheme of the page: that of the system, or the one that the user has chosen, which this browser remembers.
-// It is also the scheme of pictures whose background is "auto".
+// The color scheme of the page, dark or light. It is the scheme of the system or the user's choice, which the browser
+// remembers. Pictures whose background is "auto" have the same scheme.
 
 import type { Background, Scheme } from "@oval4d/protocol";
 
@@ -56,7 +56,7 @@ export class ColorScheme {
     }
 }
 
-/** The ground on which a viewer with this scheme sees a picture. A transparent picture is shown on white. */
+/** The opaque background on which a viewer with this scheme sees a picture. A transparent picture is shown on white. */
 export function groundOf(background: Background, scheme: Scheme): OpaqueBackground {
     if (background === "auto") return scheme;
     return background === "transparent" ? "white" : background;

@@ -19,7 +19,7 @@ export interface CommandLineEvents {
     names(): CompletableNames;
 }
 
-/** Completions between which Tab cycles. */
+/** The completions of a line. Each press of Tab inserts the next one. */
 interface CompletionCycle extends Completions {
     /** The line after the last completion. If the input differs from it, the user has edited the line. */
     line: string;
@@ -35,7 +35,7 @@ export class CommandLine {
     private readonly announcer = byId("spoken");
     private history = readStored<string[]>(kHistoryKey) ?? [];
     private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
-    private draft = ""; // the line being typed, while an earlier one is shown
+    private draft = ""; // what the user has typed, while the input shows an earlier line
     private cycle: CompletionCycle | undefined;
     private openings = 0; // how often the command line has been opened
     private loading: Promise<unknown> | undefined; // the request for the names of polytopes, while it runs
@@ -103,7 +103,7 @@ export class CommandLine {
     private scroll(event: KeyboardEvent, pages: number): void {
         event.preventDefault();
         this.form.scrollBy({ top: pages * kPage * this.form.clientHeight });
-        this.form.scrollIntoView({ block: "nearest" }); // the page may scroll, too
+        this.form.scrollIntoView({ block: "nearest" }); // the window may have to scroll, too
     }
 
     /** Completes the line; returns false if there is nothing to complete, so that Tab moves the focus. */

@@ -42,9 +42,9 @@ export const kPlanes = planes.items.enum.flatMap((plane, i, all) => [plane, `${p
 export const kElementKinds = settings.properties.highlight.properties.element.enum;
 
 /**
- * The settings in the schema `properties`, each with a list of its values. `properties` are those of the message `set`
- * or, if `parent` is given, of the object `parent` in it. On the command line, `slices.count` is called `slices`; every
- * other setting in a nested object has its own name: `slices.spacing` is called `spacing`.
+ * The settings in the schema `properties`, each with a list of its values. `properties` belongs to the message `set`
+ * or, if `parent` is given, to its member object `parent`. On the command line, `slices.count` is called `slices`.
+ * Every other nested setting has its own name: `slices.spacing` is called `spacing`.
  */
 function settingsOf(properties: Record<string, SettingSchema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {

@@ -6,7 +6,7 @@ import type { Catalogue } from "./catalogue";
 import { kCommands, kElementKinds, kPlanes, kSettings } from "./commands";
 import { fileOptionsOf, kFormats } from "./export_formats";
 
-/** The names that depend on the session and on the server. */
+/** The names that the command line can complete. They depend on the session and on the server. */
 export interface CompletableNames {
     polytopes: Catalogue;
     /** The kinds of cells of the polytope that is shown. */
@@ -15,14 +15,14 @@ export interface CompletableNames {
 }
 
 export interface Completions {
-    /** The index in the line at which the text begins that the options replace. */
+    /** The index in the line where the completed text begins. An option replaces the text from there to the caret. */
     start: number;
     options: string[];
     /** The text to insert after an option if there is no other option: a blank, or "". */
     suffix: string;
 }
 
-const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that the page changes itself
+const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that only the page knows, with values
 // The kinds of names that may contain blanks, and therefore extend to the end of the line.
 const kOfRestOfLine = ["polytope", "kind"];
 
@@ -40,7 +40,7 @@ export function completionsOf(line: string, names: CompletableNames): Completion
     const start = line.length - word.length;
     if (completes === "setting") return settingCompletions(line, start, rest, names);
     if (completes === "format" && word !== rest) return fileOptionCompletions(line, rest, word);
-    if (word !== rest) return { start, options: [], suffix: "" }; // of other commands, only the first argument
+    if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument is completed
     return completionsUnlessComplete(line, start, valuesOf(completes, word, names));
 }
 
@@ -65,8 +65,8 @@ function fileOptionCompletions(line: string, rest: string, word: string): Comple
 }
 
 /**
- * The texts that begin with `typed`: names of the kind `kind`, such as "planes"; if there is no such kind of names,
- * values of the setting `kind`.
+ * The names of the kind `kind`, such as "planes", that begin with `typed`. If there is no such kind of names, the
+ * values of the setting `kind` that begin with `typed`.
  */
 function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: CompletableNames): string[] {
     if (kind === "polytope") return polytopeNames(polytopes, typed);
@@ -98,7 +98,7 @@ function completionsUnlessComplete(line: string, start: number, options: string[
     return { start, options: isComplete ? [] : options, suffix };
 }
 
-/** The names of keys that the command `key` accepts: those of a single keystroke that the server handles. */
+/** The keys that the command `key` accepts: single keystrokes that the server handles, such as "a" or "ctrl-r". */
 export function namesOfServerKeys(table: readonly KeyBinding[]): string[] {
     return table
         .filter(({ key, client }) => key.length === 1 && !client)

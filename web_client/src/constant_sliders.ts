@@ -5,7 +5,7 @@ import { constantsOf, rangeFor, textOfSliderValue, valuesOfTexts, withConstant }
 
 const kDigits = 4; // significant digits of the values beside the sliders
 
-/** The slider of a constant, with the value beside it; `step` is that of the slider. */
+/** The slider of a constant, and the text that shows the constant's value. `step` is the slider's step. */
 interface SliderRow {
     slider: HTMLInputElement;
     value: HTMLOutputElement;
@@ -14,7 +14,7 @@ interface SliderRow {
 
 export class ConstantSliders {
     private readonly rows = new Map<string, SliderRow>(); // by the constant's name
-    private readonly values = new Map<string, number>(); // of texts such as "pi/2", as the server has computed them
+    private readonly values = new Map<string, number>(); // by texts such as "pi/2": the computed numbers
     private formula = "";
 
     /** `changed` is called with the new text of the formula. */
@@ -23,7 +23,10 @@ export class ConstantSliders {
         private readonly changed: (formula: string) => void,
     ) {}
 
-    /** Learns the values of constants that are not typed as numbers, from a formula as the server writes it. */
+    /**
+     * Learns the values of constants that are typed as texts, such as "pi/2". `typed` is the formula as the user typed
+     * it; `written` is the same formula as the server writes it, with numbers.
+     */
     learn(typed: string, written: string): void {
         for (const [text, value] of valuesOfTexts(typed, written)) this.values.set(text, value);
         this.update(this.formula);

@@ -5,13 +5,15 @@
 
 import type { Client, Slices, State } from "@oval4d/protocol";
 
-/** A critical w. For a polytope, `vertices` is the number of vertices that lie there. */
+/**
+ * A value of w at which the section changes its type. For a polytope, `vertices` is the number of vertices at this w.
+ */
 export interface CriticalValue {
     w: number;
     vertices?: number;
 }
 
-// Milliseconds without a change after which the exact values are requested. For a field, the search takes seconds.
+// The exact values are requested after this many milliseconds without a change. For a field, the search takes seconds.
 const kRestTime = 200;
 const kFieldRestTime = 1500;
 const kRounding = 1e-6; // circumradii: rounded values of w that differ by less than this count as equal
@@ -19,15 +21,15 @@ const kRounding = 1e-6; // circumradii: rounded values of w that differ by less 
 export class CriticalValues {
     /** The critical values from the lowest w to the highest; empty before the first are known. */
     all: CriticalValue[] = [];
-    /** Whether `all` and `range` are those of the newest state, not of an earlier one. */
+    /** Whether `all` and `range` belong to the newest state, not to an earlier one. */
     isCurrent = false;
-    /** Whether `all` and `range` are exact and those of the newest state. */
+    /** Whether `all` and `range` are exact and belong to the newest state. */
     isExact = false;
-    /** The lowest and the highest w of the object. For a field, those of the slices until the server has answered. */
+    /** The lowest and the highest w of the object. For a field, those of its slices until the server has answered. */
     range: [number, number] = [0, 0];
     // The w of the object's center in the coordinates of its file; in pictures, the center has w = 0.
     private originW = 0;
-    // Identifies the object and the settings of the known or requested values; "" if a request has failed.
+    // Identifies the object and the settings whose critical values are known or requested; "" if a request has failed.
     private knownFor = "";
     private restTime = kRestTime;
     private isAsking = false; // whether an answer is outstanding: there is one request at a time

@@ -2,7 +2,7 @@
 
 import { element } from "./element";
 
-const kRevokeDelay = 60_000; // milliseconds: by then, the browser has read the data
+const kRevokeDelay = 60_000; // milliseconds after which the URL is freed; by then, the browser has read the data
 
 export function download(bytes: Uint8Array, name: string, type: string): void {
     const url = URL.createObjectURL(new Blob([bytes as Uint8Array<ArrayBuffer>], { type }));
@@ -14,7 +14,7 @@ export function download(bytes: Uint8Array, name: string, type: string): void {
 export function fileName(parts: string[], extension: string): string {
     const name = parts
         .join(" ")
-        .replace(/\.(4?off|txt|csv|xyz)\b/gi, "") // a polytope from a file has the file's name
+        .replace(/\.(4?off|txt|csv|xyz)\b/gi, "") // a polytope from a file is named after the file
         .replace(/[^\p{L}\p{N}.,+-]+/gu, "-")
         .replace(/^[-.]+|[-.]+$/g, "");
     return `${name === "" ? "oval4d" : name}.${extension}`;

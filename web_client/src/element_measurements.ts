@@ -1,11 +1,11 @@
-// What the server answers about the element under the pointer: its size, what pictures highlight of it, and its range
+// The server's answers about the element under the pointer: its size, the parts that pictures highlight, and its range
 // of w.
 
 import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 
 export class ElementMeasurements {
     private wanted: PolytopeElement | undefined;
-    private asked = ""; // the question that was asked last (see questionAbout)
+    private asked = ""; // the text of the last question; see questionAbout()
     private newest: { about: string; answer: Measured | undefined } = { about: "", answer: undefined };
     private isAsking = false;
 
@@ -25,15 +25,16 @@ export class ElementMeasurements {
     }
 
     /**
-     * Asks about this element, if the answer may have changed since the last question. One question is asked at a time,
-     * so the element may be replaced by another one before it is asked about.
+     * Asks the server about this element, if the answer may have changed since the last question. The server is asked
+     * one question at a time. If another element is wanted before a question is sent, only the newer one is asked
+     * about.
      */
     want(element: PolytopeElement | undefined): void {
         this.wanted = element;
         if (!this.isAsking) void this.askAboutWanted();
     }
 
-    /** Asks until the answer about the element that is wanted then is known. */
+    /** Asks about the wanted element, again and again, until the answer about the newest wanted element is known. */
     private async askAboutWanted(): Promise<void> {
         this.isAsking = true;
         while (this.wanted && this.questionAbout(this.wanted) !== this.asked) {
@@ -47,12 +48,14 @@ export class ElementMeasurements {
         this.isAsking = false;
     }
 
-    /** A text that differs for different elements, also of different objects. */
+    /** A text that identifies an element of the present object. Elements of different objects have different texts. */
     private identityOf({ element, number }: PolytopeElement): string {
         return JSON.stringify([element, number, this.state()?.object_serial]);
     }
 
-    /** A text that also differs if the state has changed, because the range of w then may be another one. */
+    /**
+     * A text that identifies a question. It changes with each new state, because the element's range of w may change.
+     */
     private questionAbout(element: PolytopeElement): string {
         return `${this.identityOf(element)} ${this.state()?.revision}`;
     }

@@ -1,9 +1,9 @@
-// The menu of an element of the polytope: what can be done with the element. Opens at a right click or a long press.
+// The menu of an element of the polytope. It offers actions on the element, and opens at a right click or a long press.
 
 import { byId, element } from "./element";
 import type { AreaPoint } from "./hover";
 
-/** What the menu offers; `act` does it. */
+/** An item of the menu. The menu calls `act` when the user chooses the item. */
 export interface ElementMenuItem {
     label: string;
     act(): void;
@@ -41,7 +41,7 @@ export class ElementMenu {
         buttons[0]!.focus();
     }
 
-    /** Places the menu where it was opened, but within the drawing. */
+    /** Places the menu at the point where it was opened, but within the drawing. */
     private place(): void {
         const { at } = this;
         const { offsetWidth: width, offsetHeight: height } = this.menu;

@@ -12,7 +12,7 @@ import { readStored, writeStored } from "./storage";
 const kChoicesKey = "oval4d.export";
 const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 
-/** The options of a file, without its format; see the message `get`. */
+/** The chosen options of a file, without its format. protocol/README.md describes them for the message `get`. */
 type OptionValue = string | number | boolean;
 type ChosenOptions = Record<string, OptionValue>;
 const kOptionReaders: Record<FileOptionName, (value: string) => OptionValue> = {
@@ -403,8 +403,8 @@ function optionsOf(words: string[]): ChosenOptions {
 }
 
 /**
- * The chosen options, with `changes` applied. If `changes` contains `of`, `at` or `fit`, the chosen values of all three
- * are discarded.
+ * The chosen options after applying `changes`. The options `of`, `at` and `fit` choose slices together: if `changes`
+ * contains one of the three, the chosen values of all three are discarded.
  */
 function withChanges({ of, at, fit, ...others }: ChosenOptions, changes: ChosenOptions): ChosenOptions {
     const changesSlices = ["of", "at", "fit"].some((name) => name in changes);

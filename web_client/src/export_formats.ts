@@ -1,4 +1,4 @@
-// The formats in which a session can be exported: those of the protocol, and PNG, the picture itself.
+// The formats of exported files: the formats of the protocol, and PNG for the picture itself.
 
 import type { FileOptions } from "@oval4d/protocol";
 
@@ -27,12 +27,12 @@ export interface ExportFormat {
     objects?: "fields" | "polytopes";
 }
 
-/** The name of an option of a file; see the message `get`. */
+/** The name of an option of an exported file, such as "fit". protocol/README.md describes the options. */
 export type FileOptionName = keyof Omit<FileOptions, "format">;
 
 /**
- * The options of files on the command line, each with a list of its values; empty for an option that is a number or a
- * list, and for `of`, whose values depend on the format.
+ * The options of exported files on the command line, each with a list of its values. The list is empty for an option
+ * that is a number or a list of numbers, and for `of`, whose values depend on the format.
  */
 export const kFileOptions = {
     of: [],

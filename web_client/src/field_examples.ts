@@ -1,4 +1,4 @@
-// The fields that are known by name: formulas to start from.
+// The example fields that have names. A user can start from their formulas.
 
 import type { Box } from "@oval4d/protocol";
 

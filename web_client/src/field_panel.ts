@@ -1,5 +1,5 @@
-// The panel in which the formula of a field is written, with its constants, levels and domain. The picture follows
-// every change. At most one change is on its way to the server; of the changes made meanwhile, only the newest is sent.
+// The panel for the formula of a field, with its constants, levels and domain. The picture follows every change. Only
+// one change at a time is sent to the server; of the changes made meanwhile, only the newest is sent next.
 
 import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@oval4d/protocol";
 
@@ -17,8 +17,8 @@ import { readStored, writeStored } from "./storage";
 
 export interface FieldPanelEvents {
     /**
-     * Loads a formula, then changes settings; resolves to the revision after the two commands. `continues` tells
-     * whether both belong to the undo step of the previous command. Rejects with an Error if the formula is refused.
+     * Loads a formula, then changes settings; resolves to the revision after both commands. `continues` tells whether
+     * both belong to the undo step of the previous command. Rejects with an Error if the server refuses the formula.
      */
     load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
@@ -29,12 +29,12 @@ export interface FieldPanelEvents {
     closed(): void;
 }
 
-const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
+const kTypingDelay = 150; // milliseconds without further typing before a change is sent
 const kSeries = 1500; // milliseconds: a change that follows the last one within this time is undone together with it
-const kMaxTyped = 100; // the most formulas whose typed text is kept, for undo
+const kMaxTyped = 100; // the panel remembers what the user typed for at most this many formulas, for undo
 const kStorageKey = "oval4d.formula";
 const kAxes = ["x", "y", "z", "w"] as const;
-const kOfValues = /^values: /; // the beginning of an error message about the formula whose values color the surfaces
+const kOfValues = /^values: /; // how an error message about the coloring formula begins
 
 export class FieldPanel {
     private readonly root = byId("field");
@@ -44,7 +44,7 @@ export class FieldPanel {
     private readonly levelsError = byId("field-levels-error");
     private readonly boxError = byId("field-box-error");
     private readonly example = byId<HTMLSelectElement>("field-example");
-    private readonly ends: HTMLInputElement[]; // the ends of the box: from and to, for each of x, y, z and w
+    private readonly ends: HTMLInputElement[]; // the text fields of the box: from and to, for each of x, y, z and w
     private readonly sliders = new ConstantSliders(byId("field-constants"), (text) => {
         this.formula.value = text;
         this.scheduleLoad(0);
@@ -56,17 +56,17 @@ export class FieldPanel {
     private readonly fog = new FogEditor((settings) => this.events.set(settings));
     private readonly observer = new ObserverControls((settings) => this.events.set(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
-    // The settings that load() sent last, and the revision in the server's answer; undefined once a state of this or a
+    // The settings that load() sent last, and the revision in the server's answer. Undefined after a state of this or a
     // later revision has arrived.
     private sent: { settings: Settings; revision: number } | undefined;
     private state: State | undefined;
-    // The last load of a formula by this page: its revision, its time as in performance.now(), and whether
-    // recordServerText() has seen a state with the loaded formula.
+    // The last formula that this page loaded: its revision, the time of loading as in performance.now(), and whether
+    // recordServerText() has seen a state with this formula.
     private lastLoad: { revision: number; time: number; isRecorded: boolean } | undefined;
-    private shownText = ""; // formulaKeyOf() of the newest state
+    private shownText = ""; // formulaKeyOf(), applied to the newest state
     // formulaKeyOf() of the last state whose formula this page loaded itself, or adopted in showForeignFormula().
     private ownText = "";
-    // What the user typed. The key is formulaKeyOf() of the first state after the typed field was loaded.
+    // What the user typed. An entry has the formulaKeyOf() of the first state with the loaded formula as its key.
     private readonly typedFields = new Map<string, FormulaWithBox>();
 
     constructor(private readonly events: FieldPanelEvents) {
@@ -160,8 +160,8 @@ export class FieldPanel {
     }
 
     /**
-     * Records how the server writes the formula that this page loaded last. Takes the text from the first state with
-     * this formula. The server omits superfluous blanks and parentheses, and writes the values of constants as numbers.
+     * Records how the server writes the formula that this page loaded last. The server omits superfluous blanks and
+     * parentheses, and writes constants as numbers. The text comes from the first state with this formula.
      */
     private recordServerText(): void {
         const { lastLoad, state, loaded } = this;
@@ -173,7 +173,7 @@ export class FieldPanel {
         this.typedFields.set(this.ownText, loaded);
     }
 
-    /** Shows the formula of a state, unless it is the formula that this page loaded last: for example, after undo. */
+    /** Shows the formula of a state that this page did not load last: for example, the formula after an undo. */
     private showForeignFormula(state: State): void {
         this.recordServerText();
         const text = formulaKeyOf(state);
@@ -199,12 +199,12 @@ export class FieldPanel {
         this.values.value = values;
         this.ends.forEach((end, i) => (end.value = String(box[Math.floor(i / 2)]![i % 2])));
         this.sliders.update(formula);
-        this.readBox(); // clears the error about the box that the text fields had before
+        this.readBox(); // clears an error about the previous box
     }
 
     private startFromExample(example: number): void {
         this.write(kExamples[example]!);
-        this.loaded = undefined; // so that the new field does not get the levels and slices of the old one
+        this.loaded = undefined; // so that load() sends no levels or slices of the old field
         this.example.selectedIndex = 0;
         this.scheduleLoad(0);
     }
@@ -257,19 +257,20 @@ export class FieldPanel {
     }
 
     /**
-     * Whether the change to this field belongs to a series of changes that are undone together, such as the steps of a
-     * drag of a slider.
+     * Whether loading this field continues the previous undo step. Quick changes of the same formula, such as a drag of
+     * a slider, are undone together.
      */
     private continuesSeries({ formula }: FormulaWithBox): boolean {
         const { loaded, lastLoad, state } = this;
-        // A state that is newer than the last load shows that there was another command after the load.
+        // A state newer than the last load shows that another command came after the load.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
         return performance.now() - lastLoad.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
     }
 
     /**
-     * The present settings to send with an edited formula. Otherwise the server would choose new settings, because an
-     * edited formula is a new object. Empty if the present object is not a formula that this panel has loaded or shown.
+     * The settings that stay when the user edits the formula. They are sent with it, because the server treats an
+     * edited formula as a new object and would choose new settings. Empty if the present object is not a formula that
+     * this panel has loaded or shown.
      */
     private keptSettings({ formula, box }: FormulaWithBox): Settings {
         const { loaded, state } = this;
@@ -283,8 +284,8 @@ export class FieldPanel {
     }
 
     /**
-     * Shows an error of the server at the formula that it concerns: that of the field, or the one whose values color
-     * the surfaces. Clears the error of the other formula or, if `message` is undefined, the errors of both.
+     * Shows an error of the server beside the formula that it concerns: the formula of the field, or the formula that
+     * colors the surfaces. Clears the error beside the other formula. If `message` is undefined, clears both errors.
      */
     private showError(message: string | undefined): void {
         const isOfValues = message !== undefined && kOfValues.test(message);
@@ -308,7 +309,7 @@ export class FieldPanel {
         }
     }
 
-    /** Shows the levels of the state, and clears an error, because these levels are valid. */
+    /** Shows the levels of the state. If they differ from the typed levels, clears an error about the typed ones. */
     private showLevels(levels: number[]): void {
         const text = levels.join(", ");
         if (this.levels.value === text) return;
@@ -331,14 +332,14 @@ export class FieldPanel {
     }
 }
 
-/** The formula, box and coloring formula of a state as one text, to compare states by; "" if it has no formula. */
+/** A text that identifies the formula, box and coloring formula of a state; "" if the state has no formula. */
 function formulaKeyOf({ field }: State): string {
     return field?.formula === undefined ? "" : `${field.formula} ${String(field.box)} ${field.values?.formula ?? ""}`;
 }
 
 /**
- * The position of the slices along w, which stays when a formula is edited. The distance between the slices is left
- * out, because each object gets a distance of its own.
+ * The position of the slices along w. It stays when a formula is edited. The distance between slices is omitted,
+ * because the server chooses a new one for each object.
  */
 function focusAndOffsetOf({ focus = 0, offset = 0 }: NonNullable<Settings["slices"]>): NonNullable<Settings["slices"]> {
     return { focus, offset };

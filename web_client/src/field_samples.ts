@@ -1,27 +1,28 @@
-// The values of a field at the point under the pointer, which the server tells.
+// Asks the server for the values of a field at the point under the pointer.
 
 import type { At, State } from "@oval4d/protocol";
 
-/** A point of a field: its coordinates in the box, and the values of the functions there. */
+/** A point of a field: its place in the field's box, and the values of the field's functions there. */
 export type FieldPoint = Pick<At, "place" | "value" | "second_value">;
 
 /**
- * A point of the picture on the surface or a contour of a level, or on a cap: the flat part that closes the body of the
- * level where the boundary of the box cuts it.
+ * A point of the picture on a surface or a contour of a field, or on a cap. Caps are the flat parts that close a body
+ * where the boundary of the field's box cuts it.
  */
 export interface LevelDescription {
     /** The index of the level in the `levels` of the state. */
     level: number;
-    /** Whether the point is on a cap, where the value lies inside the body of the level and is not the level itself. */
+    /** Whether the point is on a cap. The value there lies inside the body, and is not the level itself. */
     cap: boolean;
     /** The w of the slice in which the point is; undefined in the projection and in the matrix. */
     sliceW?: number | undefined;
-    /** What is known of the point without asking the server. */
+    /** The values at the point that are known without a question to the server. */
     known?: FieldPoint;
     /** The revision of the picture that shows the point. */
     revision: number;
     /**
-     * The point about which the server may be asked while this revision is the newest, in the form that `set` accepts.
+     * The point about which the page may ask the server, in the form that `set` accepts. Valid only while `revision` is
+     * the newest.
      */
     point?: [number, number, number, number];
 }
@@ -41,23 +42,23 @@ export class FieldSamples {
     ) {}
 
     /**
-     * What is known of a point. While the pointer moves on a surface, these are the newest values that the server has
-     * told on this surface. Empty if there are none, or if the server has refused to answer.
+     * The known values at a point. While the pointer moves on a surface, these are the newest values that the server
+     * has sent for this surface. Empty if there are none, or if the server has refused to answer.
      */
     of(point: LevelDescription): FieldPoint {
         return point.known ?? (this.newest.on === this.surfaceOf(point) ? this.newest.answer : {});
     }
 
     /**
-     * Asks about this point, if the server may be asked. One question is asked at a time, so the point may be replaced
-     * by another one before it is asked about.
+     * Asks the server about this point, if it has a `point`. The server is asked one question at a time. If another
+     * point is wanted before a question is sent, only the newer one is asked about.
      */
     want(point: LevelDescription | undefined): void {
         this.wanted = point;
         if (!this.isAsking) void this.askAboutWanted();
     }
 
-    /** Asks until the values at the point that is wanted then are known. */
+    /** Asks about the wanted point, again and again, until the values at the newest wanted point are known. */
     private async askAboutWanted(): Promise<void> {
         this.isAsking = true;
         while (this.wanted?.point && this.wanted.revision === this.state()?.revision) {
@@ -74,12 +75,12 @@ export class FieldSamples {
         this.isAsking = false;
     }
 
-    /** A text that differs for points of different surfaces, also in different pictures or of different objects. */
+    /** A text that identifies a surface in one picture of one object. */
     private surfaceOf({ level, cap, sliceW, revision }: LevelDescription): string {
         return JSON.stringify([level, cap, sliceW, revision, this.state()?.object_serial]);
     }
 
-    /** A text that also differs for different points of a surface. */
+    /** A text that identifies a point on a surface. */
     private identityOf(point: LevelDescription): string {
         return JSON.stringify([point.point, this.surfaceOf(point)]);
     }

@@ -1,4 +1,4 @@
-// 4-D fields: their formulas and settings in messages, commands, addresses and spoken text.
+// 4-D fields: their formulas and settings in messages, commands, addresses and texts for screen readers.
 
 import type { Box, Quantity, Settings, State } from "@oval4d/protocol";
 
@@ -6,7 +6,7 @@ import { textOfFog } from "./fog";
 import { focusW, formatCoordinate, formatFieldValue } from "./format";
 import { referenceFrameQuery } from "./reference_frame";
 
-/** What the server makes a field of: a formula, its domain, and the formula whose values color the surfaces. */
+/** A field given by a formula: the formula, its domain, and the formula whose values color the surfaces. */
 export interface FormulaWithBox {
     formula: string;
     box: Box;
@@ -30,7 +30,7 @@ export const kUsualBox: Box = [
 
 export const kMaxLevels = 4;
 
-const kSamePlace = 1e-9; // a difference of coordinates that is due to rounding, as a part of the extent of a box
+const kSamePlace = 1e-9; // coordinates that differ by less than this fraction of the box are the same
 
 /** Whether the object of this state is a field. */
 export function isField({ levels }: State): boolean {
@@ -50,12 +50,14 @@ export function loadOf({ formula, box, values }: FormulaWithBox): FormulaLoad {
     return { name: kFormulaName, format: "formula", data: formula, box, ...(values && { values }) };
 }
 
-/** A text such as "temperature, K" of what is known of a quantity; "" if nothing is. */
+/** A text such as "temperature, K" from the known name and unit of a quantity; "" if both are unknown. */
 export function labelOfQuantity({ name, unit }: Quantity = {}): string {
     return [name, unit].filter(Boolean).join(", ");
 }
 
-/** What the colors of values show, as far as it is known: the quantity of the second function or, without one, the field. */
+/**
+ * The quantity that the colors show: that of the second function or, without one, that of the field. Empty if unknown.
+ */
 export function quantityOfColors({ field }: State): Quantity {
     const { values, quantity } = field ?? {};
     const isOfSecond = values?.formula !== undefined || values?.variable !== undefined;
@@ -63,9 +65,9 @@ export function quantityOfColors({ field }: State): Quantity {
 }
 
 /**
- * The w of the focus slice and, in parentheses, the coordinate that all points of the slice have in the box of a field:
- * "0.25 (130 s)", or "0.25 (x 0.5 m)" if the slice is perpendicular to the axis x of the box. Without parentheses if
- * this coordinate is w itself, without a unit, or if the slice is perpendicular to no axis of the box.
+ * The w of the focus slice. In parentheses follows the coordinate in the box of the field that all points of the slice
+ * share: "0.25 (130 s)", or "0.25 (x 0.5 m)" if the slice is perpendicular to the axis x of the box. Omits the
+ * parentheses if this coordinate is w itself, without a unit, or if the slice is perpendicular to no axis of the box.
  */
 export function focusWithPlace(state: State): string {
     const { section, field } = state;
@@ -103,15 +105,15 @@ export function parseNumbers(text: string): number[] {
 }
 
 /**
- * The box whose ranges of x, y, z and w are given by `numbers`: two for each axis; undefined unless they are eight
- * finite numbers.
+ * The box with the given ranges of x, y, z and w. `numbers` has the two ends for each axis. Undefined unless these are
+ * eight finite numbers.
  */
 export function boxOf(numbers: number[]): Box | undefined {
     if (numbers.length !== 8 || !numbers.every(Number.isFinite)) return undefined;
     return [0, 2, 4, 6].map((i) => [numbers[i]!, numbers[i + 1]!]) as Box;
 }
 
-/** The query of an address that opens this field, without the question mark. */
+/** The query of an address that opens this field with this look. Has no question mark. */
 export function queryOf({ formula, box, values }: FormulaWithBox, look: FieldLook): string {
     const { levels, inside, caps, fog } = look;
     const parameters = {
@@ -124,7 +126,8 @@ export function queryOf({ formula, box, values }: FormulaWithBox, look: FieldLoo
         ...(fog && fog.length > 0 && { fog: textOfFog(fog) }),
         ...referenceFrameQuery(look),
     };
-    // Characters of formulas that an address may contain are not encoded, so that the formula stays readable.
+    // In addresses, some characters of formulas, such as "^", need no encoding. They stay as they are, so that the
+    // formula is readable.
     const encoded = (text: string): string =>
         encodeURIComponent(text).replace(/%(5E|3D|2C|3B|2F|3A)/g, (code) => decodeURIComponent(code));
     return Object.entries(parameters)

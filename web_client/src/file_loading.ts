@@ -1,6 +1,6 @@
-// Loads files that the user chooses or drops on the page. A text is sent in a `load` message; an array is uploaded; a
-// picture that oval4d has saved, or a JSON file with a state, restores this state. Shows the progress, and the server's
-// warnings or error.
+// Loads files that the user chooses or drops on the page, and shows the progress and the server's warnings or error. A
+// text is sent in a `load` message; an array is uploaded over HTTP. A picture saved by oval4d, or a JSON file with a
+// state, restores the state.
 
 import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
@@ -11,8 +11,8 @@ import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds between two updates of the progress
 const kDefaultLimit = 8 * 2 ** 20; // bytes: the limit on messages, if the server states none
-const kMaxKept = 8; // the most objects that are kept, as many as a session holds
-const kMaxExcerptWidth = 120; // the most characters that are shown of a line of the file
+const kMaxKept = 8; // at most as many objects as a session holds can be loaded again
+const kMaxExcerptWidth = 120; // longer lines of the file are cut to this many characters
 
 /** An object that can be loaded again: a text, an array, or a field of the server's data folder. */
 type ReloadableObject = LoadContent | File | { name: string; path: string };
@@ -104,8 +104,8 @@ export class FileLoading {
     }
 
     /**
-     * A list with a button that loads the object again, such that it turns about the origin of its file. The list is
-     * empty if the object already turns about this origin, or if another object is shown.
+     * A list with one button. The button loads the object again, so that it turns about the origin of its file. The
+     * list is empty if the object already turns about this origin, or if another object is shown.
      */
     private async originButton(object: LoadContent): Promise<Node[]> {
         const { polytope } = await this.client.request({ type: "get", what: "state" });

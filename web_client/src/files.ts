@@ -10,7 +10,7 @@ export interface LoadContent {
     center?: "origin";
 }
 
-/** The reason why a file is refused before it is sent. */
+/** The error with which the page refuses a file before sending it. The message states the reason. */
 export class FileError extends Error {}
 
 const kMaxNameLength = 64; // characters, as in the message `load`
@@ -31,8 +31,8 @@ export async function readFile(file: File, limit: number): Promise<LoadContent> 
 }
 
 /**
- * The encoding of a text in UTF-16, which is recognized by its first two bytes: they are a byte order mark, or exactly
- * one of them is 0. Undefined for other files. The server recognizes UTF-16 in the same way.
+ * The encoding of a text in UTF-16; undefined for other files. UTF-16 is recognized by the first two bytes: they are a
+ * byte order mark, or exactly one of them is 0. The server uses the same rule.
  */
 export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
     if (first === undefined || second === undefined) return undefined;
@@ -40,7 +40,7 @@ export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | 
     return (first === 0xfe && second === 0xff) || (first === 0 && second !== 0) ? "utf-16be" : undefined;
 }
 
-/** The text of a file in UTF-8, or in UTF-16, which some programs on Windows write; without a byte order mark. */
+/** Decodes a text file in UTF-8 or UTF-16 (some programs on Windows write UTF-16). Omits the byte order mark. */
 async function textOf(file: Blob): Promise<string> {
     const bytes = new Uint8Array(await file.arrayBuffer());
     return new TextDecoder(utf16Of(bytes) ?? "utf-8").decode(bytes);
@@ -68,8 +68,8 @@ export async function readState(file: File, limit: number): Promise<State | unde
 }
 
 /**
- * The format, as the keyword at the start of the text says, after any comments; without a keyword, as the file name
- * extension says. The server recognizes the keywords in the same way (isOff() in off4.hpp).
+ * The format of a text file. A keyword at the start of the text, after any comments, names the format; without a
+ * keyword, the file name extension does. The server recognizes the same keywords (isOff() in off4.hpp).
  */
 function formatOf(name: string, data: string): LoadContent["format"] {
     const [, first = ""] = /^(?:\s|#[^\r\n]*(?:[\r\n]|$))*([^\s#]*)/.exec(data) ?? [];
@@ -88,7 +88,7 @@ export function tooLarge(bytes: number, limit: number): string {
     return `The file is too large: ${sizeText(bytes)} when sent; this server accepts up to ${sizeText(limit)}.`;
 }
 
-/** A number of bytes, for display. */
+/** Formats a number of bytes as KiB or MiB, for display. */
 export function sizeText(bytes: number): string {
     return bytes < 2 ** 20 ? `${Math.ceil(bytes / 2 ** 10)} KiB` : `${(bytes / 2 ** 20).toFixed(1)} MiB`;
 }

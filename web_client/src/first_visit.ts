@@ -1,10 +1,10 @@
-// The first visit of a browser: a view that fills the oval, and a line that explains it and offers the tour.
+// The first visit of a user: the page shows a view that fills the oval, and a line of text that offers a tour.
 
 import type { State } from "@oval4d/protocol";
 
 import { byId } from "./element";
 
-const kVisitedKey = "oval4d.visited"; // in localStorage
+const kVisitedKey = "oval4d.visited"; // key in localStorage
 
 /**
  * Commands for the view of a first visit. The last rotation is small, so that the keys that repeat it (Space and .)
@@ -21,7 +21,7 @@ export function isFirstVisit(): boolean {
     }
 }
 
-/** The field that a button of the welcome shows. */
+/** The name of the field that a button in the welcome line shows. */
 const kFirstField = "tiger";
 
 export interface WelcomeLineActions {
@@ -33,11 +33,12 @@ export interface WelcomeLineActions {
 }
 
 /**
- * The line of welcome. It disappears when the user has followed its advice, to turn the object and to move the focus.
+ * The welcome line over the picture. It advises the user to turn the object and to move the focus, and disappears when
+ * the user has done both.
  */
 export class WelcomeLine {
     private readonly root = byId("welcome");
-    private since = 0; // the first revision in which the view of the first visit is complete
+    private since = 0; // the revision from which on the view of the first visit is complete
     private first: State | undefined;
     private hasTurned = false;
     private hasMoved = false;
@@ -46,7 +47,7 @@ export class WelcomeLine {
         drawing: HTMLElement,
         private readonly actions: WelcomeLineActions,
     ) {
-        // A user who drags, taps or zooms needs the line no longer, and the picture gets its room.
+        // A user who drags, taps or zooms no longer needs the line. Hiding it gives its room to the picture.
         for (const gesture of ["pointerup", "wheel"]) drawing.addEventListener(gesture, () => this.hide());
         this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the drawing keeps the focus
         byId("welcome-tour").addEventListener("click", () => {

@@ -1,5 +1,5 @@
-// Moves the focus slice to any w. Sends the newest w, at most once per animation frame, and only when the server has
-// answered the previous one.
+// Moves the focus slice to any w. Sends at most one w per animation frame, and waits for the server's answer before it
+// sends the newest wanted w.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -11,7 +11,7 @@ interface FocusAtRevision {
 export class FocusMover {
     private wanted = 0;
     private isUnsent = false;
-    private continues = false; // whether the next move belongs to the undo step of the last one
+    private continues = false; // whether the next move joins the undo step of the last move
     private isScheduled = false;
     private inFlight: number | undefined; // the w that has been sent and not answered
     private answered: FocusAtRevision = { w: NaN, revision: 0 };
@@ -23,7 +23,7 @@ export class FocusMover {
         private readonly settled: (error?: Error) => void,
     ) {}
 
-    /** The w of the focus or, while a move is unsent or unanswered, the w to which it moves. */
+    /** The w of the focus slice. While a move is unsent or unanswered, the w to which the focus moves. */
     get w(): number {
         if (this.isUnsent || this.inFlight !== undefined) return this.wanted;
         return this.seen.revision >= this.answered.revision ? this.seen.w : this.answered.w;
@@ -45,7 +45,7 @@ export class FocusMover {
         this.isUnsent = false;
     }
 
-    /** Follows the focus of the session. */
+    /** Adopts the focus of a new state of the session. */
     update({ revision, section: { w } }: State): void {
         this.seen = { w, revision };
     }

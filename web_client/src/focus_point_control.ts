@@ -1,5 +1,5 @@
-// Moves the focus point of the matrix view. Sends the newest point, at most once per animation frame, and only when the
-// server has answered the previous one.
+// Moves the focus point of the matrix view. Sends at most one point per animation frame, and waits for the server's
+// answer before it sends the newest wanted point.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -11,8 +11,8 @@ export type Point4 = State["point"];
 
 export interface FocusPointEvents {
     /**
-     * Called when a drag, or another gesture that moves the focus point, begins. The w of the focus point is that of the
-     * focus slice, so that the gesture may move this slice, too.
+     * Called when a drag or another gesture begins that moves the focus point. Such a gesture may also move the focus
+     * slice, because this slice lies at the w of the focus point.
      */
     began(): void;
     failed(error: Error): void;
@@ -25,7 +25,7 @@ export class FocusPointControl {
     private isUnsent = false;
     private isSending = false;
     private isScheduled = false;
-    private continues = false; // whether the next move belongs to the undo step of the last one
+    private continues = false; // whether the next move joins the undo step of the last move
     private current = kOrigin; // the focus point of the session
     private readonly lastChange = new OldStateDetector();
     private origin = kOrigin; // add it to coordinates in the picture to get coordinates in the object's file
@@ -35,7 +35,7 @@ export class FocusPointControl {
         private readonly events: FocusPointEvents,
     ) {}
 
-    /** Follows the focus point of the session. */
+    /** Adopts the focus point of a new state of the session. */
     update(state: State): void {
         if (!this.lastChange.recordAndCheckIfOld(state)) this.current = state.point;
         this.origin = originInFile(state);
@@ -63,7 +63,9 @@ export class FocusPointControl {
         this.schedule();
     }
 
-    /** The focus point or, while a move is unsent or unanswered, the point to which it moves. */
+    /**
+     * The focus point of the session. While a move is unsent or unanswered, the point to which the focus point moves.
+     */
     private get point(): Point4 {
         return this.isUnsent || this.isSending ? this.wanted : this.current;
     }

@@ -27,7 +27,7 @@ export class FocusPointDrag {
         });
     }
 
-    /** Shows the mouse cursor that fits what is under the mouse. To be called when the picture changes. */
+    /** Shows a different mouse cursor over the panels of the matrix. Must be called when the picture changes. */
     updateCursor(): void {
         if (this.hovering) this.showCursor(this.hovering);
     }
@@ -52,8 +52,8 @@ export class FocusPointDrag {
     }
 
     /**
-     * Moves the focus point to the point that a panel shows at the point `at` of the drawing; returns false if no panel
-     * is there.
+     * Moves the focus point to the point of 4-D space that a matrix panel shows at the point `at` of the drawing.
+     * Returns false if no panel is at this point.
      */
     moveTo(at: AreaPoint): boolean {
         const panel = this.panelAt(at);

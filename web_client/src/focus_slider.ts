@@ -1,6 +1,6 @@
-// The slider below the picture: moves the focus slice from the lowest w of the object to the highest. Its marks are the
-// critical values of w: where vertices lie, or the body of a field changes its topology. Beside it, Play makes the
-// server move the focus to and fro.
+// The slider below the picture. It moves the focus slice from the lowest w of the object to the highest. Its marks are
+// the critical values of w: where vertices lie, or where the body of a field changes its topology. The button Play
+// beside the slider makes the server move the focus to and fro.
 
 import type { Client, Command, Slices, State } from "@oval4d/protocol";
 
@@ -28,7 +28,7 @@ export class FocusSlider {
     private readonly section = byId("focus-section");
     private readonly playButton = byId<HTMLButtonElement>("focus-play");
     private readonly speed = byId<HTMLSelectElement>("focus-speed");
-    private readonly otherSpeed = element("option", {}); // in the list only while the speed is none of the others
+    private readonly otherSpeed = element("option", {}); // listed only while no other entry has the speed
     private readonly criticalValues: CriticalValues;
     private readonly mover: FocusMover;
     private state: State | undefined;
@@ -67,7 +67,7 @@ export class FocusSlider {
         this.mover.prepareForNewConnection();
     }
 
-    /** Stops playing, for all who see the session. */
+    /** Stops the playing of the focus, for all who see the session. */
     stop(): void {
         if (this.state?.playing) this.events.send({ type: "set", playing: false });
     }
@@ -81,7 +81,7 @@ export class FocusSlider {
             this.stop();
         });
         for (const end of ["pointerup", "pointercancel"]) {
-            // Firefox reports the last value of a drag after pointerup.
+            // Firefox reports the last value of a drag only after the event pointerup.
             window.addEventListener(end, () => setTimeout(() => (this.isDragged = false)));
         }
         window.addEventListener("pointermove", (event) => this.noteModifiers(event));
@@ -93,7 +93,7 @@ export class FocusSlider {
         this.speed.addEventListener("change", () => {
             this.events.send({ type: "set", speed: Number(this.speed.value) });
         });
-        // The drawing keeps the focus: if the button got it, the space bar would press the button again.
+        // The button Play leaves the focus on the drawing. With the focus, the button would react to the space bar.
         this.playButton.addEventListener("mousedown", (event) => event.preventDefault());
     }
 
@@ -118,8 +118,8 @@ export class FocusSlider {
     }
 
     /**
-     * In a drag without Alt and Shift, the w of a mark that is at most kSnapDistance away, if there is one; otherwise
-     * `w`.
+     * Snaps `w` to a mark during a drag without Alt and Shift. Returns the w of the nearest mark if it is at most
+     * kSnapDistance pixels away; otherwise returns `w`.
      */
     private snapped(w: number): number {
         const { all, isExact } = this.criticalValues;
@@ -196,14 +196,17 @@ export class FocusSlider {
     }
 }
 
-/** A vertical line for each critical value, in a square of side 1. `at` converts w to a position from 0 to 1. */
+/**
+ * An SVG path with a vertical line for each critical value, in a square of side 1. `at` maps w to a position from 0 to
+ * 1.
+ */
 function marksOutline(values: CriticalValue[], at: (w: number) => number): string {
     return values.map(({ w }) => `M${at(w)} 0V1`).join("");
 }
 
 /**
- * The outline of a bar chart, in a square of side 1, of how many vertices, or changes of a field's topology, lie near
- * each w.
+ * An SVG path of a bar chart, in a square of side 1. A bar shows how many vertices, or changes of a field's topology,
+ * lie near a w. `at` maps w to a position from 0 to 1.
  */
 function densityOutline(values: CriticalValue[], at: (w: number) => number): string {
     const bins = new Array<number>(kDensityBins).fill(0);

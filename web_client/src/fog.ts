@@ -7,28 +7,31 @@ import { roundedToDigitsOfSize } from "./format";
 
 export const kMinFogControlPoints = 2;
 export const kMaxFogControlPoints = 8;
-// Values of points are rounded to this many significant digits of the difference between neighboring points, opacities
-// to this many significant digits.
+// The significant digits to which the values and opacities of control points are rounded. The digits of a value count
+// from the first digit of the difference between neighboring points.
 const kDigits = 4;
 
-/** The distribution of a field's values. */
+/** How often the values of a field occur. */
 export interface ValueDistribution {
     range: [number, number];
     /**
-     * For values at equal distances from range[0] to range[1]: the cube root of how often the value occurs, divided by
-     * the cube root for the most frequent of these values.
+     * A tone for each of several equally spaced values from range[0] to range[1]. A tone is the cube root of how often
+     * the value occurs, divided by the largest such cube root.
      */
     tones: number[];
 }
 
-/** The distribution of values that the histogram of a picture shows; undefined if the picture has no histogram. */
+/**
+ * The distribution of the field's values, from the histogram of a picture; undefined if the picture has no histogram.
+ */
 export function distributionOf({ histogram, density, scene }: Slices): ValueDistribution | undefined {
     if (!histogram) return undefined;
     const { columns } = scene.coordinates;
     const rows = density.length / columns;
-    // A number in `density` is the cube root of how often a value of the field occurs. Row 0 is the greatest value.
+    // A number in `density` is the cube root of how often a value of the field occurs. Row 0 belongs to the greatest
+    // value.
     const counts = Array.from({ length: rows }, (_, row) => {
-        let sum = 0; // a loop, because this is done for each picture
+        let sum = 0; // a loop, for speed: this runs for each picture
         for (const tone of density.subarray((rows - 1 - row) * columns, (rows - row) * columns)) sum += tone ** 3;
         return sum;
     });
@@ -36,7 +39,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
     return { range: histogram.range, tones: counts.map((count) => Math.cbrt(count / most)) };
 }
 
-// Tones that differ by less than this count as equal: when the object turns, rounding errors change tones by less.
+// Tones that differ by less than this look the same. Rounding errors of a turning object stay below it.
 const kVisible = 0.02;
 
 /** Whether two distributions look the same. */
@@ -45,7 +48,10 @@ export function looksLike(one: ValueDistribution, other: ValueDistribution): boo
     return one.tones.every((tone, i) => Math.abs(tone - (other.tones[i] ?? NaN)) < kVisible);
 }
 
-/** Fog for a body inside a level: dense at the value farthest inside, thinner at the level, and transparent outside. */
+/**
+ * Default fog for a body inside a level: dense at the value farthest inside, thinner at the level, transparent outside.
+ * `least` and `greatest` are the ends of the field's range.
+ */
 export function defaultFog([least, greatest]: [number, number], level: number, inside: Inside): FogControlPoint[] {
     const [deep, far] = inside === "below" ? [least, greatest] : [greatest, least];
     const edge = level > least && level < greatest ? level : (least + greatest) / 2;
@@ -60,7 +66,9 @@ export function defaultFog([least, greatest]: [number, number], level: number, i
     return inside === "below" ? rounded : rounded.reverse();
 }
 
-/** The text of a transfer function on the command line and in addresses. */
+/**
+ * Writes a transfer function as a text for the command line and addresses, such as "0:0.5,1:0"; "off" without points.
+ */
 export function textOfFog(points: FogControlPoint[]): string {
     const textOf = ({ value, opacity, color }: FogControlPoint): string =>
         [value, opacity, ...(color === undefined ? [] : [hexDigitsOf(color)])].join(":");
@@ -73,8 +81,8 @@ export function hexDigitsOf(color: number): string {
 }
 
 /**
- * The color of point i in a picture of this scheme: the point's own color or, if it has none, that of its value on a
- * color scale from the first point to the last.
+ * The color of control point i in a picture of this scheme: the point's own color. Without one, the color of the
+ * point's value on a color scale from the first point to the last.
  */
 export function colorOf(points: FogControlPoint[], i: number, scheme: Scheme): number {
     const { value, color } = points[i]!;
@@ -102,8 +110,8 @@ export function isTransferFunction(points: FogControlPoint[]): boolean {
 }
 
 /**
- * The points, after point i was moved to `value` and `opacity`, or as near to these as the neighbors of point i and
- * `ends` allow. `ends` are the least and the greatest value that a point may have.
+ * The control points after point i has moved to `value` and `opacity`. The move stops at the neighbors of point i and
+ * at `ends`, the least and the greatest allowed value.
  */
 export function withMovedPoint(points: FogControlPoint[], i: number, value: number, opacity: number, ends: [number, number]): FogControlPoint[] {
     const gap = (ends[1] - ends[0]) / 1000;

@@ -1,5 +1,5 @@
-// The editor of the transfer function of fog: a curve whose points can be dragged, drawn over the distribution of the
-// field's values; and number fields for the same points.
+// The editor for the transfer function of fog. It shows a curve of opacity with draggable control points, over the
+// distribution of the field's values, and number fields for the same points.
 
 import type { FogControlPoint, Settings, Slices, State } from "@oval4d/protocol";
 
@@ -12,11 +12,11 @@ import { toSentence } from "./format";
 import { NewestOnly } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
 
-const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
+const kTypingDelay = 150; // milliseconds without further typing before a change is sent
 const [kWidth, kHeight, kMargin] = [240, 96, 9]; // the size and margin of the curve, in units of its viewBox
 const kSvg = "http://www.w3.org/2000/svg";
 
-/** The fields of a control point, and the button that removes it. */
+/** The row of a control point: its input fields, and the button that removes the point. */
 interface ControlPointRow {
     root: HTMLElement;
     value: HTMLInputElement;
@@ -37,14 +37,14 @@ export class FogEditor {
     private readonly changes = new NewestOnly<{ fog: FogControlPoint[]; drag?: number }>((change) => this.apply(change));
     private readonly lastChange = new OldStateDetector();
     private rows: ControlPointRow[] = [];
-    private points: FogControlPoint[] = []; // what the editor shows
+    private points: FogControlPoint[] = []; // the control points that the editor shows
     private state: State | undefined;
-    private field = ""; // fieldKeyOf() of the state
+    private field = ""; // fieldKeyOf(), applied to the newest state
     // How the values of the state's field are distributed; undefined until a picture of the field has a histogram.
     private distribution: ValueDistribution | undefined;
     private ends: [number, number] = [0, 1]; // the least and the greatest value that the curve shows
     private dragged: number | undefined; // the index of the point that is dragged
-    // Number of the newest drag on the curve or in a color dialog: all changes of a drag are one undo step.
+    // The number of the newest drag, on the curve or in a color dialog. All changes of one drag form one undo step.
     private drag = 0;
     private sentDrag: number | undefined; // the number of the drag to which the last sent change belongs
 
@@ -80,7 +80,10 @@ export class FogEditor {
         this.draw();
     }
 
-    /** Shows the distribution of values from the histogram of a picture, if the picture is that of the newest state. */
+    /**
+     * Shows the distribution of values from the histogram of a picture. Ignores a picture that does not show the newest
+     * state.
+     */
     updateFromPicture(picture: Slices): void {
         if (picture.revision !== this.state?.revision) return;
         const distribution = distributionOf(picture);
@@ -96,8 +99,8 @@ export class FogEditor {
     }
 
     /**
-     * Shows points, and sends them after `delay` milliseconds. `drag` is the number of the drag that makes this change,
-     * if there is one.
+     * Shows control points, and sends them after `delay` milliseconds. `drag` is the number of the drag that made the
+     * change; undefined for a change without a drag.
      */
     private change(points: FogControlPoint[], delay = 0, drag?: number): void {
         this.points = points;
@@ -107,8 +110,8 @@ export class FogEditor {
     }
 
     private async apply({ fog, drag }: { fog: FogControlPoint[]; drag?: number }): Promise<void> {
-        // A change continues the undo step if a change of the same drag has been sent before. This is not known when
-        // the change is made, because `changes` drops a change that a newer one follows before it is sent.
+        // A change continues an undo step if a change of the same drag has been sent before. Only apply() knows this:
+        // `changes` drops a change if a newer one is submitted before it is sent.
         const continues = drag !== undefined && drag === this.sentDrag;
         try {
             const { revision } = await this.set({ fog, ...(continues && { continues }) });
@@ -121,12 +124,12 @@ export class FogEditor {
         this.showErrors();
     }
 
-    /** Shows what is wrong with the texts in the fields or, if nothing is, why the server refused the last change. */
+    /** Shows the mistake in the text fields. Without a mistake, shows why the server refused the last change. */
     private showErrors(): void {
         this.error.textContent = this.mistake || this.refusal;
     }
 
-    // The curve
+    // Dragging on the curve
 
     private grab(event: PointerEvent): void {
         const handle = (event.target as Element).closest<SVGElement>("[data-point]");
@@ -202,7 +205,7 @@ export class FogEditor {
         return kHeight - kMargin - opacity * (kHeight - 2 * kMargin);
     }
 
-    /** The outline of the distribution of the values. */
+    /** The outline of the value distribution, as an SVG path. */
     private distributionOutline(): string {
         if (!this.distribution) return "";
         const { range, tones } = this.distribution;
@@ -213,7 +216,7 @@ export class FogEditor {
         return `M${this.x(range[0])} ${this.y(0)}L${at.join("L")}L${this.x(range[1])} ${this.y(0)}Z`;
     }
 
-    // The fields
+    // The number fields of the control points
 
     private showRows(): void {
         while (this.rows.length < this.points.length) this.rows.push(this.makeRow(this.rows.length));
@@ -277,9 +280,7 @@ export class FogEditor {
     }
 }
 
-/**
- * A text that identifies the field of a state. It is the same for arrays that have the same name, shape, range and box.
- */
+/** A text that identifies the field of a state. Arrays with the same name, shape, range and box have the same text. */
 function fieldKeyOf({ polytope, field }: State): string {
     return field ? JSON.stringify([polytope.name, field.formula, field.shape, field.range, field.box]) : "";
 }

@@ -5,9 +5,9 @@ import type { State } from "@oval4d/protocol";
 const kMinus = "\u2212";
 const kMaxPlanes = 3; // the most planes that the text of a rotation lists
 const kMaxPlainDecimals = 9; // with more decimals, small numbers are written with an exponent
-const kMostDigits = 17; // the most significant digits of a number in double precision
+const kMostDigits = 17; // the significant digits that identify a number in double precision
 
-/** A number with at most `decimals` decimals, without trailing zeros. */
+/** Formats a number with at most `decimals` decimals, without trailing zeros. */
 export function formatDecimal(value: number, decimals: number): string {
     const text = Math.abs(value)
         .toFixed(decimals)
@@ -16,7 +16,7 @@ export function formatDecimal(value: number, decimals: number): string {
     return value < 0 && Number(text) !== 0 ? kMinus + text : text;
 }
 
-/** An integer; from 10,000 on, thin spaces separate groups of three digits: 14 400. */
+/** Formats an integer. From 10,000 on, thin spaces separate groups of three digits: 14 400. */
 export function formatCount(value: number): string {
     return String(value).replace(/\B(?=(\d{3})+$)/g, value < 10_000 ? "" : "\u2009");
 }
@@ -25,28 +25,28 @@ export function formatDegrees(radians: number): string {
     return `${formatDecimal((radians * 180) / Math.PI, 2)}°`;
 }
 
-/** A length with three significant digits, or with all digits of its integer part if these are more. */
+/** Formats a length with three significant digits, or with all digits of its integer part if these are more. */
 export function formatLength(value: number): string {
     return formatRounded(value, value === 0 ? 0 : Math.max(0, 2 - exponentOf(value)));
 }
 
 /**
- * A coordinate with at most three decimals, or with as many more as are needed to distinguish the w of neighboring
- * slices, which differ by `spacing`.
+ * Formats a coordinate with at most three decimals. Uses more decimals if neighboring slices, whose w differ by
+ * `spacing`, would otherwise look the same.
  */
 export function formatCoordinate(value: number, spacing: number): string {
     return formatRounded(value, Math.max(3, 1 - exponentOf(spacing)));
 }
 
-/** A value of a field with three decimals at most, or with three significant digits if it is below 0.01. */
+/** Formats a value of a field with at most three decimals, or with three significant digits if it is below 0.01. */
 export function formatFieldValue(value: number): string {
     const size = Math.abs(value);
     return formatRounded(value, size === 0 || size >= 0.01 ? 3 : 2 - exponentOf(size));
 }
 
 /**
- * A number with at most `decimals` decimals, without trailing zeros. If `decimals` is above kMaxPlainDecimals, numbers
- * below 1e-4 have an exponent.
+ * Formats a number with at most `decimals` decimals, without trailing zeros. If `decimals` is above kMaxPlainDecimals,
+ * writes numbers below 1e-4 with an exponent.
  */
 function formatRounded(value: number, decimals: number): string {
     if (decimals <= kMaxPlainDecimals) return formatDecimal(value, decimals);
@@ -59,8 +59,8 @@ function formatRounded(value: number, decimals: number): string {
 }
 
 /**
- * Rounds a value to the decimal place of digit number `digits` of `size`. For example, with the size 0.5 and 3 digits,
- * the place is that of the thousandths, and 1234.56789 becomes 1234.568. A value below `size` is rounded to `digits`
+ * Rounds `value` to the decimal place of the last of the first `digits` digits of `size`. With the size 0.5 and 3
+ * digits, the place is the thousandths: 1234.56789 becomes 1234.568. A value below `size` is rounded to `digits`
  * significant digits. `size` is, for example, the difference between two values that must stay distinguishable.
  */
 export function roundedToDigitsOfSize(size: number, value: number, digits: number): number {
@@ -74,8 +74,8 @@ function exponentOf(value: number): number {
 }
 
 /**
- * The positive number `size` with `decimals` decimals, where `decimals` is above kMaxPlainDecimals. Numbers below 1e-4
- * have an exponent, as in server/scene/slice_label.cpp.
+ * Formats the positive number `size` with `decimals` decimals, where `decimals` is above kMaxPlainDecimals. Writes
+ * numbers below 1e-4 with an exponent, like server/scene/slice_label.cpp.
  */
 function withExponentIfSmall(size: number, decimals: number): string {
     const exponent = exponentOf(size);
@@ -84,12 +84,12 @@ function withExponentIfSmall(size: number, decimals: number): string {
     return size.toExponential(atMost(kMostDigits - 1, exponent + decimals));
 }
 
-/** The w of the focus slice. */
+/** Formats the w of the focus slice. */
 export function focusW({ section, slices }: State): string {
     return formatW(section.w, slices.spacing);
 }
 
-/** The w of a slice, rounded like its label in the picture (labelNumber() in server/scene/slice_label.cpp). */
+/** Formats the w of a slice, rounded like the label of the slice in the picture (see server/scene/slice_label.cpp). */
 export function formatW(w: number, spacing: number): string {
     const decimals = Math.min(300, Math.max(2, Math.ceil(-Math.log10(spacing)) + 1));
     if (decimals > kMaxPlainDecimals) {
@@ -108,8 +108,8 @@ export function formatW(w: number, spacing: number): string {
 }
 
 /**
- * A rotation such as "xw 22.5°, yz 81.42°". Lists only the planes with the three largest angles: a gesture may turn in
- * all six planes.
+ * Formats a rotation, such as "xw 22.5°, yz 81.42°". A gesture may turn in all six planes; only the three planes with
+ * the largest angles are listed.
  */
 export function formatRotation(last: NonNullable<State["last"]>): string {
     const turns = last.planes.map((plane, i) => ({ plane, angle: last.angles[i] ?? 0 }));

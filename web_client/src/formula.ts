@@ -1,11 +1,11 @@
-// The text of a formula: its named constants, and the place of a mistake.
+// Reads the text of a formula: its named constants, and the position of a mistake.
 
-/** A name that is defined after the formula, such as a in a=pi/2. */
+/** The definition of a named constant after a formula, such as a=pi/2. */
 interface Definition {
     name: string;
     /** What is written after the equals sign. */
     text: string;
-    /** The index in the formula at which this text begins. */
+    /** The index in the formula at which `text` begins. */
     from: number;
 }
 
@@ -15,7 +15,7 @@ export interface FormulaConstant {
     value: number;
 }
 
-/** A mistake that the server has found. */
+/** A mistake in a formula, as the server has reported it. */
 export interface FormulaMistake {
     what: string;
     /** The index of the wrong character, from 0; the length of the text if something is missing at its end. */
@@ -35,8 +35,8 @@ function definitionsOf(formula: string): Definition[] {
 }
 
 /**
- * The constants of a formula whose values are numbers, or texts such as "pi/2" whose values are in `known`. They are in
- * the order of the formula.
+ * The constants of a formula in their order. A value is a number in the formula, or a text such as "pi/2" whose number
+ * is in `known`. Constants with other texts are omitted.
  */
 export function constantsOf(formula: string, known: ReadonlyMap<string, number> = new Map()): FormulaConstant[] {
     return definitionsOf(formula).flatMap(({ name, text }) => {
@@ -47,8 +47,8 @@ export function constantsOf(formula: string, known: ReadonlyMap<string, number> 
 }
 
 /**
- * The values of the texts of constants in a typed formula, such as "pi/2". `written` is the same formula as the server
- * writes it: with the values of constants as numbers.
+ * Finds the numbers for the texts of constants, such as "pi/2". `typed` is the formula as the user typed it; `written`
+ * is the same formula as the server writes it, with numbers.
  */
 export function valuesOfTexts(typed: string, written: string): [text: string, value: number][] {
     const values = new Map(constantsOf(written).map(({ name, value }) => [name, value]));
@@ -58,7 +58,7 @@ export function valuesOfTexts(typed: string, written: string): [text: string, va
     });
 }
 
-/** The formula with `value` as the value of the constant `name`; the unchanged formula if it has no such constant. */
+/** Returns the formula with `value` as the value of the constant `name`; unchanged if it has no such constant. */
 export function withConstant(formula: string, name: string, value: string): string {
     const definition = definitionsOf(formula).find((one) => one.name === name);
     if (!definition) return formula;
@@ -66,24 +66,20 @@ export function withConstant(formula: string, name: string, value: string): stri
     return formula.slice(0, from) + value + formula.slice(from + text.length);
 }
 
-/**
- * The comparison operator in the formula, such as "<", on which the meaning of the levels depends; "" if there is none.
- */
+/** The comparison operator in a formula, such as "<"; "" without one. The meaning of the levels depends on it. */
 export function comparisonOf(formula: string): string {
     return /[<>]=?|=/.exec(formula.replace(kDefinitions, ""))?.[0] ?? "";
 }
 
-/**
- * The mistake in a formula that an error message of the server describes; undefined if the message names no position.
- */
+/** The mistake in a formula that a server's error message describes; undefined if the message names no position. */
 export function mistakeOf(message: string): FormulaMistake | undefined {
     const [, position, what = ""] = /^.*, position (\d+): (.*)$/s.exec(message) ?? [];
     return position === undefined ? undefined : { what, at: Number(position) - 1 };
 }
 
 /**
- * An excerpt of the text around character `at`, counted from 0, in three pieces: up to `reach` characters before it,
- * the character, and up to `reach` characters after it.
+ * An excerpt of a text around the character with the index `at`, counted from 0. It has three pieces: up to `reach`
+ * characters before the character, the character itself, and up to `reach` characters after it.
  */
 export function excerptAround(
     text: string,
@@ -99,7 +95,10 @@ export function excerptAround(
     ];
 }
 
-/** The slider range of a constant: 0 to about twice its value, or −1 to 1 if it is 0; the step is a power of ten. */
+/**
+ * The slider range for a constant: 0 to about twice its value, or −1 to 1 if the value is 0. The step is a power of
+ * ten.
+ */
 export function rangeFor(value: number): { min: number; max: number; step: number } {
     const reach = 2 * Math.abs(value) || 1;
     const step = 10 ** Math.floor(Math.log10(reach / 50));

@@ -1,10 +1,10 @@
-// A text field with a formula, and the mistake that the server has found in the formula.
+// A text field for a formula. It shows the mistake that the server has found in the formula.
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";
 import { excerptAround, mistakeOf } from "./formula";
 
-const kReach = 14; // characters of the formula shown on either side of a mistake
+const kReach = 14; // an excerpt shows this many characters on either side of a mistake
 
 export class FormulaInput {
     readonly input: HTMLTextAreaElement | HTMLInputElement;
@@ -34,8 +34,8 @@ export class FormulaInput {
     }
 
     /**
-     * Shows an error of the server, and marks the character that the error names, if any. If `message` is undefined,
-     * clears both.
+     * Shows an error of the server, and marks the wrong character if the error names one. If `message` is undefined,
+     * clears the error and the mark.
      */
     showError(message: string | undefined): void {
         const mistake = message === undefined ? undefined : mistakeOf(message);

@@ -1,6 +1,6 @@
-// The hit tester (see picture/hit_tester.ts) of the pictures that the server draws. The page makes it from a slices
-// message, which it requests only when it needs the hit tester, because the message is as large as a picture of the
-// geometry stream.
+// Holds the hit tester (finds the element at a pixel) for pictures that the server draws. The page makes the hit tester
+// from a `slices` message. This message is as large as a picture of the geometry stream, so the page requests it only
+// when it needs the hit tester.
 
 import type { Client, State } from "@oval4d/protocol";
 
@@ -11,9 +11,9 @@ import type { Stage } from "./picture/stage";
 export class FrameHitTesterCache {
     private state: State | undefined;
     private known: HitTester | undefined;
-    private knownFor = ""; // the layoutKey() for which the hit tester is known or requested
+    private knownFor = ""; // the layoutKey() of the picture whose hit tester is known or requested
 
-    /** `onKnown` is called when a hit tester that currentOrRequest() requested has arrived. */
+    /** `onKnown` is called after currentOrRequest() has requested a hit tester and it has arrived. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,

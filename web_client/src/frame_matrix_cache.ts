@@ -1,5 +1,5 @@
-// Where the matrix of planar sections is in the pictures that the server draws. The page requests the matrix when it
-// begins to show it, so that a drag in the matrix can begin at once.
+// Knows where the matrix of planar sections is in the pictures that the server draws. The page requests its place when
+// a matrix appears, so that the user can drag in it at once.
 
 import type { Client, SectionMatrix, State } from "@oval4d/protocol";
 
@@ -8,8 +8,8 @@ import type { Stage } from "./picture/stage";
 
 export class FrameMatrixCache {
     private known: SectionMatrix | undefined;
-    // The layoutKey() for which the matrix is known or requested; "" if there is none. This key leaves out the settings
-    // of slices and surfaces, which do not move the matrix.
+    // The layoutKey() of the picture whose matrix is known or requested; "" if there is none. The key omits the
+    // settings of slices and surfaces, because they do not move the matrix.
     private knownFor = "";
 
     constructor(
@@ -18,20 +18,23 @@ export class FrameMatrixCache {
     ) {}
 
     /**
-     * The matrix as the server sent it last, possibly with the sections of an earlier picture; undefined if its place
-     * is not known, or if no matrix is shown.
+     * The matrix as the server sent it last. Its sections may belong to an earlier picture. Undefined if its place is
+     * not known, or if no matrix is shown.
      */
     get current(): SectionMatrix | undefined {
         return this.known;
     }
 
-    /** Requests the matrix if its place has changed. To be called when the state, size or mode may have changed. */
+    /**
+     * Requests the matrix if its place has changed. Must be called when the state, the size or the rendering mode may
+     * have changed.
+     */
     update({ slices, levels, inside, fog, caps, ...state }: State): void {
         const isShown = state.view === "matrix" && this.stage.mode === "frames";
         const key = isShown ? layoutKey(state, this.stage.size) : "";
         if (key === this.knownFor) return;
         this.knownFor = key;
-        if (!isShown) this.known = undefined; // while a matrix is shown, the last one is kept until the answer arrives
+        if (!isShown) this.known = undefined; // a shown matrix stays known until the answer arrives
         if (isShown) void this.request(key);
     }
 

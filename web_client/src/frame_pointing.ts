@@ -1,11 +1,11 @@
-// What is under the pointer in the pictures that the server draws. The page asks the server which element or which
-// surface of a field it is, and for a picture in which this element is highlighted, which it shows while the pointer is
-// there.
+// Names what is under the pointer in pictures that the server draws. The page asks the server which element, or which
+// surface of a field, is at a pixel. It then requests a picture in which this element is highlighted, and shows it
+// while the pointer stays on the element.
 //
-// The server handles the messages of a page one after the other, so a key that is pressed meanwhile waits until the
-// answer is complete. The page therefore asks about one point at a time, once per animation frame, and only while the
-// picture rests and no command is unanswered. The pictures are requested one at a time, too, but the name of an element
-// does not wait for them.
+// A key pressed meanwhile waits for these answers, because the server handles a page's messages one after the other.
+// The page therefore asks about one point at a time, once per animation frame. It asks only while the picture rests and
+// every command is answered. It also requests one picture at a time, but shows the name of an element before its
+// picture arrives.
 
 import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
@@ -13,23 +13,23 @@ import { followHover, type AreaPoint } from "./hover";
 import type { PointedDescription, PointedLabel } from "./pointed_label";
 import type { Stage } from "./picture/stage";
 
-// Milliseconds without a new picture after which the picture rests: longer than the steps of continuous turning last.
+// A picture rests after this many milliseconds without a new picture. This is longer than a step of continuous turning.
 const kRest = 200;
-const kNear = 8; // pixels: an answer is not shown if the pointer has moved farther than this before it arrives
-// Pixels: until the next answer, the label follows the pointer this far from the point that it names.
+const kNear = 8; // pixels: an answer is ignored if the pointer has moved farther than this meanwhile
+// Pixels: the label follows the pointer up to this distance from the named point, until the next answer arrives.
 const kFollow = 24;
 
 export class FramePointing {
     private pointer: AreaPoint | undefined;
-    private named: AreaPoint | undefined; // the point whose element the label names
+    private named: AreaPoint | undefined; // the point of the drawing about which the label tells
     private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
-    private asked = ""; // the pixel of the last request about the present picture, as "x y"; "" if there was none
+    private asked = ""; // the pixel of the last request about this picture, as "x y"; "" if there was none
     private isAsking = false;
-    private lit: PolytopeElement | undefined; // the element that the picture that is shown or wanted highlights
+    private lit: PolytopeElement | undefined; // the highlighted element of the picture that is shown or requested
     private isLighting = false; // whether a picture has been requested and has not arrived
     private resting: ReturnType<typeof setTimeout> | undefined;
 
-    /** `isIdle` returns whether a revision is the newest one, and no command is unanswered. */
+    /** `isIdle` tells whether the revision is the newest one and all commands are answered. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
@@ -58,8 +58,8 @@ export class FramePointing {
     }
 
     /**
-     * Asks the server what is under the pointer, unless the answer is known. To be called when the page may have become
-     * idle.
+     * Asks the server what is under the pointer, unless the answer is known. Must be called when the page may have
+     * become idle.
      */
     update(): void {
         if (!this.isAsking) void this.ask();
@@ -76,9 +76,7 @@ export class FramePointing {
         this.update();
     }
 
-    /**
-     * Asks what is at the pointer, again and again, until the server has answered for the pointer's newest position.
-     */
+    /** Asks what is under the pointer, repeatedly, until the server has answered for the pointer's newest position. */
     private async ask(): Promise<void> {
         this.isAsking = true;
         for (let pixel = this.nextPixelToAskAbout(); pixel; pixel = this.nextPixelToAskAbout()) {
@@ -93,8 +91,8 @@ export class FramePointing {
     }
 
     /**
-     * The pixel of the picture to ask about next; undefined if the page has asked about it already, or must not ask
-     * now.
+     * The pixel of the picture to ask about next. Undefined if the page has already asked about this pixel, or must not
+     * ask now.
      */
     private nextPixelToAskAbout(): AreaPoint | undefined {
         const { pointer, revision } = this;
@@ -107,7 +105,7 @@ export class FramePointing {
         return pixel;
     }
 
-    /** Shows what is at a point, unless the picture has changed or the pointer has moved on. */
+    /** Shows the server's answer about a point, unless the picture has changed or the pointer has moved away. */
     private answered(answer: At, at: AreaPoint): void {
         const { pointer } = this;
         if (answer.revision !== this.revision || !pointer) return;
@@ -124,14 +122,17 @@ export class FramePointing {
         }
     }
 
-    /** Shows a picture in which the element is highlighted, unless the pointer has left the element before. */
+    /**
+     * Requests and shows a picture in which the element is highlighted, unless the pointer leaves the element before it
+     * arrives.
+     */
     private light(element: PolytopeElement): void {
         if (element.element === this.lit?.element && element.number === this.lit.number) return;
         this.lit = element;
         if (!this.isLighting) void this.requestLitPictures();
     }
 
-    /** Requests pictures, one after the other, until the last one is that of the newest element. */
+    /** Requests one picture after another, until the last one highlights the newest element. */
     private async requestLitPictures(): Promise<void> {
         this.isLighting = true;
         let requested: PolytopeElement | undefined;
@@ -139,7 +140,7 @@ export class FramePointing {
             const wanted = this.lit;
             requested = wanted;
             const highlight = { element: wanted.element, number: wanted.number };
-            // After an error, no element is highlighted.
+            // If the server refuses, no element is highlighted.
             const frame = await this.client
                 .request({ type: "get", what: "frame", highlight, ...this.stage.size })
                 .catch(() => undefined);
@@ -155,7 +156,7 @@ export class FramePointing {
 
     private hide(): void {
         this.endLight();
-        if (!this.named) return; // a label that is visible now belongs to pointing.ts, in a picture that the page draws
+        if (!this.named) return; // otherwise the label may belong to pointing.ts
         this.named = undefined;
         this.label.hide();
     }
@@ -168,7 +169,7 @@ function distance(a: AreaPoint, b: AreaPoint): number {
 function descriptionOf(answer: At): PointedDescription | undefined {
     const { highlight, name, kind, w, level, cap = false } = answer;
     if (level !== undefined) return { level, cap, sliceW: w, revision: answer.revision, known: answer };
-    // A slice that has been zoomed may reach behind a panel of the matrix.
+    // A zoomed slice may reach behind a panel of the matrix, where it is not visible.
     const isBehindPanel = answer.point !== undefined && answer.in !== "matrix";
     if (!highlight || isBehindPanel) return undefined;
     if (highlight.element === "vertex") return { ...highlight, coordinates: answer.coordinates, sliceW: w };

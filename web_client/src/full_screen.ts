@@ -1,7 +1,7 @@
-// Full screen, as on a projector: the texts are large enough for the back of a room.
+// Full-screen display, as on a projector. The texts become large enough for the back of a room.
 
 export class FullScreen {
-    private readonly display = matchMedia("(display-mode: fullscreen)"); // also matches full screen that F11 has begun
+    private readonly display = matchMedia("(display-mode: fullscreen)"); // also matches after F11
     private wasOn = false;
 
     /** `changed` is called when the page enters or leaves full screen. */

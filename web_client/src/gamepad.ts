@@ -1,13 +1,13 @@
-// Turns the polytope by gamepads, which are polled once per animation frame while one is connected. Only gamepads whose
-// sticks and triggers have known places are used (the standard mapping of the W3C's Gamepad specification), and only
-// after all their sticks, triggers and bumpers have been at rest once: an axis of another device, such as a joystick,
-// may stay at one end.
+// Turns the polytope by gamepads. While a gamepad is connected, it is read once per animation frame. Only gamepads with
+// the standard mapping of the W3C's Gamepad specification are used, because the places of their sticks and triggers are
+// known. A gamepad is used only after all its sticks, triggers and bumpers have been at rest once: an axis of another
+// device, such as a joystick, may stay at one end.
 
 import { turnsOfGamepad } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
 
 const kPause = 300; // milliseconds at rest after which a gesture has ended
-const kMaxInterval = 100; // milliseconds: a longer time between two polls, when the page is busy, counts as this time
+const kMaxInterval = 100; // milliseconds: if the page is busy and polls later, this is the interval that counts
 
 export function listenForGamepads(rotation: RotationControl): void {
     let polledAt: number | undefined; // the time of the last poll in milliseconds; undefined while no gamepad is polled

@@ -1,8 +1,8 @@
-// Mouse, pen and touch on the drawing. Dragging orbits the view, the wheel or a pinch zooms, and a click keeps the
-// element under the pointer highlighted (see pointing.ts); a right click or a long press opens its menu. With the right
-// or middle button or with Alt, dragging rolls the 4-D ball or, if Shift is held as well, the 3-D ball of every slice
-// (see rolling_ball.ts). Dragging with two fingers rolls the 4-D ball, and with three fingers the 3-D ball. In a panel
-// of the matrix, dragging moves the focus point.
+// Mouse, pen and touch gestures on the drawing:
+// - A drag orbits the view; in a panel of the matrix, it moves the focus point. The wheel or a pinch zooms.
+// - A click keeps the element under the pointer highlighted. A right click or a long press opens the element's menu.
+// - A drag with the right or middle button, with Alt, or with two fingers rolls the 4-D ball (see rolling_ball.ts).
+// - The same drag with Shift, or a drag with three fingers, rolls the 3-D ball of every slice.
 
 import type { FocusPointDrag } from "./focus_point_drag";
 import type { AreaPoint } from "./hover";
@@ -15,7 +15,7 @@ const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of t
 const kLineHeight = 16; // pixels per line, for wheels that report lines
 const kWheelPause = 400; // milliseconds without a wheel event after which a gesture has ended
 const kLongPress = 600; // milliseconds of a touch after which the menu of an element opens
-const kButtons = { left: 0, middle: 1, right: 2 }; // the values of MouseEvent.button
+const kButtons = { left: 0, middle: 1, right: 2 }; // values of MouseEvent.button
 const kSlop = { mouse: 4, touch: 10 }; // the most pixels by which the pointer may move during a click
 
 export interface GestureTargets {

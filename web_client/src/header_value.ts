@@ -1,4 +1,4 @@
-// A value in the header: a button that turns into a text field, in which the value can be changed.
+// A value in the header of the page. It is a button that turns into a text field for another value.
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";

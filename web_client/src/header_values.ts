@@ -11,16 +11,16 @@ import { HeaderValue } from "./header_value";
 import { spokenReferenceFrame } from "./reference_frame";
 import { makeToolbar } from "./toolbar";
 
-/** A value of the header: the part of the state that it shows, and the command that changes it. */
+/** A value in the header of the page: what it shows of the state, and the command that changes it. */
 interface HeaderValueDescription {
     name: string;
     symbol: string;
-    /** Describes the value. */
+    /** A short description of the value, for its tooltip. */
     meaning: string;
-    /** Describes what can be typed. */
+    /** A description of what the user can type. */
     hint: string;
     value(state: State): string;
-    /** What a screen reader says of the value; "" if nothing. */
+    /** What a screen reader says about the value; "" for nothing. */
     spoken(state: State): string;
     /** The text with which the field opens, such as an angle that is not rounded; by default, the shown value. */
     editable?(state: State): string;
@@ -98,7 +98,7 @@ export class HeaderValues {
         for (const { name, value } of kHeaderValues) this.byName.get(name)!.show(value(state));
         this.state = state;
         this.announced ??= ["", ...announcementsOf(state).slice(1)];
-        // While the polytope turns or the focus plays, new states do not delay the announcement.
+        // While the polytope turns or the focus plays, new states must not postpone the announcement forever.
         if ((state.turning || state.playing) && this.timer !== undefined) return;
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.announce(), kSpeechDelay);
@@ -115,7 +115,8 @@ export class HeaderValues {
 }
 
 /**
- * What a screen reader can say of a state: the polytope's name, then one text for each value or setting; "" if nothing.
+ * What a screen reader can say about a state: first the polytope's name, then a text for each value or setting. A text
+ * is "" if there is nothing to say.
  */
 function announcementsOf(state: State): string[] {
     const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
@@ -148,7 +149,7 @@ function description(name: string, symbol: string, meaning: string, value: (stat
 
 /** The command for a rotation such as "xw 10°, yz 0.2 rad" or "xw,yz 10 5". */
 function rotateCommand(text: string): string {
-    // A blank before a minus sign separates two angles.
+    // A blank before a minus sign separates two angles, so it is not removed.
     const joined = withoutBlanksBeforeUnits(text).replace(/\s*([*/^])\s*/g, "$1");
     const words = joined.split(/[\s,;]+/).filter((word) => word !== "");
     const isPlane = (word: string, i: number): boolean => i === 0 || /^[xyzw]{2}$/.test(word);

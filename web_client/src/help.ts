@@ -1,4 +1,4 @@
-// The dialog with the list of keys, generated from the key table, and the list of commands.
+// The help dialog: the list of keys, made from the key table, and the list of commands.
 
 import type { Keymap } from "@oval4d/protocol";
 
@@ -127,13 +127,13 @@ function commandSection(): HTMLElement {
     return element("section", { class: "commands" }, title, element("dl", {}, ...lines));
 }
 
-/** A row of a table. filter() finds a topic in its texts and in `searchTerms`. */
+/** A row of a table in the help. filter() finds a topic in the row's texts and in `searchTerms`. */
 function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: TableRowOptions = {}): HTMLElement {
     const head = element("th", { scope: "row" }, element(tag, {}, name));
     return element("tr", { "data-search-terms": searchTerms || undefined }, head, element("td", {}, text));
 }
 
-/** The tag of the name, and texts in which filter() also finds a topic. */
+/** `tag` is the HTML tag of the name; filter() finds topics also in `searchTerms`. */
 interface TableRowOptions {
     tag?: "kbd" | "span";
     searchTerms?: string;

@@ -1,4 +1,4 @@
-// Tells where a mouse or pen hovers over a part of the page.
+// Reports where a mouse or pen hovers over a part of the page.
 
 /** A point of an area of the page: x to the right and y down from the area's upper left corner, in CSS pixels. */
 export interface AreaPoint {

@@ -1,4 +1,4 @@
-// The keys of the page: finds the action of a key, and executes it here or sends the key to the server.
+// Finds the action of a pressed key. Executes actions of the page here, and sends all other keys to the server.
 
 import type { Command, KeyBinding } from "@oval4d/protocol";
 
@@ -14,15 +14,15 @@ interface KeyActions {
     escape: (event: KeyboardEvent) => void;
     /** Executes an action of the camera; returns false if the action is not one of the camera. */
     camera: (action: string) => boolean;
-    /** The other actions that only the page executes, by their names in the key table. */
+    /** The actions of the page itself, by their names in the key table. The server does not execute them. */
     page: Readonly<Record<string, () => void>>;
 }
 
 export class Keyboard {
     /** The key table; empty before the server has sent it. */
     keys: readonly KeyBinding[] = [];
-    private first: KeyStroke | undefined; // the first key of a sequence of two, which has not been sent yet
-    private ended: KeyBinding | undefined; // the sequence whose second key is the last key that was typed
+    private first: KeyStroke | undefined; // the first key of a two-key sequence, before the second key is pressed
+    private ended: KeyBinding | undefined; // the two-key sequence that ended with the last key press
     private actsWithoutCtrl = readStored<boolean>(kSingleKeysKey, true) ?? true;
 
     constructor(
@@ -62,12 +62,14 @@ export class Keyboard {
         } else if (stroke) this.type(stroke, event.repeat);
     }
 
-    /** Forgets the first key of a sequence of two. To be called when the user does something else. */
+    /**
+     * Forgets the first key of a two-key sequence. Must be called when the user does anything but press the second key.
+     */
     cancelSequence(): void {
         this.first = undefined;
     }
 
-    /** Executes the action of a key or a button: one of the page, of the camera, or of the server. */
+    /** Executes the action of a key or a button. The page, the camera or the server executes it. */
     press(binding: KeyBinding, inverse: boolean, held: boolean): void {
         this.cancelSequence();
         const act = this.actions.page[binding.action];
@@ -84,8 +86,8 @@ export class Keyboard {
     }
 
     /**
-     * Whether a key that has been typed, or that is held, is the second one of a sequence. A held key remains the
-     * second one when Shift is released.
+     * Whether a typed or held key is the second key of a sequence. A held key stays the second key when Shift is
+     * released.
      */
     private isSecondOfSequence({ key, ctrl }: KeyStroke, held: boolean): boolean {
         if (ctrl) return false;
@@ -94,8 +96,8 @@ export class Keyboard {
     }
 
     /**
-     * Sends a key that has been typed; the first key of a sequence is sent together with the second one. While the
-     * second key is held, the sequence is repeated if its action may repeat; the held key does not act by itself.
+     * Sends a typed key. The first key of a two-key sequence is sent together with the second key. While the second key
+     * is held, the sequence repeats if its action may repeat; the held key alone does nothing.
      */
     private type(stroke: KeyStroke, held: boolean): void {
         if (held && this.ended) {
@@ -105,7 +107,7 @@ export class Keyboard {
         }
         const { first } = this;
         const begins = !stroke.ctrl && this.keys.some(({ key }) => key.length === 2 && key[0] === stroke.key);
-        if (begins && held) return; // holding the first key of a sequence is not a second press of it
+        if (begins && held) return; // a held key is not pressed twice
         this.ended = first && !stroke.ctrl ? this.keys.find(({ key }) => key === first.key + stroke.key) : undefined;
         this.first = begins && !this.ended ? stroke : undefined;
         if (first && this.ended) this.send(first, false);

@@ -8,8 +8,8 @@ import type { KeyBinding } from "@oval4d/protocol";
 const kTextFields = "textarea, select, [contenteditable], input:not([type=radio], [type=checkbox], [type=range])";
 const kButtons = "button, a[href]";
 const kButtonKeys = /^( |Enter)$/;
-const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // the keys that sliders, radio buttons and checkboxes use
-const kNumber = /^[\d.]/; // how the name of a number begins in a list; the list uses the keys of these characters
+const kInputKeys = /^( |Enter|Home|End|(Arrow|Page).*)$/; // sliders, radio buttons and checkboxes use these keys
+const kNumber = /^[\d.]/; // how an entry begins in a list of numbers, which uses the keys of these characters
 
 /** The members of a `key` message. */
 export interface KeyStroke {
@@ -19,9 +19,12 @@ export interface KeyStroke {
 }
 
 /**
- * Whether the control that has the focus uses the key: every key in a text field or a list of names; Enter and the
- * space bar on a button; Enter, the space bar, the arrow keys, Home, End, Page Up and Page Down on a slider, a radio
- * button, a checkbox or a list of numbers; and on the latter also digits and the decimal point.
+ * Whether the control that has the focus uses the key:
+ * - A text field or a list of names uses every key.
+ * - A button uses Enter and the space bar.
+ * - A slider, a radio button, a checkbox or a list of numbers uses Enter, the space bar, the arrow keys, Home, End,
+ *   Page Up and Page Down.
+ * - A list of numbers also uses digits and the decimal point.
  */
 export function isForControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;
@@ -36,7 +39,7 @@ function isListOfNumbers({ options }: HTMLSelectElement): boolean {
     return options.length > 0 && [...options].every(({ text }) => kNumber.test(text));
 }
 
-/** The action of Ctrl-Z, Ctrl-Shift-Z and Ctrl-Y or, on a Mac, of Cmd-Z and so on; undefined for other keys. */
+/** The action of Ctrl-Z (undo), Ctrl-Shift-Z or Ctrl-Y (redo); on a Mac, with Cmd. Undefined for other keys. */
 export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined {
     if (event.isComposing || event.altKey || event.ctrlKey === event.metaKey) return undefined;
     const letter = typedCharacter(event).toLowerCase();
@@ -45,16 +48,17 @@ export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined
 }
 
 /**
- * The keystroke of an event; undefined while a text is composed, if a modifier other than Shift and Ctrl is held, and
- * for keys that are not in the table. The first of these rules that applies gives the keystroke's key:
+ * Converts a keyboard event to a keystroke of the key table. Undefined while a text is composed (IME), while a modifier
+ * other than Shift and Ctrl is held, and for keys that are not in the table. The first rule that applies gives the
+ * keystroke's key:
  * - A key that types a character of the table counts as this character. On a French keyboard, digit keys type "(" and
  *   "-".
- * - A key of another script counts as the character that an American keyboard has in its place.
- * - A digit key counts as its digit, whatever it types.
+ * - A key of a non-Latin script counts as the character in the same place on an American keyboard.
+ * - A digit key counts as its digit, whatever character it types.
  */
 export function strokeFromEvent(event: KeyboardEvent, table: readonly KeyBinding[]): KeyStroke | undefined {
     if (event.isComposing || event.key === "Dead" || event.key === "Process" || event.metaKey) return undefined;
-    // Some layouts type brackets with AltGr (which Windows reports with Ctrl+Alt) or with the Mac's Option key.
+    // Some layouts type brackets with AltGr, which Windows reports as Ctrl+Alt, or with the Mac's Option key.
     const composed = event.getModifierState("AltGraph") || (event.altKey && /^[[\]{}]$/.test(event.key));
     if (event.altKey && !composed) return undefined;
     const ctrl = event.ctrlKey && !composed;
@@ -83,23 +87,23 @@ export function strokesOfBinding(binding: KeyBinding, inverse: boolean): KeyStro
     return [{ key: inverse ? key.toUpperCase() : key, shift: inverse || key !== key.toLowerCase(), ctrl }];
 }
 
-/** The digit on the physical key, whatever the layout and Shift make it type; undefined for keys without a digit. */
+/** The digit on the physical key, independent of the layout and of Shift; undefined for keys without a digit. */
 function digitOfKey(event: KeyboardEvent): string | undefined {
     const [, row, digit] = /^(Digit|Numpad)([0-9])$/.exec(event.code) ?? [];
     return row === "Numpad" && event.key !== digit ? undefined : digit;
 }
 
 /**
- * Whether a binding identifies its key by a name of KeyboardEvent.key, such as "ArrowLeft", not by one or two
- * characters.
+ * Whether a binding names its key by a name such as "ArrowLeft", as in KeyboardEvent.key. Other bindings consist of one
+ * or two characters.
  */
 function isKeyGivenByName({ key }: KeyBinding): boolean {
     return key.length > 2;
 }
 
 /**
- * The character that the event types. If it is not ASCII, the character of this key on an American keyboard; "\0" if
- * the key has none. A letter is a capital if Shift is held; Caps Lock has no effect.
+ * The character that the event types. If it is not ASCII, the character of the same key on an American keyboard; "\0"
+ * if there is none. Letters are capitals only if Shift is held: Caps Lock has no effect.
  */
 function typedCharacter(event: KeyboardEvent): string {
     const character = /^[ -~]$/.test(event.key) ? event.key : characterOfPlace(event);
@@ -107,8 +111,8 @@ function typedCharacter(event: KeyboardEvent): string {
 }
 
 /**
- * The two characters that a punctuation key types on an American keyboard: without Shift, and with Shift. The name of
- * the key is as in KeyboardEvent.code. Keyboards of other scripts have letters on these keys.
+ * The two characters that a punctuation key types on an American keyboard, without Shift and with Shift. The property
+ * is the name of the key in KeyboardEvent.code. Keyboards of other scripts have letters on these keys.
  */
 const kPunctuation: Record<string, string> = {
     BracketLeft: "[{",
@@ -124,9 +128,12 @@ const kPunctuation: Record<string, string> = {
     Backquote: "`~",
 };
 
-/** The character of this key on an American keyboard, for keyboards of another script; "\0" if there is none. */
+/**
+ * The character of this key on an American keyboard, if the event types a letter of a non-Latin script; otherwise the
+ * letter in `code`, or "\0" without one.
+ */
 function characterOfPlace({ code, key, shiftKey }: KeyboardEvent): string {
-    if ([...key].length !== 1) return "\0"; // the name of a key
+    if ([...key].length !== 1) return "\0"; // `key` is a name, not a character
     const [, letter] = /^Key([A-Z])$/.exec(code) ?? [];
     if (letter !== undefined) return letter;
     const isOfOtherScript = /[\p{L}\p{M}]/u.test(key) && !/\p{Script=Latin}/u.test(key);

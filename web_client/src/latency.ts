@@ -2,9 +2,9 @@
 // shows statistics, `:export latency` saves the samples as a CSV file, and scripts on the page read them with
 // performance.getEntriesByName(kMeasure).
 //
-// A browser does not report when a canvas is on the screen. A measurement therefore ends in the first task after the
-// animation frame that drew the picture (see Stage): by then, the browser has rendered the page. The compositor, the
-// graphics card and the screen take additional time, which the page cannot measure.
+// A browser does not report when a canvas appears on the screen. A measurement therefore ends in the first task after
+// the animation frame that drew the picture (see Stage). By then, the browser has rendered the page. The compositor,
+// the graphics card and the screen add time that the page cannot measure.
 
 import { download } from "./download";
 import { byId } from "./element";
@@ -14,7 +14,7 @@ import type { RenderingMode } from "./picture/stage";
 export const kMeasure = "oval4d key to picture"; // name of the performance measures
 
 const kMaxSamples = 10_000;
-const kRecentSamples = 500; // the displayed statistics are those of this many newest samples
+const kRecentSamples = 500; // the statistics on the page cover this many newest samples
 const kShownKey = "oval4d.latency"; // storage key of whether the statistics are shown
 
 interface LatencySample {
