@@ -1,13 +1,13 @@
-// What the layout of a picture depends on. When any of it changes, the page asks the server again where the parts of
-// the picture are that the server has drawn.
+// A text that identifies the layout of a picture. When the text changes, the page asks the server again for the places
+// of the parts of the picture.
 
 import type { State, Viewport } from "@oval4d/protocol";
 
 /**
- * A text that changes whenever the layout of a picture of this size may change: the state as JSON, without the members
- * that never move a part of the picture, such as the orientation, and those that describe the object, which
- * `object_serial` identifies. The function lists the members to leave out, not those to keep, so that it misses no new
- * setting.
+ * Returns a text that changes whenever the layout of a picture of this size may change. The text is the state as JSON,
+ * without two groups of members. Some members, such as the orientation, never move a part of the picture; others
+ * describe the object, which `object_serial` identifies. Listing the members to omit, instead of those to keep,
+ * includes every new setting.
  */
 export function layoutKey(state: Partial<State>, size: Viewport): string {
     const { id, type, revision, draft, moving, turning, orientation, last, section, point, ...settings } = state;

@@ -1,5 +1,7 @@
-// Determines what the page shows at the start. In this order: a shared session (URL fragment); the session that this
-// entry of the browser's history or this tab had before, as after a reload or Back; or a view (URL query).
+// Determines what the page shows at the start. The first of these that exists is used:
+// 1. A shared session, from the fragment of the URL.
+// 2. The previous session of this browser history entry or this tab, as after a reload or Back.
+// 3. A view, from the query of the URL.
 
 import type { Credentials } from "@oval4d/protocol";
 
@@ -10,31 +12,31 @@ import { readStored, writeStored } from "./storage";
 export interface InitialView {
     /** The session to return to, or to join. */
     credentials?: Credentials;
-    /** The field of the query, which is loaded in a new session before the commands. */
+    /** The field that the query describes. A new session loads the field before it executes `lines`. */
     field?: FormulaWithBox;
     /**
-     * What is wrong with the link to a session, or with the query's `box`, or with `box` or `values` without `formula`.
-     * The server reports all other faults in the query.
+     * What is wrong with the address: with the link to a session, with `box` in the query, or with `box` or `values`
+     * without `formula`. The server reports all other faults in the query.
      */
     faults: string[];
-    /** Commands of the command line that produce the view that the query describes, except its field. */
+    /** Lines for the command line. They produce the view that the query describes, except its field. */
     lines: string[];
 }
 
 interface StoredSession {
     credentials: Credentials;
-    /** The query of the address when the session was stored. */
+    /** The query of the page's address at the time of storing. */
     query: string;
 }
 
-/** The state of an entry of the browser's history. */
+/** What the page stores in an entry of the browser's history. */
 interface HistoryEntry {
     credentials?: Credentials;
 }
 
-// Parameters of the server's API that do not belong to the view.
+// Parameters that the query of the server's frame.png has, but a view does not.
 const kIgnoredParameters = ["width", "height", "token"];
-const kFieldParameters = ["formula", "values", "box"]; // parameters that are not converted to commands
+const kFieldParameters = ["formula", "values", "box"]; // parameters of a field, which do not become commands
 const kSessionKey = `oval4d.session ${location.pathname}`; // storage key of the tab's newest session
 
 export function extractInitialView(): InitialView {
@@ -48,8 +50,8 @@ export function extractInitialView(): InitialView {
 }
 
 /**
- * The session of a shared link in the address bar, if there is one. Remembers the session, and removes the fragment
- * with its token from the address bar. `fault` says whether the name or the token is missing in the link.
+ * The session of a shared link in the address bar, if there is one. Remembers the session, and removes the link's
+ * fragment, which contains the token, from the address bar. `fault` tells whether the name or the token is missing.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
     const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
@@ -71,30 +73,33 @@ export function sessionOfHistoryEntry(): Credentials | undefined {
 }
 
 /**
- * The last session of this tab; undefined if there is none, or if the current address has a query or had one when the
- * session was stored. A link with a query therefore opens a new session.
+ * The last session of this tab. Undefined if there is none, or if the address has a query now or had one when the
+ * session was stored: a link with a query opens a new session.
  */
 function sessionOfTab(): Credentials | undefined {
     const stored = readStored<StoredSession>(kSessionKey);
     return location.search === "" && stored?.query === "" ? stored.credentials : undefined;
 }
 
-/** Remembers the session for reloads, and for the return to this entry of the browser's history. */
+/** Remembers the session for reloads of the page, and for a return to this entry of the browser's history. */
 export function rememberSession({ session, token }: Credentials): void {
     const credentials = { session, token };
     const entry: HistoryEntry = { credentials };
-    // Browsers limit how often the state is replaced.
+    // Browsers limit how often a page may replace the state of a history entry.
     if (JSON.stringify(history.state) !== JSON.stringify(entry)) history.replaceState(entry, "");
     const stored: StoredSession = { credentials, query: location.search };
     writeStored(kSessionKey, stored);
 }
 
-/** The server's own token, if the address of the page has it. */
+/** The server's own token, which some servers require of everyone, if the page's address contains it. */
 export function serverTokenOfAddress(): string | undefined {
     return new URLSearchParams(location.search).get("token") || undefined;
 }
 
-/** A link that opens this session for others; with the server's own token, also for those who do not know this. */
+/**
+ * A link that opens this session for others. With `serverToken`, it also lets in those who do not know the server's own
+ * token.
+ */
 export function shareLink({ session, token }: Credentials, serverToken?: string): string {
     const link = new URL(location.href);
     link.search = serverToken === undefined ? "" : new URLSearchParams({ token: serverToken }).toString();
@@ -102,7 +107,7 @@ export function shareLink({ session, token }: Credentials, serverToken?: string)
     return link.href;
 }
 
-/** Whether this host of an address is the computer on which the page is: other devices cannot reach it by this name. */
+/** Whether a host name means the computer that shows the page. Other devices cannot reach it by such a name. */
 export function isOwnComputer(host: string): boolean {
     return /^(.+\.)?localhost\.?$|^127(\.\d+){3}$|^0\.0\.0\.0$|^\[::1?\]$/.test(host);
 }
@@ -115,7 +120,7 @@ export function viewLink(query: string): string {
     return link.href;
 }
 
-/** Decodes percent signs; returns the text unchanged if it is not valid UTF-8, so that the error message shows it. */
+/** Decodes percent signs. Returns the text unchanged if it is not valid UTF-8, so that an error message can show it. */
 function decodePercents(text: string): string {
     try {
         return decodeURIComponent(text);
@@ -125,22 +130,22 @@ function decodePercents(text: string): string {
 }
 
 /**
- * Restores a query or fragment in which a mailer or a forum has replaced "&" by "&amp;", or encoded the percent signs a
- * second time (%252C).
+ * Repairs a query or fragment that a mailer or forum has changed: replaces "&amp;" by "&", and undoes a second encoding
+ * of percent signs (%252C).
  */
 function repaired(text: string): string {
     return text.replaceAll("&amp;", "&").replace(/%25(?=[0-9a-f]{2})/gi, "%");
 }
 
-/** Whether this is the name of a parameter that other sites append to addresses, such as those for tracking. */
+/** Whether a parameter is one that other sites append to addresses, for example for tracking. */
 function isIgnored(name: string): boolean {
     return address.ignored.some((rule) => (rule.endsWith("*") ? name.startsWith(rule.slice(0, -1)) : name === rule));
 }
 
 /**
  * The parameters of a query, without those that protocol/address.json ignores. "+" stands for a blank, as in a form,
- * and so it does before a unit: 10+deg. But between two operands, "+" is a plus sign, because a person may have typed
- * it: 0.1+pi/8. The server reads the queries of the API in the same way.
+ * also before a unit: 10+deg. Between two operands, "+" is a plus sign, because a person may have typed it: 0.1+pi/8.
+ * The server uses the same rules.
  */
 function parametersOf(query: string): [name: string, value: string][] {
     const parts = repaired(query)
@@ -162,9 +167,9 @@ function parametersOf(query: string): [name: string, value: string][] {
 }
 
 /**
- * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent if the query has no
- * `formula`. If `box` is not valid, the field has kUsualBox. `faults` has a text if `box` is not valid, and one for
- * each of `box` and `values` that the query has without `formula`.
+ * The field that a query describes, such as "?formula=x^2+y^2<w&box=-1,1,-1,1,-1,1,0,2"; absent without `formula`. If
+ * `box` is not valid, `faults` says so, and the field has kUsualBox. Without `formula`, `faults` has a text for each of
+ * `box` and `values` in the query.
  */
 function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
     const { formula, box, values } = Object.fromEntries(parametersOf(query));
@@ -184,8 +189,8 @@ function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
  * "field=tiger" is the same as "polytope=tiger".
  */
 export function commandLines(query: string): string[] {
-    // "toward" comes last, as in the query of the API's frame.png, because it depends on the polytope and the
-    // rotations.
+    // The command "toward" comes last, because it depends on the polytope and the rotations. The query of frame.png has
+    // the same order.
     const isLast = ([name]: [string, string]): number => Number(name === "toward");
     return parametersOf(query)
         .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))

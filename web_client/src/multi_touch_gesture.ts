@@ -1,25 +1,25 @@
-// Two or more fingers on the drawing: how far they have moved together, spread and twisted. A movement or a twist
+// A gesture of two or more fingers on the drawing: their common movement, spread and twist. A movement or a twist
 // counts only after it has left a dead zone, so that a pinch does not also turn the polytope.
 
 const kMoveDeadZone = 16; // pixels
 const kTwistDeadZone = 0.15; // radians
 
-/** The place of a finger in the window, in CSS pixels. */
+/** The position of a finger in the window, in CSS pixels. */
 export interface Finger {
     clientX: number;
     clientY: number;
 }
 
-/** A point or a vector in pixels, right and down. */
+/** A point or a vector on the screen, in pixels. x points right, and y points down. */
 interface ScreenVector {
     x: number;
     y: number;
 }
 
 interface FingerGeometry {
-    /** The mean of the places of the fingers. */
+    /** The mean of the fingers' positions. */
     center: ScreenVector;
-    /** From the center to each finger. */
+    /** The vectors from the center to each finger. */
     arms: ScreenVector[];
     /** The sum of the lengths of the arms; for two fingers, their distance. */
     extent: number;
@@ -37,9 +37,9 @@ export class MultiTouchGesture {
     }
 
     /**
-     * Returns the changes since the last call: the movement of the center in pixels, the new extent divided by the old
-     * one (`spread`), and the clockwise rotation in radians (`twist`). A movement or a twist that has not left its dead
-     * zone counts as 0. The fingers must be in the same order at each call.
+     * Returns the changes since the last call. `dx` and `dy` are the movement of the center in pixels. `spread` is the
+     * new extent divided by the old extent. `twist` is the clockwise rotation in radians. A movement or a twist within
+     * its dead zone is returned as 0. The fingers must be in the same order at each call.
      */
     update(fingers: readonly Finger[]): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;
@@ -67,8 +67,8 @@ function geometryOf(fingers: readonly Finger[]): FingerGeometry {
 }
 
 /**
- * The clockwise angle of the rotation that leads from the old arms closest to the new ones, by least squares: with
- * vectors as complex numbers, the argument of the sum of all new · conjugate(old).
+ * The clockwise angle of the rotation that best maps the old arms to the new arms, by least squares. With vectors as
+ * complex numbers, this is the argument of the sum of new · conjugate(old) over all arms.
  */
 function rotationBetween(before: readonly ScreenVector[], now: readonly ScreenVector[]): number {
     let [real, imaginary] = [0, 0];

@@ -1,21 +1,21 @@
-// Sends values one at a time. While the last value is unanswered, keeps only the newest of the values that follow.
+// Sends values one at a time. While a value is unanswered, keeps only the newest of the submitted values.
 
 export class NewestOnly<T> {
     private waiting: T | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
     private isSending = false;
 
-    /** `send` sends a value, and resolves when it has been answered; it must not reject. */
+    /** `send` sends a value, and resolves when the server has answered it. `send` must not reject. */
     constructor(private readonly send: (value: T) => Promise<void>) {}
 
-    /** Whether a value has been sent and not answered, or waits to be sent. */
+    /** Whether a value waits to be sent, or has been sent and not yet answered. */
     get isBusy(): boolean {
         return this.isSending || this.waiting !== undefined;
     }
 
     /**
-     * Sends a value after `delay` milliseconds, and after the answer to the previous one; drops it if a newer value
-     * follows before.
+     * Sends a value after `delay` milliseconds, and after the answer to the previous value. Drops it if a newer value
+     * is submitted before it is sent.
      */
     submit(value: T, delay: number): void {
         this.waiting = value;

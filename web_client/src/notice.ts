@@ -1,5 +1,5 @@
-// A short message over the picture, which disappears after a few seconds or at the next action, or which stays until the
-// user closes it.
+// A short message over the picture. It disappears after some seconds or at the next action; a lasting message stays
+// until the user closes it.
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";
@@ -9,11 +9,11 @@ const kDuration = 8000; // milliseconds per message
 export class Notice {
     private readonly root = byId("notice");
     private timer: ReturnType<typeof setTimeout> | undefined;
-    private isLasting = false; // whether the message stays until the user closes it, or another replaces it
+    private isLasting = false; // whether the message stays until it is closed or replaced
 
     /**
-     * Shows a message. If `text` is given, also shows this text in a field from which the user can copy it; both then
-     * stay until the next action.
+     * Shows a message. If `text` is given, also shows it in a field from which the user can copy it. Message and text
+     * then stay until the next action.
      */
     show(message: string, text?: string): void {
         this.write([message]);
@@ -30,14 +30,14 @@ export class Notice {
         if (messages.length > 0) this.write(messages);
     }
 
-    /** Shows several messages, each on a line of its own, with a button that closes them. */
+    /** Shows several messages, each on a line of its own, with a button that closes them. They stay until then. */
     showLasting(messages: string[]): void {
         if (messages.length === 0) return;
         this.write(messages);
         clearTimeout(this.timer);
         this.isLasting = true;
         const close = element("button", { type: "button", "aria-label": "Close the message", title: "Close" }, "×");
-        close.addEventListener("mousedown", (event) => event.preventDefault()); // the focus stays where it is
+        close.addEventListener("mousedown", (event) => event.preventDefault()); // the focus does not move to the button
         close.addEventListener("click", () => {
             const hadFocus = document.activeElement === close;
             this.close();

@@ -1,4 +1,4 @@
-// Controls of the frame of reference in which the object is shown: the pace of time, a velocity to follow, and the
+// The controls for the frame of reference in which an object is shown: the pace of time, a velocity to follow, and the
 // velocity of a Lorentz boost.
 
 import type { Settings, State, Vector } from "@oval4d/protocol";
@@ -10,8 +10,8 @@ import { NewestOnly } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
 import type { VelocitySetting } from "./reference_frame";
 
-const kTypingDelay = 150; // milliseconds from the last change by typing until it is sent
-const kPaceDigits = 2; // significant digits of the paces that the slider offers
+const kTypingDelay = 150; // milliseconds without further typing before a change is sent
+const kPaceDigits = 2; // significant digits of the paces on the slider
 const kAxes = ["x", "y", "z"] as const;
 const kVelocitySettings: Record<VelocitySetting, string> = {
     follow: "What moves with this velocity stands still",
@@ -28,7 +28,7 @@ export class ObserverControls {
         follow: new NewestOnly(async (follow) => void (await this.apply({ follow }, "follow"))),
         boost: new NewestOnly(async (boost) => void (await this.apply({ boost }, "boost"))),
     };
-    private continues = false; // whether the next pace belongs to the undo step of the last one
+    private continues = false; // whether the next pace joins the undo step of the last pace
     private readonly lastPace = new OldStateDetector();
     private statePace = 1; // the pace in the newest state
     private readonly errors = { pace: "", follow: "", boost: "" };
@@ -56,8 +56,8 @@ export class ObserverControls {
     }
 
     /**
-     * Shows the frame of reference of a state. Does not change a field in which the user types, nor a pace to which the
-     * server has not answered yet.
+     * Shows the frame of reference of a state. Does not change a text field in which the user types, nor a pace that
+     * the server has not yet answered.
      */
     update(state: State): void {
         this.statePace = state.pace;
@@ -72,7 +72,7 @@ export class ObserverControls {
         }
     }
 
-    /** The pace that the position of the slider's thumb means, rounded to kPaceDigits. */
+    /** The pace at the position of the slider's thumb, rounded to kPaceDigits significant digits. */
     private get chosenPace(): number {
         return Number((10 ** Number(this.pace.value)).toPrecision(kPaceDigits));
     }
@@ -101,7 +101,7 @@ export class ObserverControls {
         else this.lastPace.answered(revision);
     }
 
-    /** Resolves to the revision after the change; undefined if the server refuses it. */
+    /** Applies settings. Resolves to the revision after the change; to undefined if the server refuses it. */
     private async apply(
         change: Settings & { continues?: boolean },
         name: "pace" | VelocitySetting,

@@ -1,5 +1,5 @@
-// Tells which states are older than a change that this page has made. The server sends states with pictures, so a state
-// from before a change may arrive after the answer to the change. A control that showed this old state would jump back
+// Detects states that are older than a change by this page. The server sends states together with pictures, so a state
+// from before a change may arrive after the answer to the change. A control that showed such a state would jump back
 // for a moment.
 
 import type { State } from "@oval4d/protocol";
@@ -8,7 +8,7 @@ export class OldStateDetector {
     private revision = 0; // the revision after the newest change that this page has made
     private seen = 0; // the revision of the newest state
 
-    /** Takes note of the revision in the answer to a change. */
+    /** Records the revision in the server's answer to a change by this page. */
     answered(revision: number): void {
         this.revision = revision;
     }
@@ -18,9 +18,7 @@ export class OldStateDetector {
         this.revision = this.seen = 0;
     }
 
-    /**
-     * Records a state, which must be the newest one. Returns whether it is from before the last change by this page.
-     */
+    /** Records the newest state. Returns whether this state is older than the last change by this page. */
     recordAndCheckIfOld({ revision }: State): boolean {
         if (revision < this.seen) this.revision = 0; // the state is of another session
         this.seen = revision;

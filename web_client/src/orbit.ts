@@ -1,5 +1,5 @@
-// The viewer's orbit around the slices. The page applies a change at once, and sends the newest orbit to the session
-// whenever the previous one has been answered.
+// Controls the camera's orbit around the slices. The page applies a change at once. It sends the newest orbit to the
+// session, one request at a time.
 
 import type { Client, Orbit, RequestError, State } from "@oval4d/protocol";
 
@@ -11,7 +11,7 @@ const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 const kLimits = { elevation: 1.5, zoom: [0.25, 10] as const };
 const kLeastVisible = 0.5; // the least fraction of the slices that orbiting and zooming keep in the picture
 const kBisections = 10;
-const kLeastZoom = 1e-3; // the least relative change that counts as zooming
+const kLeastZoom = 1e-3; // relative changes of the zoom up to this size do not count
 
 const kAngleStep = Math.PI / 36; // radians per key press
 const kZoomStep = 1.1;
@@ -20,10 +20,10 @@ export class OrbitControl {
     private sending = false;
     private unsent = false;
     private readonly lastChange = new OldStateDetector();
-    // The orbit before the first move that limited() could not limit, because there was no hit tester; undefined if all
-    // moves have been limited.
+    // The orbit before the first move that limited() could not check, because no hit tester was known. Undefined if all
+    // moves have been checked.
     private lastLimited: Orbit | undefined;
-    /** What the actions of the camera in the key table do. */
+    /** The actions of the camera, by their names in the key table. */
     private readonly actions: Record<string, () => void> = {
         orbit_left: () => this.orbitBy(-kAngleStep, 0),
         orbit_right: () => this.orbitBy(kAngleStep, 0),
@@ -35,8 +35,8 @@ export class OrbitControl {
     };
 
     /**
-     * `hitTester` returns the hit tester of the picture, which tells how many slices are visible; undefined until it is
-     * known. `stopped` tells the user why the camera stays where it is.
+     * `hitTester` returns the hit tester of the picture, which tells how many slices are visible; undefined while it is
+     * not known. `stopped` shows the user why the camera does not move.
      */
     constructor(
         private readonly client: Client,
@@ -46,8 +46,8 @@ export class OrbitControl {
     ) {}
 
     /**
-     * Orbits by a drag of (dx, dy) CSS pixels, right and down: a drag over half the height of the picture is a quarter
-     * turn.
+     * Orbits by a drag of `dx` CSS pixels to the right and `dy` down. A drag over half the picture's height makes a
+     * quarter turn.
      */
     drag(dx: number, dy: number): void {
         const part = Math.PI / Math.max(1, this.stage.shownHeight);
@@ -71,7 +71,7 @@ export class OrbitControl {
         this.setAndSendOrbit(kInitial);
     }
 
-    /** Limits the moves that were made before the hit tester was known. To be called when it becomes known. */
+    /** Limits the moves made while no hit tester was known. Must be called when the hit tester becomes known. */
     onHitTesterAvailable(): void {
         const from = this.lastLimited;
         this.lastLimited = undefined;
@@ -90,8 +90,8 @@ export class OrbitControl {
     }
 
     /**
-     * Orbits by these angles. Each angle is limited on its own, so that the camera can still move in one direction if
-     * it cannot move in the other.
+     * Orbits by two angles in radians. Each angle is limited separately, so that the camera can still move in one
+     * direction if the other is blocked.
      */
     private orbitBy(azimuth: number, elevation: number): void {
         const from = this.stage.orbit;
@@ -101,9 +101,9 @@ export class OrbitControl {
     }
 
     /**
-     * The orbit after a change or, if it would leave too few slices visible, after a smaller change in the same
-     * direction. Too few means: fewer than the fraction kLeastVisible of the slices, and fewer than before the change.
-     * Without a hit tester, makes the whole change, which onHitTesterAvailable() limits later.
+     * Returns the orbit after a change. If too few slices would be visible, makes a smaller change in the same
+     * direction. Too few means: less than the fraction kLeastVisible, and less than before the change. Without a hit
+     * tester, makes the whole change, and onHitTesterAvailable() limits it later.
      */
     private limited(from: Orbit, change: Partial<Orbit>): Orbit {
         const to = { ...from, ...change };
@@ -119,7 +119,7 @@ export class OrbitControl {
         return mix(from, to, part);
     }
 
-    /** Adopts the camera of the state, unless this page has changes that the session has not answered. */
+    /** Adopts the camera of the state, unless this page has sent a newer camera or is about to. */
     adoptCamera(state: State): void {
         const isOld = this.lastChange.recordAndCheckIfOld(state);
         if (isOld || this.sending || this.unsent) return; // the page's orbit is newer
@@ -143,7 +143,8 @@ export class OrbitControl {
                 const { revision } = await this.client.request({ type: "set", camera });
                 this.lastChange.answered(revision);
             } catch (error) {
-                // Without a connection, which the page shows, the camera can be moved nevertheless.
+                // Without a connection, the camera can still be moved, and the page shows the missing connection
+                // elsewhere.
                 if ((error as RequestError).code !== "not_connected") this.stopped((error as Error).message);
             }
         }
@@ -151,7 +152,7 @@ export class OrbitControl {
     }
 }
 
-/** The orbit between two orbits: `from` if `part` is 0, `to` if it is 1. */
+/** Interpolates between two orbits: `from` if `part` is 0, `to` if `part` is 1. */
 function mix(from: Orbit, to: Orbit, part: number): Orbit {
     const between = (a: number, b: number): number => (part === 1 ? b : a + (b - a) * part);
     return {

@@ -1,15 +1,18 @@
-// The commands of the command line that the page executes itself.
+// The commands of the command line that the page executes itself, without the server.
 
 export interface PageCommands {
     /** Opens the help. If the topic is not "", shows only the lines that mention it. */
     help(topic: string): void;
-    /** Saves the file that a format and options describe, such as "stl fit=5". For "", opens the export dialog. */
+    /**
+     * Exports a file. `description` is a format with options, such as "stl fit=5"; if it is "", the export dialog
+     * opens.
+     */
     exportFile(description: string): Promise<void>;
     /** Shows the link to the session as a QR code. */
     share(): void;
 }
 
-/** Executes a line; returns false if it is not a command of the page. */
+/** Executes a line if it is a command of the page. Returns false for any other line. */
 export async function executePageCommand(line: string, commands: PageCommands): Promise<boolean> {
     const [, name = "", argument = ""] = /^(\S+)\s*(.*)$/s.exec(line.trim()) ?? [];
     if (name === "help") commands.help(argument);

@@ -1,4 +1,4 @@
-// The session that the page shows: which one it joins, and the view with which a new one begins.
+// Decides which session the page joins, and which view a new session gets.
 
 import type { Client, Credentials, RequestError, State } from "@oval4d/protocol";
 
@@ -7,23 +7,23 @@ import { isFirstVisit, kFirstVisitView } from "./first_visit";
 import { extractSharedSession, type InitialView, rememberSession, sessionOfHistoryEntry } from "./link";
 
 interface PageSessionActions {
-    /** Called when the page joins another session, of which nothing is known yet. */
+    /** Called when the page joins another session, before anything is known of it. */
     joined: () => void;
-    /** Loads a field, which the panel of fields then shows. */
+    /** Loads a field, and shows its formula in the field panel. */
     loadField: (field: FormulaWithBox) => Promise<void>;
     /** Reloads a file that this page had loaded into the lost session. */
     reloadFile: (name: string) => Promise<unknown>;
     /** Called when a command of the initial view has produced this revision. */
     viewShown: (revision: number) => void;
     tell: (messages: string[]) => void;
-    /** Tells what is wrong with the address, such that the user can read it while using the page. */
+    /** Shows what is wrong with the address. The messages stay until the user closes them. */
     tellFaults: (messages: string[]) => void;
 }
 
 export class PageSession {
-    // The last state of a session that was lost, or left by beginNew(). The new session restores it.
+    // The last state of a session that was lost or that beginNew() has left. The new session restores this state.
     private lostState: State | undefined;
-    // Whether a command of the initial view has been sent, in this or an earlier connection.
+    // Whether a command of the initial view has been sent, over this connection or an earlier one.
     private isViewBegun = false;
 
     /** `view` is what the page shows at the start. */
@@ -34,8 +34,8 @@ export class PageSession {
     ) {}
 
     /**
-     * On the first visit, makes kFirstVisitView the initial view, unless the address names another view or a session.
-     * Returns whether kFirstVisitView is now the initial view.
+     * On the first visit, makes kFirstVisitView the initial view and returns true. Does nothing and returns false on
+     * later visits, or if the address contains a view or a session.
      */
     useFirstVisitView(): boolean {
         const { credentials, lines, field } = this.view;
@@ -44,7 +44,10 @@ export class PageSession {
         return true;
     }
 
-    /** Joins the session of a link that was pasted into the address bar: browsers do not reload the page for it. */
+    /**
+     * Joins the session of a link that the user has pasted into the address bar. Browsers do not reload the page if
+     * only the fragment of the address changes.
+     */
     joinShared(): void {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tellFaults([fault]);
@@ -62,8 +65,8 @@ export class PageSession {
     }
 
     /**
-     * Records that the session is lost. If `state`, the last state of the lost session, is known, the new session gets
-     * its view.
+     * Records that the session is lost. `state` is the last state of the lost session, if it is known; the new session
+     * restores it.
      */
     sessionLost(reason: string, state: State | undefined): void {
         this.lostState ??= state; // if a view has not been restored yet, `state` may be that of the new session
@@ -76,8 +79,8 @@ export class PageSession {
     }
 
     /**
-     * Begins a new session, with the view of `state` if it is known, while the server cannot open the present one. The
-     * present session stays in the browser's history.
+     * Begins a new session, while the server cannot open the present one. Restores `state` in the new session, if it is
+     * given. The present session stays in the browser's history.
      */
     beginNew(state: State | undefined): void {
         this.lostState ??= state;
@@ -90,9 +93,9 @@ export class PageSession {
     }
 
     /**
-     * Restores the view of a lost session, if a session was lost; then applies the initial view, if it has not been
-     * applied yet. Tells the user what is wrong with these views. Rejects if the connection breaks; must then be called
-     * again for the next connection.
+     * Restores the state of a lost session, if there is one, then applies the initial view, if this has not been done.
+     * Tells the user what is wrong with these views. Rejects if the connection breaks; the caller must then call the
+     * function again for the next connection.
      */
     async restoreOrInitializeView(): Promise<void> {
         try {
@@ -107,14 +110,12 @@ export class PageSession {
         this.actions.tellFaults(faults);
     }
 
-    /**
-     * Applies the initial view, if it has not been applied yet. Resolves to messages about what is wrong with the view.
-     */
+    /** Applies the initial view, unless this has been done. Resolves to messages about what is wrong with the view. */
     private async applyInitialView(): Promise<string[]> {
         const { lines, field, faults: known } = this.view;
         const faults = [...known];
-        // The commands that were sent before the connection broke may have been executed. Without a reset, a rotation
-        // that is sent again would turn the object twice.
+        // If the connection broke, the server may have executed commands that the page now sends again. Without a
+        // reset, a repeated rotation would turn the object twice.
         if (this.isViewBegun) await this.client.request({ type: "reset" });
         this.isViewBegun = lines.length > 0 || field !== undefined;
         if (field) {
@@ -151,7 +152,10 @@ export class PageSession {
         this.isViewBegun = false;
     }
 
-    /** Restores a view, without its polytope if that is not available: for example, if another page loaded its file. */
+    /**
+     * Restores a state. If its object is not available, because for example another page loaded the file, restores the
+     * rest.
+     */
     private async restore(lost: State): Promise<void> {
         try {
             await this.actions.reloadFile(lost.polytope.name);
@@ -165,7 +169,7 @@ export class PageSession {
     }
 }
 
-/** Throws the error again if the connection broke before the answer to a request arrived. */
+/** Throws the error again if it means that the connection broke before the server answered. */
 function throwIfNotConnected(error: unknown): void {
     if ((error as RequestError).code === "not_connected") throw error;
 }

@@ -36,7 +36,10 @@ const kSchemeTitles: Record<SchemeChoice, string> = {
     light: "A light page; the picture is light, too, unless it has another background",
 };
 
-/** The label and the title of the button for each ball that the device's orientation can roll. */
+/**
+ * The two tilt buttons, with label and tooltip. Each lets the device's orientation roll one kind of ball (see
+ * rolling_ball.ts).
+ */
 const kTilts = new Map<BallKind, [string, string]>([
     ["4-D", ["Tilt in 4-D", "Turn in xw and yw as this device is tilted, and in zw as it is twisted"]],
     ["3-D", ["Tilt slices", "Turn every slice in place as this device is tilted and twisted"]],
@@ -106,7 +109,7 @@ export function pageSections(actions: PageActions): ToolSection[] {
     ];
 }
 
-/** Marks the button of the active mode as pressed. */
+/** Marks the button of the active rendering mode as pressed. */
 export function showModePressed(mode: RenderingMode): void {
     for (const name of ["geometry", "frames"]) {
         document.querySelector(`[data-page-tool="${name}"]`)?.setAttribute("aria-pressed", String(name === mode));
@@ -120,7 +123,7 @@ export function showSchemePressed(choice: SchemeChoice): void {
     }
 }
 
-/** Marks the button of the ball that the device's orientation rolls as pressed. */
+/** Marks the tilt button as pressed whose ball the device's orientation rolls. */
 export function showTiltPressed(ball: BallKind | undefined): void {
     for (const kind of kTilts.keys()) {
         document.querySelector(`[data-page-tool="tilt_${kind}"]`)?.setAttribute("aria-pressed", String(kind === ball));
@@ -134,7 +137,7 @@ export function showFullScreenPressed(isOn: boolean): void {
 
 function tiltSection({ tilt, failed }: PageActions): ToolSection {
     const content = [...kTilts].map(([ball, [label, title]]) => {
-        const isAllowed = window.isSecureContext; // browsers tell other pages nothing about the sensors
+        const isAllowed = window.isSecureContext; // browsers give sensor data only to secure pages
         const made = button(`tilt_${ball}`, label, isAllowed ? title : "Only with HTTPS", () => {
             void tilt.toggle(ball).catch(failed);
         });

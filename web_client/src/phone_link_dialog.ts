@@ -1,4 +1,4 @@
-// The dialog that shows the link to the session as a QR code, so that a phone can take part in the session.
+// The dialog that shows the link to the session as a QR code. A phone that scans the code joins the session.
 
 import type { Client, Credentials } from "@oval4d/protocol";
 import { correction, generate, type Bitmap2D } from "lean-qr";
@@ -8,8 +8,8 @@ import { Dialog } from "./dialog";
 import { byId } from "./element";
 import { isOwnComputer, serverTokenOfAddress, shareLink } from "./link";
 
-const kQuietZone = 4; // modules of white around the code, without which readers may not find it (ISO/IEC 18004)
-const kTooMuchData = 4; // the code of lean-qr's error for a text that fits into no QR code
+const kQuietZone = 4; // white modules around the code; without them, readers may not find it (ISO/IEC 18004)
+const kTooMuchData = 4; // lean-qr's error code for a text that is too long for any QR code
 
 export class PhoneLinkDialog {
     private readonly dialog = new Dialog("phone");
@@ -42,12 +42,12 @@ export class PhoneLinkDialog {
         void this.showWhoIsLetIn();
     }
 
-    /** Shows the link to a session that has replaced the one of the open dialog. */
+    /** Shows the link to a new session, if the dialog is open. */
     update(credentials: Credentials): void {
         if (this.dialog.isOpen) this.showLink(credentials);
     }
 
-    /** Says whether the server lets in only those who know its own token, and offers to add this token to the link. */
+    /** If the server requires its own token, says so, or offers to add the token to the link. */
     private async showWhoIsLetIn(): Promise<void> {
         const isRequired = await requiresToken();
         const isKnown = serverTokenOfAddress() !== undefined;
@@ -74,7 +74,10 @@ export class PhoneLinkDialog {
         this.code.querySelector("path")!.setAttribute("d", toSvgPath(code));
     }
 
-    /** Copies the link. If the browser forbids this, as on pages without HTTPS, selects it so that the user can. */
+    /**
+     * Copies the link. If the browser forbids this, as on pages without HTTPS, selects the link, so that the user can
+     * copy it.
+     */
     private async copy(): Promise<void> {
         try {
             await navigator.clipboard.writeText(this.link.value);
@@ -87,7 +90,10 @@ export class PhoneLinkDialog {
     }
 }
 
-/** The QR code of a link; undefined if the link is too long for one, which has room for 2331 bytes at this level. */
+/**
+ * The QR code of a link; undefined if the link is longer than 2331 bytes, the most that a code with correction level M
+ * holds.
+ */
 function codeOf(link: string): Bitmap2D | undefined {
     try {
         return generate(link, { minCorrectionLevel: correction.M });
@@ -97,10 +103,12 @@ function codeOf(link: string): Bitmap2D | undefined {
     }
 }
 
-/** Whether the server answers only requests with its own token, as it does by default on all addresses but loopback. */
+/**
+ * Whether the server answers only requests with its own token. By default, it does so on all addresses but loopback.
+ */
 async function requiresToken(): Promise<boolean> {
-    // The request is sent without the cookie in which the browser keeps the token. The server counts only wrong tokens,
-    // not missing ones. A proxy that asks for a password names another scheme.
+    // The request omits the cookie with the token, to see whether the server refuses it. The server counts wrong
+    // tokens, but not missing ones. The header WWW-Authenticate tells the server from a proxy that asks for a password.
     const options: RequestInit = { method: "HEAD", credentials: "omit", cache: "no-store" };
     const answer = await fetch(new URL(".", location.href), options).catch(() => undefined);
     return answer?.status === 401 && answer.headers.get("WWW-Authenticate") === "Bearer";

@@ -1,4 +1,4 @@
-// The dialog for choosing a polytope: searches the catalogue, or builds a polytope from a symbol that is not listed.
+// The dialog for choosing a polytope. It searches the catalogue, or builds a polytope from a symbol that is not listed.
 
 import type { CatalogueEntry } from "@oval4d/protocol";
 
@@ -7,9 +7,9 @@ import { Dialog } from "./dialog";
 import { byId, element } from "./element";
 import { formatCount, toSentence } from "./format";
 
-const kDataFamily = "data"; // the family of the arrays in the server's data folder
+const kDataFamily = "data"; // the family of catalogue entries for arrays in the server's data folder
 const kFieldFamilies = ["fields", kDataFamily];
-const kCounted = ["vertices", "edges", "2-faces", "cells"]; // the headings of the counts
+const kCounted = ["vertices", "edges", "2-faces", "cells"]; // the headings of the columns with counts
 const kPage = 8; // number of options by which Page Up and Page Down move
 const kSteps: Record<string, number> = { ArrowDown: 1, ArrowUp: -1, PageDown: kPage, PageUp: -kPage };
 
@@ -25,14 +25,13 @@ export class PolytopePicker {
     private readonly typedOption = element("div", { role: "option", id: "picker-typed", class: "typed" });
     private current = "";
     private active: HTMLElement | undefined;
-    private failure = ""; // why the catalogue cannot be listed; "" if it can
+    private failure = ""; // why the server could not send the catalogue; "" if it could
     private choiceNumber = 0; // number of the latest choice; results of earlier choices are ignored
 
     /**
-     * `choose` shows the object with the name `name`: an array of the server's data folder if `isData` is true; else an
-     * object of the catalogue, or an object that the server builds from the name. If `choose` rejects while the dialog
-     * is open, the dialog shows the message of the Error; if the dialog has been closed, it passes the Error to
-     * `failedLater`.
+     * `choose` shows the object with the name `name`. If `isData` is true, the object is an array in the server's data
+     * folder. Otherwise, it is in the catalogue, or the server builds it from the name. If `choose` rejects, the open
+     * dialog shows the message of the Error; if the dialog has been closed, `failedLater` gets the Error.
      */
     constructor(
         private readonly choose: (name: string, isData: boolean) => Promise<unknown>,
@@ -51,7 +50,7 @@ export class PolytopePicker {
         });
     }
 
-    /** Opens the dialog; `current` is the name of the polytope that is shown now. */
+    /** Opens the dialog. `current` is the name of the object that the picture shows. */
     open(current: string): void {
         this.current = current;
         this.failure = "";
@@ -75,15 +74,15 @@ export class PolytopePicker {
         if (this.isOpen) this.search();
     }
 
-    /** Shows why the catalogue is not available. Entries that were listed before stay in the list. */
+    /** Shows why the catalogue is not available. Entries that are already listed stay in the list. */
     showFailure(reason: string): void {
         this.failure = reason;
         this.showError(reason);
     }
 
     /**
-     * Searches for the text in the search field, which has changed. If an object that was chosen before is still being
-     * loaded, its arrival no longer closes the dialog.
+     * Searches for the new text in the search field. If an earlier choice is still being loaded, its arrival no longer
+     * closes the dialog.
      */
     private searchAnew(): void {
         ++this.choiceNumber;
@@ -105,7 +104,7 @@ export class PolytopePicker {
         const isName = text === "" || this.catalogue.findByName(text) !== undefined;
         this.typedOption.replaceChildren(element("b", {}, "Build "), element("q", {}, text));
         this.typedOption.dataset["name"] = text;
-        // Similar names come after the typed text, because the text may be a name that only the server knows.
+        // The typed text comes before entries with similar names, because it may be a name that only the server knows.
         const typed = isName ? [] : [this.typedOption];
         this.list.replaceChildren(...(found.length > 0 ? [...groups, ...typed] : [...typed, ...groups]));
         const shown = this.listedOptions.length - typed.length;
@@ -190,7 +189,7 @@ function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
     );
 }
 
-/** Four texts in columns: the counts of elements of an entry, or the headings of these columns. */
+/** Makes four columns of text: the counts of elements of an entry, or the headings of these columns. */
 function countsElement(texts: string[]): HTMLElement {
     return element("small", { class: "counts columns" }, ...texts.map((text) => element("span", {}, text)));
 }

@@ -1,5 +1,4 @@
-// The label beside the pointer, which names an element of the polytope, or a level of a field with the values at a
-// point.
+// The label beside the pointer. It names an element of the polytope, or a level of a field with the values at a point.
 
 import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 
@@ -10,20 +9,23 @@ import { capitalize, formatCoordinate, formatFieldValue, formatLength, formatW }
 import type { AreaPoint } from "./hover";
 import { spokenReferenceFrame } from "./reference_frame";
 
-/** An element, and what is known of its shape and its place. */
+/** An element of the polytope, with what is known of its shape and place. Unknown members are absent. */
 export interface ElementDescription extends PolytopeElement {
-    /** Of a cell or 2-face: the name of its shape, if it is known without asking the server. */
+    /** For a cell or a 2-face: the name of its shape, if the page knows it without asking the server. */
     name?: string | undefined;
-    /** Of a cell: the index of its kind in `polytope.kinds` of the state, if it is known without asking the server. */
+    /**
+     * For a cell: the index of its kind in `polytope.kinds` of the state, if the page knows it without asking the
+     * server.
+     */
     kind?: number | undefined;
     /**
-     * Of a vertex: x, y, z, w, after the rotation. Without these, the label of a vertex of a field's box has its
-     * coordinates in the box, which the server tells.
+     * For a vertex: its coordinates x, y, z, w after the rotation. Without them, the label of a vertex of a field's box
+     * shows the coordinates in the box, which the server sends.
      */
     coordinates?: readonly number[] | undefined;
-    /** Of an edge: the distance between its ends in 4-D space, in the units of the object, if it is known. */
+    /** For an edge: the distance between its ends in 4-D space, in units of the object, if it is known. */
     length?: number | undefined;
-    /** The w of the slice in which the pointer is on the element; undefined if the pointer is on no slice. */
+    /** The w of the slice in which the pointer is on the element; undefined if the pointer is not on a slice. */
     sliceW?: number | undefined;
 }
 
@@ -39,7 +41,7 @@ export class PointedLabel {
     private shown: PointedDescription | undefined;
     private pointer: AreaPoint = { x: 0, y: 0 };
 
-    /** `update` must be called when there is a new answer in `measurements` or `samples`. */
+    /** `update` must be called after each new answer in `measurements` or `samples`. */
     constructor(
         private readonly drawing: HTMLElement,
         private readonly state: () => State | undefined,
@@ -48,7 +50,7 @@ export class PointedLabel {
     ) {}
 
     /**
-     * Shows the label of an element, or of a point of a field, beside the pointer. The label is complete when the server
+     * Shows the label of an element, or of a point of a field, beside the pointer. Completes the label when the server
      * has answered.
      */
     show(described: PointedDescription, pointer: AreaPoint): void {
@@ -67,7 +69,7 @@ export class PointedLabel {
         this.samples.want(undefined);
     }
 
-    /** Writes what is known of what is shown. */
+    /** Writes the label again, with everything that is known now. */
     update(): void {
         const { shown } = this;
         if (!shown) return;
@@ -89,13 +91,13 @@ export class PointedLabel {
     }
 }
 
-/** The coordinates of a point in the box of a field, each with its unit if it is known: "0.5 m, 0, −2 s". */
+/** The coordinates of a point in the box of a field, each with its unit if it has one: "0.5 m, 0, −2 s". */
 function formatPlaceInBox(place: readonly number[], state: State | undefined): string {
     const { units, box } = state?.field ?? {};
     const format = (coordinate: number, axis: number): string => {
         const [least, most] = box?.[axis] ?? [0, 1];
         const unit = units?.[kAxes[axis]!];
-        // As if slices were a tenth of the box apart.
+        // Rounds as if slices were a tenth of the box apart.
         return formatCoordinate(coordinate, (most - least) / 10) + (unit === undefined ? "" : ` ${unit}`);
     };
     return place.map(format).join(", ");
@@ -121,14 +123,14 @@ function describeLevel(
         const name = values?.quantity?.name || values?.variable || "second value";
         parts.push(`${name} ${withUnit(second, values?.quantity?.unit)}`);
     }
-    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, slices?.spacing ?? 1)}`); // as below the slice
+    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, slices?.spacing ?? 1)}`); // as in its label
     return parts.join(" · ");
 }
 
-/** The sizes that the server measures are those of the object at rest, so they are omitted for a moving observer. */
+/** Describes an element. Omits its sizes for a moving observer, because the server measures the object at rest. */
 function describe(described: ElementDescription, measured: Partial<Measured>, state: State | undefined): string {
     const { element, number, coordinates, sliceW } = described;
-    const spacing = state?.slices.spacing ?? 1; // to which coordinates are rounded
+    const spacing = state?.slices.spacing ?? 1; // determines how coordinates are rounded
     const format = (coordinate: number): string => formatCoordinate(coordinate, spacing);
     const parts = [`${capitalize(element)} ${number}`];
     const placeInBox = element === "vertex" && state?.field ? measured.center : undefined;
@@ -141,7 +143,7 @@ function describe(described: ElementDescription, measured: Partial<Measured>, st
     if (shape !== undefined) parts.push(shape + kindText);
     const { length, area, volume }: Partial<Measured> = state && spokenReferenceFrame(state) === "" ? measured : {};
     const sizes = { length: described.length ?? length, area, volume };
-    const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // of a field's box, whose sizes are all measured
+    const unit = measured.unit === undefined ? "" : ` ${measured.unit}`; // the unit of a field's box
     for (const [name, size] of Object.entries(sizes)) {
         if (size !== undefined) parts.push(`${name} ${formatLength(size)}${unit}`);
     }
@@ -149,6 +151,6 @@ function describe(described: ElementDescription, measured: Partial<Measured>, st
         const [least, most] = measured.range.map(format);
         parts.push(least === most ? `w ${least}` : `w ${least} … ${most}`);
     }
-    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, spacing)}`); // as below the slice
+    if (sliceW !== undefined) parts.push(`slice w ${formatW(sliceW, spacing)}`); // rounded like the label of the slice
     return parts.join(" · ");
 }

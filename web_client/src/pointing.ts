@@ -1,8 +1,8 @@
-// What is under the pointer in the page's own picture. The name of an element is shown beside the pointer, and the
-// element is highlighted in all slices, the projection, the matrix and the parallel coordinates. What was cut from the
-// element itself is highlighted at once; what else shows it, such as the edges of a cell, when the server has answered
-// which parts these are. Of a surface of a field, the level and the values at the point are shown. For the server's
-// pictures, see frame_pointing.ts.
+// Names and highlights what is under the pointer, in pictures that the page draws; frame_pointing.ts does so for the
+// server's pictures. The name of an element appears beside the pointer. The element is highlighted in all slices, the
+// projection, the matrix and the parallel coordinates. The sections of the element itself are highlighted at once.
+// Other parts that show it, such as the edges of a cell, follow when the server has named them. For a surface of a
+// field, the label shows the level and the values at the point.
 
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
@@ -16,7 +16,7 @@ import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
 import type { ElementDescription, PointedLabel } from "./pointed_label";
 
-/** An element of the polytope, and the slice in which it was pointed at. */
+/** An element of the polytope, and the slice in which the pointer is on it. */
 export interface PointedElement extends PolytopeElement {
     slice?: Slice;
 }
@@ -28,24 +28,24 @@ export function isElement(target: PointedTarget): target is PointedElement {
     return "element" in target;
 }
 
-// Milliseconds without a new picture after which the picture rests, so that the server is asked for values at a point:
-// a key that is pressed meanwhile would wait for the answer.
+// A picture rests after this many milliseconds without a new picture. Only then does the page ask the server for values
+// at a point, because a key that is pressed meanwhile waits for the answer.
 const kRest = 200;
 
 export class Pointing {
     private at: AreaPoint | undefined;
     private scheduled = false;
     private shown: PointedElement | undefined; // the element that is highlighted
-    private isComplete = false; // whether everything that shows the element is highlighted
-    private namesLevel = false; // whether the label names a level of a field
+    private isComplete = false; // whether all parts that show the element are highlighted
+    private namesLevel = false; // whether the label describes a level of a field
     private restsAt = 0; // the time at which the picture rests, in milliseconds of performance.now()
     private resting: ReturnType<typeof setTimeout> | undefined;
-    private hitTester: HitTester | undefined; // the hit tester of the picture in which the element was found
-    private isTapped = false; // whether the label names what a finger has tapped
+    private hitTester: HitTester | undefined; // of the picture in which the element was found
+    private isTapped = false; // whether the label describes what a finger has tapped
 
     /**
-     * `complete` must be called when there is a new answer in `measurements`. `mayShowObject` returns whether the
-     * picture of a revision may show the object of the state.
+     * `complete` must be called after each new answer in `measurements`. `mayShowObject` tells whether the picture of a
+     * revision may show the object of the present state.
      */
     constructor(
         private readonly drawing: HTMLElement,
@@ -58,14 +58,14 @@ export class Pointing {
         followHover(drawing, (at) => this.moveTo(at));
     }
 
-    /** What the picture shows at a point of the drawing, in pixels; undefined if it shows nothing there. */
+    /** What the picture shows at a point of the drawing, in CSS pixels; undefined if it shows nothing there. */
     targetAt(x: number, y: number, hitTester: HitTester): PointedTarget | undefined {
         const { size, orbit } = this.stage;
         const polytope = this.state()?.polytope;
         const { coordinates, revision, scene } = hitTester.picture;
         if (!this.mayShowObject(revision)) return undefined;
-        // A picture that the page has requested may be newer than the state, and of another object. Their numbers of
-        // elements then usually differ.
+        // A requested picture may be newer than the state, and show another object. Then the numbers of elements
+        // usually differ.
         if (!polytope || !hasColorsOf(polytope, scene.colors.cells.length)) return undefined;
         if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
@@ -77,8 +77,8 @@ export class Pointing {
     }
 
     /**
-     * Shows the name of the element or the surface that a finger has tapped. The name stays until the next touch, even
-     * if the picture changes, because the tap itself moves the focus slice.
+     * Shows the name of the element or surface that a finger has tapped. The name stays until the next touch, although
+     * the tap moves the focus slice and thereby changes the picture.
      */
     showName(tapped: PointedTarget, hitTester: HitTester, at: AreaPoint): void {
         this.isTapped = true;
@@ -106,8 +106,8 @@ export class Pointing {
     }
 
     /**
-     * Shows the name of the element under the pointer, and lights the element. If there is none, hides the name and the
-     * light. `isNew` tells that there is a new picture. Returns whether the picture must be drawn again.
+     * Names and highlights the element `found` under the pointer; hides name and highlight if it is undefined. `isNew`
+     * tells that there is a new picture. Returns whether the picture must be drawn again.
      */
     private updateElement(found: PointedElement | undefined, isNew: boolean): boolean {
         const { at, hitTester, shown } = this;
@@ -128,11 +128,11 @@ export class Pointing {
         return !isSame;
     }
 
-    /** Highlights everything that shows the element under the pointer, if the server has answered what this is. */
+    /** Highlights all parts that show the element under the pointer, if the server has named them. */
     complete(): void {
         const { at, hitTester, isComplete, shown } = this;
         if (isComplete || !at || !hitTester || !shown || !this.measurements.of(shown)) return;
-        if (!this.mayShowObject(hitTester.picture.revision)) return; // the answer is about a newer object
+        if (!this.mayShowObject(hitTester.picture.revision)) return; // the answer may be about a newer object
         this.highlight(shown);
         this.label.show(this.descriptionOf(shown, hitTester), at);
         this.stage.scheduleRedraw();
@@ -144,7 +144,7 @@ export class Pointing {
         this.stage.highlightPointed(pointedElements(found, this.state()!.polytope, highlight));
     }
 
-    /** Names the level under the pointer; when the picture rests, the label also asks for the values at the point. */
+    /** Names the level under the pointer. When the picture rests, the label also asks for the values at the point. */
     private nameLevel(level: LevelHit, at: AreaPoint): void {
         clearTimeout(this.resting);
         const remaining = this.restsAt - performance.now();
@@ -152,7 +152,7 @@ export class Pointing {
         if (remaining > 0) this.resting = setTimeout(() => this.scheduleUpdate(), remaining);
     }
 
-    /** Records where the pointer is, and updates what is under it. */
+    /** Records the position of the pointer, and updates what is under it. */
     private moveTo(at: AreaPoint | undefined): void {
         if (this.isTapped) this.label.hide();
         this.isTapped = false;
@@ -171,7 +171,10 @@ export class Pointing {
         });
     }
 
-    /** What a picture tells about an element. The length of an edge is known when the server has named its ends. */
+    /**
+     * Describes an element by what the picture shows of it. The length of an edge is known after the server has named
+     * its ends.
+     */
     private descriptionOf(found: PointedElement, { picture: { coordinates } }: HitTester): ElementDescription {
         const state = this.state()!;
         const { element, number, slice } = found;
@@ -192,7 +195,7 @@ export class Pointing {
     }
 }
 
-/** `mayAsk` tells whether the label may ask the server for the values at the point. */
+/** Describes a point on a level. `mayAsk` tells whether the label may ask the server for the values at the point. */
 function descriptionOfLevel(
     { level, cap, point, slice }: LevelHit,
     { picture: { revision } }: HitTester,
@@ -204,7 +207,10 @@ function descriptionOfLevel(
     return { level, cap, sliceW: slice && origin[3] + slice.w, revision, ...(mayAsk && { point: inFile }) };
 }
 
-/** Whether a picture of this polytope may have this many colors of cells or, of a surface, of 2-faces. */
+/**
+ * Whether a picture of this polytope can have `count` colors. A polytope has a color for each cell; a surface has one
+ * color, or one for each 2-face.
+ */
 function hasColorsOf({ cells, faces }: State["polytope"], count: number): boolean {
     return count === cells || (cells === 0 && (count === 1 || count === faces));
 }

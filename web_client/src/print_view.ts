@@ -1,4 +1,4 @@
-// What the browser prints: the picture alone, on white, with its title and the values of the header.
+// The printed page: only the picture, on white, with its title and the values of the header.
 
 import type { Client } from "@oval4d/protocol";
 
@@ -9,7 +9,7 @@ export class PrintView {
     private readonly root = byId("print");
     private frame: ImageBitmap | undefined; // the picture on white, if the server draws the pictures
     private isPrepared = false;
-    // The element that had the focus before printing, which takes the focus away.
+    // The element that had the focus before printing. Printing takes the focus away.
     private focused: HTMLElement | undefined;
 
     /** `title` returns the heading to print. `failed` is called if the server does not send the picture to print. */

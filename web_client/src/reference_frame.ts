@@ -1,13 +1,13 @@
-// The frame of reference in which the object is shown, as text.
+// Texts for the frame of reference in which an object is shown.
 
 import type { Settings, State, Vector } from "@oval4d/protocol";
 
 import { formatDecimal } from "./format";
 
-/** The settings of a frame of reference that are velocities. */
+/** The settings of the frame of reference that are velocities: one to follow, and one of a Lorentz boost. */
 export type VelocitySetting = "follow" | "boost";
 
-/** A frame of reference in words such as "pace 2, follow 0.3, 0, 0"; "" for the frame in which the object was made. */
+/** A frame of reference in words, such as "pace 2, follow 0.3, 0, 0"; "" for the object's original frame. */
 export function spokenReferenceFrame({ pace, follow, boost }: State): string {
     const spoken = (name: VelocitySetting, velocity: Vector): string =>
         velocity.some((v) => v !== 0) ? `${name} ${velocity.map((v) => formatDecimal(v, 3)).join(", ")}` : "";
@@ -15,7 +15,7 @@ export function spokenReferenceFrame({ pace, follow, boost }: State): string {
     return parts.filter((part) => part !== "").join(", ");
 }
 
-/** The parameters of an address for a frame of reference, without those that have their initial values. */
+/** The parameters of an address for a frame of reference. Parameters with their default values are omitted. */
 export function referenceFrameQuery({ pace = 1, follow, boost }: Pick<Settings, "pace" | VelocitySetting>): Record<string, string> {
     const moves = (velocity: Vector | undefined): velocity is Vector => velocity?.some((v) => v !== 0) ?? false;
     return {

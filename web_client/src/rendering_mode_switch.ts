@@ -1,4 +1,4 @@
-// Who renders the pictures: this device from slices, or the server.
+// Switches between rendering by this device and rendering by the server.
 
 import type { RenderingMode, Stage } from "./picture/stage";
 import { readStored, writeStored } from "./storage";
@@ -7,7 +7,7 @@ const kModeKey = "oval4d.mode"; // storage key of the mode that the user has cho
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 
 export class RenderingModeSwitch {
-    // The user's choice, also while WebGL is unavailable.
+    // The mode that the user has chosen. It stays while WebGL is unavailable.
     private chosen = readStored<RenderingMode>(kModeKey) ?? "geometry";
 
     constructor(
@@ -20,7 +20,7 @@ export class RenderingModeSwitch {
         this.stage.mode = this.stage.canDrawGeometry ? this.chosen : "frames";
     }
 
-    /** Sets the mode that the user has chosen; while WebGL is unavailable, refuses "geometry" with a message. */
+    /** Sets the mode that the user has chosen. Refuses "geometry" with a message while WebGL is unavailable. */
     choose(mode: RenderingMode): void {
         if (mode === "geometry" && !this.stage.canDrawGeometry) return this.actions.tell(kNoGraphics);
         this.chosen = mode;
@@ -29,7 +29,10 @@ export class RenderingModeSwitch {
         return undefined;
     }
 
-    /** If the user has chosen this device to render, shows the server's pictures while the WebGL context is lost. */
+    /**
+     * Switches to the server's pictures while the WebGL context is lost, and then back. Does nothing if the user has
+     * chosen the server's pictures.
+     */
     graphicsChanged(isAvailable: boolean): void {
         if (this.chosen === "frames") return;
         this.actions.tell(isAvailable ? "This device renders the pictures again." : kNoGraphics);

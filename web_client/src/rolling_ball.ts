@@ -1,22 +1,25 @@
-// The rotations of gestures: A. J. Hanson's rolling ball. In three dimensions, a drag turns the ball's near side (+z)
-// in the direction of the drag; in four dimensions, the side that faces the 4-D eye (+w). Both motions are sums of
-// rotations in single planes. A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems V, 1995.
+// Computes the rotations of gestures by Hanson's rolling ball. In three dimensions, a drag turns the near side of the
+// ball (+z) in the direction of the drag; in four dimensions, it turns the side that faces the 4-D eye (+w). Both
+// motions are sums of rotations in single planes. A. J. Hanson, "Rotations for N-dimensional graphics", Graphics Gems
+// V, 1995.
 
 import type { Plane } from "@oval4d/protocol";
 
 /** The angle in radians by which each plane turns; the plane "xw" turns the +x axis toward the +w axis. */
 export type AnglesByPlane = Partial<Record<Plane, number>>;
 
-/** Which ball is rolled: the 4-D ball, or the 3-D ball of every slice, which stays in its hyperplane. */
+/**
+ * The kind of ball that a gesture rolls. "4-D" turns the whole object; "3-D" turns every slice within its hyperplane.
+ */
 export type BallKind = "4-D" | "3-D";
 
 const kWheelTurn = 0.0015; // radians per pixel of the wheel
-const kStickRate = Math.PI / 2; // radians per second, with a stick or trigger at its end
-const kStickDeadZone = 0.15; // deflections below this fraction of the greatest one count as 0
+const kStickRate = Math.PI / 2; // radians per second with a stick or trigger at its end
+const kStickDeadZone = 0.15; // smaller deflections, as fractions of the greatest, count as 0
 
 /**
- * The angles for a drag of (dx, dy) pixels, right and down: a drag over `height`, the height of the picture, is half a
- * turn.
+ * The angles for a drag of `dx` pixels to the right and `dy` down. A drag over `height`, the height of the picture,
+ * makes half a turn.
  */
 export function turnsOfDrag(ball: BallKind, dx: number, dy: number, height: number): AnglesByPlane {
     const perPixel = Math.PI / Math.max(1, height);
@@ -24,25 +27,25 @@ export function turnsOfDrag(ball: BallKind, dx: number, dy: number, height: numb
 }
 
 /**
- * The angle for a movement of the wheel, in a plane in which drags do not turn the ball: zw for the 4-D ball, xy for
- * the 3-D ball.
+ * The angle for a movement of the mouse wheel by `pixels`. Drags do not use its plane: it is zw for the 4-D ball and xy
+ * for the 3-D ball.
  */
 export function turnsOfWheel(ball: BallKind, pixels: number): AnglesByPlane {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }
 
 /**
- * The angle for fingers that twist clockwise by `angle` radians, in a plane in which drags do not turn the ball: zw for
- * the 4-D ball, xy for the 3-D ball, which follows the fingers.
+ * The angle for fingers that twist clockwise by `angle` radians. Drags do not use its plane: it is zw for the 4-D ball
+ * and xy for the 3-D ball, which follows the fingers.
  */
 export function turnsOfTwist(ball: BallKind, angle: number): AnglesByPlane {
     return ball === "4-D" ? { zw: angle } : { xy: -angle };
 }
 
 /**
- * The angles by which a gamepad of the standard layout turns the object in `seconds` seconds, during which its sticks
- * and buttons stay as they are. The left stick rolls the 4-D ball and the right stick the 3-D ball; the triggers turn
- * in zw, and the bumpers in xy. A stick, trigger or bumper at its end turns at the rate kStickRate.
+ * The angles by which a gamepad of the standard layout turns the object in `seconds` seconds. The left stick rolls the
+ * 4-D ball, and the right stick the 3-D ball. The triggers turn in zw, and the bumpers in xy. A stick, trigger or
+ * bumper at its end turns at the rate kStickRate.
  */
 export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "buttons">, seconds: number): AnglesByPlane {
     const rate = (value = 0): number => (Math.abs(value) < kStickDeadZone ? 0 : value * kStickRate * seconds);
@@ -57,14 +60,14 @@ export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "button
 }
 
 /**
- * The angles for a device that is turned by this rotation vector, in radians: about the axes to the right, upward and
- * out of the screen. The ball turns as the device does.
+ * The angles for a device that turns by this rotation vector. Its components are in radians, about the axes to the
+ * right, up and out of the screen. The ball turns like the device.
  */
 export function turnsOfTilt(ball: BallKind, [right, up, out]: readonly [number, number, number]): AnglesByPlane {
     return { ...rolled(ball, up, right), ...turnsOfTwist(ball, -out) };
 }
 
-/** The angles for rolling a ball by `right` radians to the right and by `down` radians down. */
+/** The angles for rolling a ball to the right by `right` radians and down by `down` radians. */
 function rolled(ball: BallKind, right: number, down: number): AnglesByPlane {
     return ball === "4-D" ? { xw: -right, yw: down } : { xz: -right, yz: down };
 }

@@ -1,6 +1,6 @@
-// Turns the polytope by gestures. Adds up the turns of a gesture, and sends their sum, at most once per animation frame
-// and only when the server has answered the previous sum. All turns of one gesture are one undo step and one rotation,
-// which keys can repeat.
+// Turns the polytope by gestures. Adds up the turns of a gesture, and sends the sum at most once per animation frame.
+// Each sum waits until the server has answered the previous one. All turns of a gesture form one undo step and one
+// rotation, which keys can repeat.
 
 import type { Plane, Request } from "@oval4d/protocol";
 
@@ -8,11 +8,11 @@ import type { AnglesByPlane } from "./rolling_ball";
 
 type Rotation = Extract<Request, { type: "rotate" }>;
 
-/** The turns of a gesture that the server does not know yet. */
+/** The turns of a gesture that have not been sent to the server. */
 interface PendingRotation {
     /**
-     * Whether the server has executed a rotation of the gesture. If so, later rotations of the gesture belong to the
-     * same undo step.
+     * Whether the server has executed a rotation of this gesture. Later rotations of the gesture then continue its undo
+     * step.
      */
     hasStep: boolean;
     /** The angles to send, in radians. */
@@ -20,21 +20,21 @@ interface PendingRotation {
 }
 
 export class RotationControl {
-    // The last one is that of the current gesture; the others, of earlier gestures, still have angles to send.
+    // The last entry belongs to the current gesture. The other entries belong to earlier gestures with unsent angles.
     private pending: PendingRotation[] = [];
     private sending = false;
     private scheduled = false;
 
-    /** `rotate` sends a request, and resolves to whether it has been executed. */
+    /** `rotate` sends a request. It resolves to true if the server has executed the request, else to false. */
     constructor(private readonly rotate: (rotation: Rotation) => Promise<boolean>) {}
 
-    /** Begins a gesture. */
+    /** Begins a gesture. Its turns become a new undo step. */
     begin(): void {
         this.pending = this.pending.filter(({ unsent }) => unsent.size > 0);
         this.pending.push({ hasStep: false, unsent: new Map() });
     }
 
-    /** Adds turns to the current gesture; begin() must have been called before. */
+    /** Adds turns to the current gesture. begin() must have been called before. */
     turn(turns: AnglesByPlane): void {
         const { unsent } = this.pending.at(-1)!;
         for (const [plane, angle] of Object.entries(turns) as [Plane, number][]) {

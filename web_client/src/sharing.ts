@@ -1,4 +1,4 @@
-// Links and scripts that open the session, or its view, elsewhere.
+// Makes links and scripts that open the session or its view elsewhere.
 
 import type { Client, RequestError, Scheme, Viewport } from "@oval4d/protocol";
 
@@ -28,7 +28,7 @@ export class Sharing {
         }
     }
 
-    /** Copies a Python script that opens the present view and saves its picture, with this size and color scheme. */
+    /** Copies a Python script. It opens the present view, and saves its picture with this size and color scheme. */
     async copyPython(objectName: string, { width, height }: Viewport, scheme: Scheme): Promise<void> {
         try {
             const { link, joins } = await this.linkForScript();
@@ -49,14 +49,14 @@ export class Sharing {
         }
     }
 
-    /** Copies a link; `effect` tells the user what the link does. */
+    /** Copies a link. `effect` is a sentence that tells the user what the link does. */
     async copyLink(link: string, effect: string): Promise<void> {
         await this.copy("link", link, effect);
     }
 
     /**
-     * A link for a script. The link opens the present view in a new session. If the object is from a file, which only
-     * this session has, the link joins this session instead, and `joins` is true.
+     * A link for a script, which opens the present view in a new session. If the object comes from a file, only this
+     * session has it: the link then joins this session, and `joins` is true.
      */
     private async linkForScript(): Promise<{ link: string; joins: boolean }> {
         try {

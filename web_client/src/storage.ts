@@ -1,9 +1,12 @@
-// Values that survive a reload of the page: in this tab only (sessionStorage) or, if `isLasting` is true, in all tabs
-// and later visits of this browser (localStorage).
+// Values that survive a reload of the page. They are stored for this tab (sessionStorage) or, if `isLasting` is true,
+// for all tabs and later visits of this browser (localStorage).
 
 const storageOf = (isLasting: boolean): Storage => (isLasting ? localStorage : sessionStorage);
 
-/** Returns the value; undefined if there is none, if the entry is invalid, or if the browser forbids storage. */
+/**
+ * Returns a stored value; undefined if there is none, if the entry is not valid JSON, or if the browser forbids
+ * storage.
+ */
 export function readStored<T>(key: string, isLasting = false): T | undefined {
     try {
         return (JSON.parse(storageOf(isLasting).getItem(key) ?? "null") as T | null) ?? undefined;

@@ -1,24 +1,26 @@
-// Turns the polytope as a phone is tilted and twisted, by the device orientation events of the W3C. The axes of a turn
-// are those of the screen as it was held at the start: a phone that is turned back to where it was has also turned each
-// slice back. Tilting the phone turns in the same planes as a drag, and twisting it in the same plane as a twist of the
-// fingers.
+// Turns the polytope as the user tilts and twists a phone, by the W3C's device orientation events. Tilting turns in the
+// same planes as a drag, and twisting in the same plane as a twist of two fingers. All turns are about the axes of the
+// screen at the start. Therefore a phone that is turned back to its first position has also turned each slice back.
 
 import { type BallKind, turnsOfTilt } from "./rolling_ball";
 import type { RotationControl } from "./rotation";
 
-// Radians. Smaller turns are added up first, so that the noise of the sensors of a phone at rest turns nothing.
+// The least turn in radians. Smaller turns are added up first, so that sensor noise of a phone at rest turns nothing.
 const kLeastTurn = 0.005;
 
-/** A unit quaternion: its real part, and its parts along x, y and z. */
+/** A unit quaternion: its real part, and its components along x, y and z. */
 type Quaternion = readonly [number, number, number, number];
 
-/** A ball that the device rolls, from toggle() until it is switched off. */
+/** The state of tilting while it is switched on. */
 interface ActiveTilt {
-    /** The ball that is rolled. */
+    /** The kind of ball that the device rolls. */
     ball: BallKind;
     /** Whether the next turn begins an undo step. */
     beginsStep: boolean;
-    /** How the screen was held at the first event, and the device at the last event that has turned the polytope. */
+    /**
+     * The orientation of the screen at the first event, and of the device at the last event that has turned the
+     * polytope.
+     */
     screen?: Quaternion;
     device?: Quaternion;
 }
@@ -26,7 +28,9 @@ interface ActiveTilt {
 export class TiltControl {
     private active: ActiveTilt | undefined;
 
-    /** `changed` is called when `ball` has changed, and `failed` if the device does not tell how it is held. */
+    /**
+     * `changed` is called when `ball` has changed. `failed` is called if the device does not report its orientation.
+     */
     constructor(
         private readonly rotation: RotationControl,
         private readonly changed: () => void,
@@ -35,19 +39,19 @@ export class TiltControl {
         document.addEventListener("visibilitychange", () => document.hidden && this.stop());
     }
 
-    /** Whether this may be a device that is held in the hand, and that tells how. */
+    /** Whether the tilt buttons are offered: the device may be held in the hand, and can report its orientation. */
     get isOffered(): boolean {
         return matchMedia("(pointer: coarse)").matches && "DeviceOrientationEvent" in window;
     }
 
-    /** The ball that is rolled; undefined if the device's orientation turns nothing. */
+    /** The kind of ball that the device rolls; undefined while tilting is switched off. */
     get ball(): BallKind | undefined {
         return this.active?.ball;
     }
 
     /**
-     * Begins to roll a ball, or ends it. Must be called in the handler of a click, because some browsers ask for
-     * permission then; throws an Error if it is refused.
+     * Switches the rolling of a ball on or off. Must be called in the handler of a click, because some browsers then
+     * ask the user for permission. Throws an Error if the user refuses.
      */
     async toggle(ball: BallKind): Promise<void> {
         if (this.ball === ball) return this.stop();
@@ -55,12 +59,12 @@ export class TiltControl {
         const permission = event.requestPermission ? await event.requestPermission() : "granted";
         if (permission !== "granted") throw new Error("this browser does not tell the page how the device is held");
         this.active = { ball, beginsStep: true };
-        window.addEventListener("deviceorientation", this.listener); // does nothing if it listens already
+        window.addEventListener("deviceorientation", this.listener); // has no effect if it already listens
         this.changed();
         return undefined;
     }
 
-    /** Lets the next turn begin another undo step. To be called when another command is sent. */
+    /** Makes the next turn begin a new undo step. Must be called when another command is sent. */
     endStep(): void {
         if (this.active) this.active.beginsStep = true;
     }
@@ -95,8 +99,8 @@ export class TiltControl {
 }
 
 /**
- * The orientation of a device in the frame of the Earth: the rotation about its z axis by alpha, then about its new x
- * axis by beta, then about its new y axis by gamma, in degrees.
+ * The orientation of a device relative to the Earth, from angles in degrees. The device turns about its z axis by
+ * `alpha`, then about its new x axis by `beta`, then about its new y axis by `gamma`.
  */
 function orientationOf(alpha: number, beta: number, gamma: number): Quaternion {
     const [x, cosX] = halfAngle(beta);
@@ -109,7 +113,7 @@ function aboutZ(degrees: number): Quaternion {
     return [cos, 0, 0, sin];
 }
 
-/** The sine and the cosine of half an angle in degrees. */
+/** The sine and cosine of half an angle. `degrees` is the whole angle. */
 function halfAngle(degrees: number): [number, number] {
     const half = (degrees * Math.PI) / 360;
     return [Math.sin(half), Math.cos(half)];
@@ -128,7 +132,7 @@ function conjugate([w, x, y, z]: Quaternion): Quaternion {
     return [w, -x, -y, -z];
 }
 
-/** The axis of a rotation times its angle, of at most half a turn, in radians. */
+/** The rotation vector of a unit quaternion: the axis times the angle in radians, which is at most π. */
 function rotationVectorOf([w, x, y, z]: Quaternion): [number, number, number] {
     const sin = Math.hypot(x, y, z);
     const factor = sin === 0 ? 0 : (2 * Math.atan2(sin, Math.abs(w)) * (w < 0 ? -1 : 1)) / sin;

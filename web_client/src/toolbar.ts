@@ -1,12 +1,12 @@
-// A toolbar is one tab stop: the arrow keys, Home and End move the focus among its buttons, as in the ARIA Authoring
-// Practices Guide. The button that had the focus last is the tab stop, even while a text field replaces the button.
+// Makes toolbars with one tab stop each. The arrow keys, Home and End move the focus among the buttons, as in the ARIA
+// Authoring Practices Guide. The button that had the focus last is the tab stop, even while a text field replaces it.
 
-// The arrow keys Up and Down go to the nearest button above or below. The distance of a button is √(across² +
-// (kRowWeight · down)²). Therefore a button in the next row usually counts as nearer than one straight above or below
-// in a row farther away.
+// The arrow keys Up and Down move the focus to the nearest button above or below. The distance of a button is √(across²
+// + (kRowWeight · down)²). A button in the next row is therefore usually nearer than a button straight above or below
+// in a farther row.
 const kRowWeight = 3;
 
-/** Makes an element with buttons a toolbar. Buttons may be added, removed and disabled later. */
+/** Makes a toolbar of an element that contains buttons. Buttons may later be added, removed and disabled. */
 export function makeToolbar(root: HTMLElement, label: string): void {
     root.setAttribute("role", "toolbar");
     root.setAttribute("aria-label", label);
@@ -39,10 +39,7 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     });
 }
 
-/**
- * The button that this text field replaces. The button may never have had the focus, because a click with the mouse
- * opens the field directly.
- */
+/** The button that this text field replaces. A mouse click opens the field without a focus on the button. */
 function buttonOf(field: HTMLInputElement, root: HTMLElement): Element | undefined {
     if (field.type !== "text") return undefined;
     let around: Element = field;
@@ -54,7 +51,7 @@ function isUsable(button: HTMLButtonElement): boolean {
     return !button.disabled && button.checkVisibility();
 }
 
-/** The button to which the key moves the focus; undefined for other keys. */
+/** The button to which a key moves the focus; undefined if the key moves no focus. */
 function nextButton(buttons: HTMLButtonElement[], from: HTMLButtonElement, key: string): HTMLElement | undefined {
     const at = buttons.indexOf(from);
     if (key === "ArrowRight") return buttons[(at + 1) % buttons.length];
@@ -65,7 +62,7 @@ function nextButton(buttons: HTMLButtonElement[], from: HTMLButtonElement, key: 
     return key === "ArrowUp" ? nearestInDirection(buttons, from, -1) : undefined;
 }
 
-/** The nearest button below (direction 1) or above (−1); the button itself if there is none. */
+/** The nearest button below (direction 1) or above (direction −1); `from` itself if there is none. */
 function nearestInDirection(buttons: HTMLButtonElement[], from: HTMLButtonElement, direction: 1 | -1): HTMLElement {
     const { left, width, top, bottom } = from.getBoundingClientRect();
     const distance = (one: HTMLElement): number => {

@@ -1,5 +1,5 @@
 // The tools panel: a button for every action of the key table, and sections that other parts of the page add, such as
-// Colors.
+// the section Colors.
 
 import type { KeyBinding, Keymap, Parts, Plane, Projection, State } from "@oval4d/protocol";
 
@@ -9,40 +9,44 @@ import { byId, element, planeName } from "./element";
 import { makeToolbar } from "./toolbar";
 
 export interface ToolEvents {
-    /** Presses the key of a button; `held` is true for repetitions while the button is held down. */
+    /**
+     * Presses the key of a button. `inverse` asks for the inverse rotation. `held` is true for repetitions while the
+     * button is held down.
+     */
     press(binding: KeyBinding, inverse: boolean, held: boolean): void;
 }
 
 /**
- * A section that a part of the page adds. If the key table has a group with the same title, the content is added to
- * this group.
+ * A section of the tools panel that another part of the page adds. If a group of keys has the same title, the content
+ * joins this group.
  */
 export interface ToolSection {
     title: string;
     /**
-     * If no group has this title: the name of the group after which the section is placed; if absent, the section is
-     * the last one.
+     * The name of the group after which the section is placed, if no group has the section's title. If absent, the
+     * section comes last.
      */
     after?: string;
     content: Node[];
 }
 
-// The tabs in which sections are grouped on small screens. Groups that are not listed are in the last tab.
+// On small screens, tabs show the sections in groups. Groups that are not listed here are in the last tab.
 const kTabs = [
     { title: "Turn", groups: ["turn", "toward", "history", "Tilt"] },
     { title: "Slices", groups: ["angle", "focus", "slices"] },
     { title: "Show", groups: ["polytope", "look", "whole", "point", "highlight", "camera", "Colors"] },
 ];
 const kOtherTab = "More";
-// The groups of keys that have their controls elsewhere: playing has them below the picture, beside the slider of w.
+// The groups of keys without buttons in this panel. The controls for playing are beside the slider of w, below the
+// picture.
 const kGroupsElsewhere = ["play"];
 
 const kHoldDelay = 400; // milliseconds until a held button repeats
 const kHoldInterval = 60; // milliseconds between repetitions
 
 /**
- * For each action that switches something on and off, a function that returns whether it is on. An action that switches
- * a view or a part of the picture has the name of the view or part, such as "matrix" or "faces".
+ * For each action that switches something, a function that tells whether it is on. An action that switches a view or a
+ * part of the picture has its name, such as "matrix" or "faces".
  */
 const kToggles: Record<string, (state: State) => boolean> = {
     turn: (state) => state.turning,
@@ -53,13 +57,13 @@ const kToggles: Record<string, (state: State) => boolean> = {
         Object.keys(parts.properties).map((part) => [part, (state: State) => state.shown[part as keyof Parts]]),
     ),
 };
-/** The label of the button that switches between projections: the name of the projection that is shown, if any. */
+/** The label of the button that switches between projections; it names the shown projection. */
 const kProjectionLabels: Record<Projection, string> = {
     off: "Project",
     perspective: "Perspective",
     orthogonal: "Orthogonal",
 };
-/** Labels of buttons whose label in the key table is not clear enough on a button. */
+/** Labels of buttons that replace unclear labels of the key table. */
 const kLabels: Record<string, string> = {
     view: "One slice",
     command_line: "Command",
@@ -70,7 +74,7 @@ const kLabels: Record<string, string> = {
 const kFocusOrder =
     "focus_first vertex_previous focus_left focus_zero focus_right vertex_next focus_last".split(" ");
 
-const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below them: the perpendicular planes zw, yw, yz
+const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below each: the perpendicular plane
 
 export class Tools {
     private readonly root = byId("tools");
@@ -79,7 +83,7 @@ export class Tools {
     private projectionButtons: HTMLButtonElement[] = [];
 
     constructor(private readonly events: ToolEvents) {
-        // The drawing keeps the focus when a button is clicked, so that the space bar does not press the button again.
+        // A click on a button leaves the focus on the drawing. Otherwise the space bar would press the button again.
         this.root.addEventListener("mousedown", (event) => event.preventDefault());
     }
 
@@ -142,7 +146,8 @@ export class Tools {
         const label = kLabels[binding.action] ?? binding.label;
         const attributes = this.buttonAttributes(binding, binding.text, binding.name);
         const button = element("button", { type: "button", ...attributes });
-        // A label in words is the accessible name, so that speech control finds the button; the title describes it.
+        // A label in words is the accessible name, so that speech control finds the button. The title describes the
+        // button.
         if (/\p{L}/u.test(label)) button.removeAttribute("aria-label");
         button.append(element("span", {}, label), element("kbd", { "aria-hidden": "true" }, binding.name));
         if (binding.action in kToggles) {
@@ -155,8 +160,8 @@ export class Tools {
     }
 
     /**
-     * The controls for a group of keys: a stepper for each setting that two keys decrease and increase, and buttons for
-     * the other keys.
+     * Makes the controls for a group of keys: a stepper for each setting that two keys decrease and increase, and a
+     * button for every other key.
      */
     private controls(keys: KeyBinding[]): HTMLElement[] {
         const paired = new Set<KeyBinding>();
@@ -172,7 +177,7 @@ export class Tools {
         return [...steppers, ...rest.map((key) => this.actionButton(key))];
     }
 
-    /** A stepper for a rotation and its inverse: − xy +. */
+    /** Makes a stepper for a rotation and its inverse. It looks like this: − xy +. */
     private rotationStepper(binding: KeyBinding): HTMLElement {
         const planes = binding.planes ?? [];
         const made = this.stepper(binding, true, planes.map(planeName), binding.name, binding);
@@ -204,8 +209,8 @@ export class Tools {
     }
 
     /**
-     * Makes a button press the key of `binding` at a click; if the action of the key may repeat, also repeatedly while
-     * the button is held down.
+     * Makes a button press the key of `binding` at each click. If the key's action may repeat, the button also presses
+     * repeatedly while it is held down.
      */
     private bindPresses(button: HTMLElement, binding: KeyBinding, inverse: boolean): void {
         let timer: ReturnType<typeof setTimeout> | undefined;
@@ -227,8 +232,9 @@ export class Tools {
         }
         button.addEventListener("click", ({ detail }) => {
             stop();
-            // The click that ends a repetition does not press once more. A click by the keyboard (detail 0) always
-            // presses: if the pointer left the held button, no click followed, and `repeated` may still be set.
+            // The click at the end of a repetition does not press again. A click by the keyboard (detail 0) always
+            // presses. `repeated` may still be set then, because no click follows if the pointer leaves the held
+            // button.
             if (!repeated || detail === 0) this.events.press(binding, inverse, false);
             repeated = false;
         });
@@ -239,19 +245,22 @@ function uncapitalized(text: string): string {
     return text.charAt(0).toLowerCase() + text.slice(1);
 }
 
-/** The index in kRotationColumns of a plane or, if it is not there, of the plane perpendicular to it. */
+/**
+ * The index in kRotationColumns of a plane. A plane that is not in kRotationColumns has the index of its perpendicular
+ * plane.
+ */
 function columnIndexOf(plane: Plane): number {
     const column = kRotationColumns.indexOf(plane);
     return column >= 0 ? column : kRotationColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
 }
 
-/** The row and the column of a rotation in the grid of rotations, counted from 1. */
+/** The row and column of a rotation in the grid of rotation steppers, counted from 1. */
 function gridPlaceOf(planes: readonly Plane[]): { row: number; column: number } {
     const row = planes.length > 1 ? 3 : kRotationColumns.includes(planes[0]!) ? 1 : 2;
     return { row, column: 1 + columnIndexOf(planes[0]!) };
 }
 
-/** Orders rotations by their places in the grid, so that Tab and the arrow keys follow what is seen. */
+/** Orders rotations by their places in the grid, so that Tab and the arrow keys follow the visible order. */
 function compareGridPlaces(a: KeyBinding, b: KeyBinding): number {
     const [one, other] = [gridPlaceOf(a.planes ?? []), gridPlaceOf(b.planes ?? [])];
     return one.row - other.row || one.column - other.column;

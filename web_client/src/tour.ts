@@ -1,11 +1,11 @@
-// A tour of the page: a panel beside what it explains. The page stays usable during the tour. The steps are in
-// index.html. Each step lists selectors of elements, and points at the first visible one of them: at all of it, or at a
-// part of its height. A step may also name an object, which is shown during this step.
+// The tour of the page: a panel beside the part that it explains. The page stays usable during the tour. The steps are
+// in index.html. Each step lists selectors of elements, and points at the first visible element: at all of it, or at a
+// part of its height. A step may also name an object; the picture shows it during the step.
 
 import { byId } from "./element";
 
-const kGap = 12; // pixels between the panel and what it explains, and between the panel and the edges of the window
-const kRingGap = 4; // pixels between what the panel explains and the ring around it
+const kGap = 12; // pixels between the panel and what it explains, or the edges of the window
+const kRingGap = 4; // pixels between the explained part and the ring around it
 
 export class Tour {
     private readonly root = byId("tour");
@@ -17,14 +17,14 @@ export class Tour {
     private at = 0;
 
     /**
-     * `showObject` is called with the name of the object that a step shows, or without a name if a step shows none, and
-     * at the end. `ended` is called after the tour, if the focus was in its panel.
+     * `showObject` is called at each step with the name of the object to show; without a name if the step shows none,
+     * and at the end. `ended` is called after the tour if the focus was in its panel.
      */
     constructor(
         private readonly showObject: (name: string | undefined) => void,
         private readonly ended: () => void,
     ) {
-        this.root.addEventListener("mousedown", (event) => event.preventDefault()); // the focus stays where it is
+        this.root.addEventListener("mousedown", (event) => event.preventDefault()); // a click does not move the focus
         this.back.addEventListener("click", () => this.show(this.at - 1));
         this.next.addEventListener("click", () => this.show(this.at + 1));
         this.end.addEventListener("click", () => this.stop());
@@ -62,14 +62,14 @@ export class Tour {
         this.showObject(this.steps[at]!.dataset["object"]);
     }
 
-    /** What the current step points at, if it is visible. */
+    /** The element at which the current step points; undefined if none is visible. */
     private get target(): Element | undefined {
         const selectors = this.steps[this.at]!.dataset["target"]!.split(",");
         const found = selectors.map((selector) => document.querySelector(selector));
         return found.find((one) => one?.checkVisibility()) ?? undefined;
     }
 
-    /** Places the ring around what the current step explains, and the panel beside the ring. */
+    /** Places the ring around the explained part, and the panel beside the ring. */
     private place(): void {
         if (this.root.hidden) return;
         const { from = "0", to = "1" } = this.steps[this.at]!.dataset;
@@ -111,7 +111,7 @@ interface WindowBox {
     bottom: number;
 }
 
-/** Places the element `one` around a box, at the distance kRingGap, within the window. */
+/** Places the element `one` around a box, kRingGap pixels away from it, but within the window. */
 function surround(one: HTMLElement, box: WindowBox): void {
     const left = Math.max(0, box.left - kRingGap);
     const top = Math.max(0, box.top - kRingGap);

@@ -1,20 +1,20 @@
-// The object that a step of the tour shows in place of the user's, whose view returns after the step.
+// During a step of the tour, shows another object in place of the user's. Restores the user's view after the step.
 
 import type { Client, Command, State } from "@oval4d/protocol";
 
 export class TourObjectSwitch {
-    // What the user saw before the step that is shown now, and the name of the object that the step shows instead.
+    // The user's view before the current step, and the name of the object that the step shows instead.
     private replaced: { view: State; name: string } | undefined;
-    private changes: Promise<void> = Promise.resolve(); // one after another, however fast the user leaves a step
+    private changes: Promise<void> = Promise.resolve(); // the changes run one after another
 
-    /** `request` sends a command that changes the picture; `failed` is called with the Error of a change that fails. */
+    /** `request` sends a command that changes the picture. `failed` gets the Error of a failed change. */
     constructor(
         private readonly client: Client,
         private readonly request: (command: Command) => Promise<unknown>,
         private readonly failed: (error: Error) => void,
     ) {}
 
-    /** Shows the object of the catalogue with this name, or the user's own view if there is no name. */
+    /** Shows the catalogue's object with this name. Without a name, restores the user's own view. */
     show(name: string | undefined): void {
         this.changes = this.changes.then(() => this.change(name)).catch(this.failed);
     }

@@ -1,7 +1,7 @@
-// Draws the parallel coordinates at the bottom of the picture: for each vertex, four vertical lines that show its
-// coordinates. For many vertices, draws a density strip instead: each vertex is a line that joins its coordinates on
-// four axes, and the strip shows how many lines pass through each point; only highlighted vertices have visible lines.
-// For a field, draws for each axis a histogram of the values along it.
+// Draws the parallel coordinates at the bottom of the picture. Each vertex has four vertical lines, which show its
+// coordinates. If there are many vertices, a density strip replaces them: each vertex is a line that joins its
+// coordinates on four axes, and the strip shows how many lines pass through each point. Only highlighted vertices then
+// have visible lines. For a field, four histograms show how its values are distributed along each axis.
 
 import type { AxisUnits, HistogramScales, SceneDescription, Slices, Viewport } from "@oval4d/protocol";
 
@@ -12,7 +12,7 @@ import { cssColor, setFontAndMeasureDigits } from "./pen";
 
 const kHighlightOpacity = 0.35; // the opacity of the bands behind highlighted vertices
 const kLevelOpacity = 0.8; // the opacity of the lines of levels in a histogram
-const kPlateOpacity = 0.6; // the opacity of the plate behind the name of the quantity
+const kPlateOpacity = 0.6; // the opacity of the plate behind the quantity's name
 const kFocusMark = 0.009; // half the width of the mark at the focus slice's w, as a fraction of the viewport's height
 
 const density = new DensityImage();
@@ -31,10 +31,10 @@ export function drawCoordinates(
 }
 
 /**
- * The vertex whose parallel coordinates are at the pixel (x, y); undefined if there is none, or if a histogram or nothing
- * is drawn. In a density strip, see vertexInDensityStripAt(). Else it is the vertex in whose band the pixel lies: the
- * rectangle around its four lines that drawLines() fills to highlight it. Picker::pickCoordinates() in pick.cpp finds the
- * same vertex.
+ * The vertex whose parallel coordinates are at the pixel (x, y); undefined if there is none, or if a histogram or
+ * nothing is drawn. For density strips, see vertexInDensityStripAt(). Otherwise, each vertex has a band, the rectangle
+ * around its four lines that drawLines() fills to highlight it; the pixel must lie in this band.
+ * Picker::pickCoordinates() in pick.cpp finds the same vertex.
  */
 export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
@@ -94,7 +94,7 @@ function drawLines(
     if (!named) return;
     const wanted = 0.85 * scene.text * height;
     const digits = setFontAndMeasureDigits(pen, Math.max(wanted, leastText));
-    // If names are enlarged, they need more room, and only some of them are drawn.
+    // Enlarged names need more room, so only some of them are drawn.
     const every = wanted < leastText ? Math.ceil((3 * leastText) / columnStep) : 1;
     pen.fillStyle = cssColor(scene.colors.text);
     const lastRow = Math.floor((count - 1) / perRow);
@@ -107,7 +107,7 @@ function drawLines(
     }
 }
 
-/** Draws a name with its middle at x and its baseline at y, unless an edge of the picture would cut the name. */
+/** Draws a name centered at x with its baseline at y. Draws nothing if an edge of the picture would cut the name. */
 function drawName(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
     const half = pen.measureText(name).width / 2;
     if (x >= half && x <= width - half && Math.round(y) <= height) pen.fillText(name, Math.round(x), Math.round(y));
@@ -194,8 +194,8 @@ function axisLabel(axis: number, units: AxisUnits): string {
 }
 
 /**
- * Draws what the values measure in the upper left corner of the histogram, unless it is longer than the histogram. A
- * background plate keeps it legible.
+ * Draws the name of the quantity that the values measure, in the upper left corner of the histogram. Draws nothing if
+ * the name is wider than the histogram. A plate in the background color keeps the name legible.
  */
 function drawQuantity(
     pen: CanvasRenderingContext2D,

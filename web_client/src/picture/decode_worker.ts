@@ -1,5 +1,5 @@
-// A web worker that decodes PNG files one after the other. Each message is a file; the answer is its bitmap, or the
-// message of an error.
+// A web worker that decodes PNG files one after the other. It receives each file as a message, and answers with the
+// bitmap or with an error message.
 
 let last = Promise.resolve();
 

@@ -1,4 +1,4 @@
-// The density strip or the histogram (see coordinates.ts) as an image that is updated in place.
+// An image of the density strip or the histogram (see coordinates.ts). New pictures overwrite its pixels in place.
 
 import type { Slices } from "@oval4d/protocol";
 
@@ -9,8 +9,8 @@ export class DensityImage {
     private density: Uint8Array | undefined;
 
     /**
-     * Converts the density of a picture to pixels. In a density strip, the color between two axes is interpolated
-     * between the colors of these axes. In a histogram, each panel has the color of its axis.
+     * Converts the densities of a picture to pixels. In a density strip, colors between two axes are interpolated
+     * between the axes' colors. In a histogram, each panel has the color of its axis.
      */
     update({ density, scene: { colors, coordinates } }: Slices): void {
         if (density === this.density) return;
@@ -39,8 +39,8 @@ export class DensityImage {
     }
 
     /**
-     * Draws the panel of axis k, 0 to 3, of a histogram such that the centers of its outermost pixels lie on the edges
-     * of the rectangle.
+     * Draws the histogram panel of axis k, 0 to 3, into a rectangle. The centers of the panel's outermost pixels lie on
+     * the edges of the rectangle.
      */
     drawHistogramPanel(
         pen: CanvasRenderingContext2D,
@@ -55,7 +55,10 @@ export class DensityImage {
         pen.drawImage(this.canvas, left, 0.5, columns - 1, this.canvas.height - 1, x, y, width, height);
     }
 
-    /** Draws the density strip such that the centers of its outermost pixels lie on the edges of the rectangle. */
+    /**
+     * Draws the density strip into a rectangle. The centers of the strip's outermost pixels lie on the edges of the
+     * rectangle.
+     */
     draw(pen: CanvasRenderingContext2D, x: number, y: number, width: number, height: number): void {
         pen.drawImage(this.canvas, 0.5, 0.5, this.canvas.width - 1, this.canvas.height - 1, x, y, width, height);
     }

@@ -1,20 +1,20 @@
-// The lines of single vertices in a density strip (see coordinates.ts). The line of a vertex joins its coordinates on the
-// axes x, y, z and w.
+// The lines of single vertices in a density strip (see coordinates.ts). The line of a vertex joins its coordinates on
+// the axes x, y, z and w.
 
 import type { Slices, Viewport } from "@oval4d/protocol";
 
 import { cssColor } from "./pen";
 
-// The maximum number of lines that are drawn over a density strip, as in density_strip_lines.hpp.
+// The most lines that are drawn over a density strip. density_strip_lines.hpp has the same number.
 const kMaxLinesOverDensityStrip = 400;
-// The distance within which a point is on a line, and the difference below which distances count as equal; both in
-// viewport heights, as in density_strip_lines.hpp and density_strip_lines.cpp.
+// A point within kLineReach of a line is on the line. Distances that differ by less than kEqual count as equal. Both
+// are in viewport heights, and are the same in density_strip_lines.hpp and .cpp.
 const kLineReach = 0.006;
 const kEqual = 1e-6;
 
 /**
- * Those of the vertices of highlighted elements whose lines are drawn: all of them or, if they are more than
- * kMaxLinesOverDensityStrip, this many, spread evenly from the first to the last.
+ * Chooses the vertices of highlighted elements whose lines are drawn. These are all vertices or, if there are too many,
+ * kMaxLinesOverDensityStrip of them, spread evenly from the first to the last.
  */
 function verticesWithLines(ownVertices: Iterable<number>): number[] {
     const all = [...ownVertices];
@@ -50,9 +50,9 @@ export function drawLinesOverDensityStrip(
 }
 
 /**
- * The vertex to which a point of the density strip belongs; undefined if no line is near. The point is measured in
- * viewport heights from the lower left corner. vertexInDensityStripAt() in density_strip_lines.hpp, which says how lines
- * are chosen, finds the same vertex.
+ * The vertex whose line is at a point of the density strip; undefined if no line is near. The point is in viewport
+ * heights from the lower left corner. vertexInDensityStripAt() in density_strip_lines.hpp uses the same rules, and
+ * explains them.
  */
 export function vertexInDensityStripAt(picture: Slices, atX: number, atY: number): number | undefined {
     const { coordinates: values, highlight, scene } = picture;
@@ -73,8 +73,8 @@ export function vertexInDensityStripAt(picture: Slices, atX: number, atY: number
 }
 
 /**
- * The first of the vertices, which are in ascending order, with the least distance; undefined if this is more than
- * `reach`.
+ * The vertex with the least distance; the first if several have equal distances. Undefined if the least distance
+ * exceeds `reach`. The vertices must be in ascending order.
  */
 function nearestOf(
     vertices: Iterable<number>,

@@ -1,19 +1,19 @@
-// The vertices, edges and faces of all drawn slices, in world coordinates. Each picture overwrites the flat arrays of
-// the last one.
+// The vertices, edges and faces of all drawn slices, in world coordinates. They are in flat arrays, which each new
+// picture overwrites.
 
 import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 
-/** A half-open range in the arrays of SliceElements. */
+/** A half-open range of indices in the arrays of SliceElements: `begin` is included, `end` is not. */
 export type IndexRange = [begin: number, end: number];
 
-/** One slice, and the ranges of its elements. */
+/** A slice, and the ranges of its vertices, edges and faces in the arrays. */
 export interface SliceRanges {
     slice: Slice;
     position: Vector;
     vertices: IndexRange;
     edges: IndexRange;
     faces: IndexRange;
-    distance: number; // the distance of `position` from the eye, at the last sort
+    distance: number; // the distance from `position` to the eye at the last sort
 }
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */
@@ -25,15 +25,15 @@ export class SliceElements {
     cornerCount = 0;
     points = new Float32Array(0); // x, y, z of each vertex
     edges = new Uint32Array(0); // the indices of two vertices for each edge
-    cornerBegin = new Uint32Array(1); // face f is the loop corners[cornerBegin[f]] … corners[cornerBegin[f + 1] − 1]
+    cornerBegin = new Uint32Array(1); // face f has corners[cornerBegin[f]] … corners[cornerBegin[f + 1] − 1]
     corners = new Uint32Array(0);
-    cornerEdges = new Uint32Array(0); // the edge from each corner to the next
-    normals = new Float32Array(0); // x, y, z of each face, outward
-    // The edges, grouped by the smaller of the indices of their two vertices.
+    cornerEdges = new Uint32Array(0); // the index of the edge from each corner to the next
+    normals = new Float32Array(0); // x, y, z of each face's outward normal
+    // The edges of a slice, grouped by the smaller vertex index of each edge.
     readonly edgesByVertex = new EdgeBuckets();
     private readonly spare: SliceRanges[] = []; // unused objects, kept for pictures with more slices
 
-    /** Replaces the elements by those of a new picture. */
+    /** Replaces the elements by the elements of a new picture. */
     update({ slices, scene }: Slices): void {
         this.vertexCount = this.edgeCount = this.faceCount = this.cornerCount = 0;
         while (this.sliceRanges.length > 0) this.spare.push(this.sliceRanges.pop()!);
@@ -82,7 +82,7 @@ export class SliceElements {
         }
     }
 
-    /** The vertex of the corner that follows corner c of face f. */
+    /** The vertex at the corner after corner c of face f. The last corner is followed by the first. */
     private nextCorner(f: number, c: number): number {
         return this.corners[c + 1 < this.cornerBegin[f + 1]! ? c + 1 : this.cornerBegin[f]!]!;
     }
@@ -127,8 +127,8 @@ function setRange(range: IndexRange, begin: number, end: number): void {
 }
 
 /**
- * A counting sort of a slice's edges by one of their vertices, which `vertexOf` returns: vertex v has the edges
- * items[begin[v]] … items[begin[v + 1] − 1].
+ * Groups the edges of a slice by one of their vertices, with a counting sort. `vertexOf` returns this vertex for an
+ * edge. The edges of vertex v are items[begin[v]] … items[begin[v + 1] − 1].
  */
 export class EdgeBuckets {
     begin = new Uint32Array(0);
@@ -141,13 +141,16 @@ export class EdgeBuckets {
         begin.fill(0, vertices[0], vertices[1] + 1);
         for (let e = edges[0]; e < edges[1]; ++e) ++begin[vertexOf(e)]!;
         for (let v = vertices[0] + 1; v <= vertices[1]; ++v) begin[v]! += begin[v - 1]!;
-        // begin[v] is now the end of the range of the edges of v. Filling the range from the back moves begin[v] to its
-        // beginning.
+        // begin[v] is now the end of the range for vertex v. The next loop fills each range from its end, and thereby
+        // moves begin[v] to the beginning.
         for (let e = edges[1]; e-- > edges[0]; ) items[--begin[vertexOf(e)]!] = e;
     }
 }
 
-/** Returns the array if it has at least `length` elements, otherwise a larger array with the same contents. */
+/**
+ * Returns the array if it has at least `length` elements. Otherwise returns a larger array that begins with the same
+ * contents.
+ */
 export function ensureCapacity<T extends Float32Array | Uint32Array | Uint8Array>(array: T, length: number): T {
     if (array.length >= length) return array;
     const larger = new (array.constructor as new (length: number) => T)(2 ** Math.ceil(Math.log2(length)));

@@ -1,5 +1,5 @@
-// The mesh of slices whose faces may cross each other: triangles that fill the faces, to be drawn with a depth buffer.
-// The opaque triangles come first, then the faded ones; within each group, slices are ordered from far to near.
+// The mesh of slices whose faces may cross each other. Its triangles fill the faces, and are drawn with a depth buffer.
+// Opaque triangles come first, then faded ones. Within each group, slices are ordered from far to near.
 
 import { BufferGeometry } from "three";
 
@@ -11,15 +11,15 @@ import { kFace } from "./shaders";
 import { ShapeBuffers } from "./shape_buffers";
 import type { ViewCamera } from "./view_camera";
 
-/** Values of `Fill.seen`: the visibility of a triangle; 0 means hidden. */
+/** Values of `Fill.seen`, the visibility of a triangle: faded or fully visible. The value 0 means hidden. */
 const kFaded = 1;
 const kFull = 2;
 
-/** One slice's part of the mesh. */
+/** The part of the mesh that belongs to one slice. */
 interface SliceFill {
     fill: Fill;
     position: Vector;
-    first: number; // the index of the fill's first point in the mesh
+    first: number; // the index in the mesh of the first point of `fill`
 }
 
 export class FillMesh {
@@ -47,7 +47,10 @@ export class FillMesh {
         return slices.some((slice) => slice.fill);
     }
 
-    /** Writes the colors, as SlicesMesh.writeColorsToBuffers() does. */
+    /**
+     * Writes the colors of the triangles to the buffers. With `change`, writes only those whose cell is highlighted now
+     * or was before.
+     */
     writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { colors, opacity, faded } = scene;
         const [before, after] = change?.cells ?? [];
@@ -55,7 +58,7 @@ export class FillMesh {
             for (let t = 0; t < fill.tints.length; ++t) {
                 if (change && fill.tints[t] !== before && fill.tints[t] !== after) continue;
                 const alpha = opacity * (fill.seen?.[t] === kFaded ? faded : 1);
-                // A triangle takes its color from its last point. Triangles with the same last point have the same
+                // A triangle takes its color from its last point. All triangles with the same last point have the same
                 // tint.
                 const item = first + fill.triangles[3 * t + 2]!;
                 this.shapes.setColor(item, cellColor(fill.tints[t]!, colors, highlighted), alpha);
@@ -64,7 +67,7 @@ export class FillMesh {
         this.shapes.color.markChanged();
     }
 
-    /** Orders the triangles for this camera. */
+    /** Orders the triangles for this camera: opaque before faded, slices from far to near. */
     sortForCamera({ eye }: ViewCamera): void {
         const distance = ({ position: [x, y, z] }: SliceFill): number => Math.hypot(x - eye.x, y - eye.y, z - eye.z);
         this.parts.sort((a, b) => distance(b) - distance(a));

@@ -1,5 +1,5 @@
-// Draws the fog of a field by ray casting over what is already drawn, as server/render/slices/fog_painter.cpp does.
-// The painter shares the WebGL context with three.js, and tells three.js when it has changed the state of the context.
+// Draws the fog of a field over the picture by ray casting, like server/render/slices/fog_painter.cpp. Shares the WebGL
+// context with three.js, and tells three.js when it has changed the state of the context.
 
 import { DepthTexture, WebGLRenderTarget, type WebGLRenderer } from "three";
 
@@ -28,7 +28,7 @@ void main() {
 const kFragmentShader = `#version 300 es
 precision highp float;
 precision highp sampler3D;
-// Lengths in the slice are in circumradii: in the units of the object, their squares could be too large or too small.
+// Lengths in the slice are in circumradii: squares of lengths in object units could overflow or underflow.
 in vec3 place;
 in float depthSeen;  // the distance of this place from the eye along the view axis
 uniform sampler3D lattice;   // red: the value, 0 if there is none; green: whether there is one
@@ -44,13 +44,14 @@ uniform vec3 low;            // the first point of the lattice
 uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
 out vec4 pixel;
-// Returns the distance, along the view axis, of the nearest shape at this pixel of a depth texture; 1e30 if none.
+// Returns the distance of the nearest shape at this pixel, from a depth texture, along the view axis; 1e30 if there is
+// no shape.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
 }
 void main() {
-    // The ray is eye + t * way. Its part in the fog is from t = begin to t = end.
+    // The ray is eye + t * way. Its part within the fog has t from begin to end.
     vec3 way = place - eye;
     way += vec3(equal(way, vec3(0.0))) * 1e-20;
     vec3 first = (low - eye) / way, last = (low + latticeStep * (size - 1.0) - eye) / way;
@@ -76,7 +77,7 @@ void main() {
     for (float i = 0.0; i < count && clear > 0.002; ++i, at += move) {
         vec3 block = clamp((at * size - 0.5) / 4.0, vec3(0.0), (size - 1.001) / 4.0);
         if (texelFetch(blocks, ivec3(block), 0).r == 0.0) {
-            // No fog is in this block. Leaps to the last sample in it; the next one is in another block.
+            // This block has no fog. Leaps to its last sample, so that the next sample is in another block.
             vec3 perStep = move * size / 4.0;
             vec3 steps = (floor(block) + vec3(greaterThan(perStep, vec3(0.0))) - block) / perStep;
             float leap = max(ceil(min(steps.x, min(steps.y, steps.z))) - 1.0, 0.0);
@@ -103,18 +104,20 @@ const kUniforms = [
 const kSamplers = ["lattice", "blocks", "table", "frameDepths", "surfaceDepths"] as const;
 
 const kBlock = 4; // cells of a lattice along each side of a block
-// The least fraction of light that a layer of fog as thick as the circumradius lets through. Opaque fog (alpha 255)
-// lets through this fraction, too, so that its absorption is finite.
+// The least fraction of light that a layer of fog lets through if it is as thick as the circumradius. This also limits
+// opaque fog (alpha 255), so that its absorption stays finite.
 const kClearest = 1e-4;
-/** The coordinates x, y, z of corner i of a box that extends from 0 to 1: the bits 0, 1 and 2 of i. */
+/**
+ * The coordinates x, y, z of the 8 corners of the unit box. Bits 0, 1 and 2 of a corner's number are its x, y and z.
+ */
 const kCorners = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((i) => [i & 1, (i >> 1) & 1, i >> 2]);
-/** The 12 triangles of a box, as three indices of corners each, counterclockwise as seen from outside. */
+/** The 12 triangles of the unit box. Each has three corner numbers, counterclockwise as seen from outside. */
 const kTriangles = [
     ...[0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4],
     ...[2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6],
 ];
 
-/** The objects of one WebGL context. They are lost together with the context. */
+/** The WebGL objects of the painter. The browser may lose them together with their context. */
 interface FogResources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
@@ -124,13 +127,16 @@ interface FogResources {
     lattices: Map<Slice, { values: WebGLTexture; blocks: WebGLTexture }>;
 }
 
-/** What can hide fog: the balls and bars ("frame"), through whose antialiased edges fog is seen; or the surfaces. */
+/**
+ * The kinds of shapes that can hide fog. "frame" means balls and bars, whose antialiased edges let fog shine through;
+ * "surfaces" means surfaces of fields.
+ */
 type FogOccluders = "frame" | "surfaces";
 
 export class FogPainter {
     private picture: Slices | undefined; // the newest picture; undefined if it has no fog
     private resources: FogResources | undefined; // created when they are needed
-    // The depths of the occluders; created when they are needed.
+    // Framebuffers with the depths of each kind of occluder; created at the first use.
     private targets: Record<FogOccluders, WebGLRenderTarget> | undefined;
     private readonly gl: WebGL2RenderingContext;
 
@@ -151,7 +157,7 @@ export class FogPainter {
         return this.picture !== undefined;
     }
 
-    /** Uploads everything again, after the context has been lost and restored. */
+    /** Uploads all data to the GPU again. Must be called after the WebGL context was lost and restored. */
     uploadAfterContextLoss(): void {
         this.resources = undefined;
         if (this.picture) this.upload();
@@ -201,8 +207,8 @@ export class FogPainter {
     }
 
     /**
-     * Stores the depths of the occluders of one kind, in a picture of this size, for the method draw(). Calls the
-     * function `draw`, which must draw all occluders of this kind, and nothing else.
+     * Stores the depths of all occluders of one kind in a framebuffer of this size, for a later call of draw(). `draw`
+     * must draw all occluders of this kind, and nothing else.
      */
     drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
         this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };
@@ -214,7 +220,7 @@ export class FogPainter {
         this.renderer.setRenderTarget(null);
     }
 
-    /** Prepares for draw(). To be called after drawDepths() for both kinds of occluders. */
+    /** Prepares for draw(). Must be called after drawDepths() for both kinds of occluders. */
     begin(viewCamera: ViewCamera): void {
         const { gl, picture, resources } = this;
         if (!picture || !resources) return;
@@ -222,17 +228,16 @@ export class FogPainter {
         gl.useProgram(program);
         gl.uniformMatrix4fv(uniforms.view, false, viewCamera.view.elements);
         gl.uniformMatrix4fv(uniforms.projection, false, viewCamera.projection.elements);
-        // A point at the distance d along the view axis has the depth −P₂₂ + P₂₃ / d, where P is the projection matrix,
-        // with indices from 0.
+        // A point at distance d along the view axis has the depth −P₂₂ + P₂₃ / d. P is the projection matrix, with
+        // indices from 0.
         gl.uniform2f(uniforms.toDepth, -viewCamera.projection.elements[10]!, viewCamera.projection.elements[14]!);
         kSamplers.forEach((name, unit) => gl.uniform1i(uniforms[name], unit));
     }
 
     /**
-     * Blends a part of the fog of one slice with the picture. `behind` is the fog behind the nearest ball or bar. The
-     * caller draws this fog before the balls and bars, so that it is seen through their edges. `inFront` is the rest:
-     * the fog in front of the nearest ball or bar, or all of the fog where there is none. The caller draws the slices
-     * from far to near.
+     * Blends a part of the fog of one slice with the picture. `behind` is the fog behind the nearest ball or bar; the
+     * caller must draw it before the balls and bars, so that it shines through their edges. `inFront` is the rest of
+     * the fog. The caller must draw the slices from far to near.
      */
     draw(slice: Slice, viewCamera: ViewCamera, part: "behind" | "inFront"): void {
         const { gl, picture, resources, targets } = this;
@@ -273,7 +278,7 @@ export class FogPainter {
         gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-        gl.enable(gl.CULL_FACE); // draws the back of the box, which is seen even if the eye is in the box
+        gl.enable(gl.CULL_FACE); // draws only the back of the box, which is visible even from inside the box
         gl.cullFace(gl.FRONT);
         gl.drawElements(gl.TRIANGLES, kTriangles.length, gl.UNSIGNED_BYTE, 0);
         gl.bindVertexArray(null);
@@ -282,18 +287,17 @@ export class FogPainter {
 }
 
 /**
- * A framebuffer whose depths can be read. `samples` is the number of samples per pixel; 0 means no multisampling. Balls
- * and bars need multisampling, because they are antialiased by alpha to coverage.
+ * Makes a framebuffer whose depths can be read. `samples` is the number of samples per pixel; 0 means no multisampling.
+ * Balls and bars need multisampling, because alpha to coverage antialiases them.
  */
 function makeTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
 }
 
 /**
- * The four channels of each texel of the table, one texel for each value of the fog: red, green and blue from 0 to 1,
- * and the absorption coefficient a per circumradius. A layer with the thickness d, in circumradii, lets through
- * exp(−a·d) of the light. `table` has colors 0xAARRGGBB; AA / 255 is the opacity of a layer as thick as the
- * circumradius.
+ * The texels of the fog's color table, one for each value. The four channels are red, green and blue from 0 to 1, and
+ * the absorption coefficient a per circumradius. A layer of d circumradii lets through exp(−a·d) of the light. `table`
+ * has colors 0xAARRGGBB, where AA / 255 is the opacity of a layer that is one circumradius thick.
  */
 function colorTexelsOf(table: ArrayLike<number>): Float32Array {
     const looks = new Float32Array(4 * table.length);
@@ -305,7 +309,7 @@ function colorTexelsOf(table: ArrayLike<number>): Float32Array {
     return looks;
 }
 
-/** Two bytes for each lattice point: its value and 255, or 0 and 0 where the field has no value. */
+/** Two bytes for each lattice point: its value and 255. Both bytes are 0 where the field has no value. */
 function valueTexelsOf({ values }: Fog): Uint8Array {
     const texels = new Uint8Array(2 * values.length);
     for (let i = 0; i < values.length; ++i) {
@@ -316,9 +320,9 @@ function valueTexelsOf({ values }: Fog): Uint8Array {
 }
 
 /**
- * The number of blocks along each axis, and a byte for each block: 255 if fog may be visible in the block, else 0. Fog
- * may be visible if at least one value between the least and the greatest value at the points of the block is not
- * transparent.
+ * Finds which blocks of the lattice may show fog. Returns the number of blocks along each axis, and a byte for each
+ * block: 255 if fog may be visible in it, 0 if not. Fog may be visible if any value between the least and the greatest
+ * value in the block is not transparent.
  */
 function blockVisibilityOf({ size, values }: Fog, table: ArrayLike<number>): [[number, number, number], Uint8Array] {
     const [x, y, z] = size;
@@ -335,7 +339,7 @@ function blockVisibilityOf({ size, values }: Fog, table: ArrayLike<number>): [[n
             for (let j = first[1]!; j <= Math.min(first[1]! + kBlock, y - 1); ++j) {
                 for (let i = first[0]!; i <= Math.min(first[0]! + kBlock, x - 1); ++i) {
                     const value = values[(k * y + j) * x + i]!;
-                    if (value === 0) continue; // a point without a value does not count
+                    if (value === 0) continue; // a point without a value
                     least = Math.min(least, value);
                     greatest = Math.max(greatest, value);
                 }

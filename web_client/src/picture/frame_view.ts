@@ -1,4 +1,4 @@
-// Frame mode: shows pictures that the server has rendered.
+// Frame mode: shows pictures that the server has drawn.
 
 import { ImageDecoder } from "./image_decoder";
 
@@ -12,8 +12,8 @@ export class FrameView {
     }
 
     /**
-     * Decodes a frame in a worker; draw() then shows it. Transfers the buffer of `png` to the worker, so the caller can
-     * no longer use it.
+     * Decodes a picture in a web worker. The next call of draw() shows it. The buffer of `png` moves to the worker, so
+     * the caller can no longer use it.
      */
     async decode(png: Uint8Array): Promise<void> {
         this.decoder ??= new ImageDecoder();

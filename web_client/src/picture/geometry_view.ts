@@ -1,8 +1,8 @@
-// Geometry mode: renders the slices and the projection with WebGL; draws the labels, parallel coordinates and other 2-D
-// content on a second canvas, which lies on top.
+// Geometry mode: draws slices and projection with WebGL. Draws labels, parallel coordinates and other 2-D parts on a
+// second canvas on top.
 
 import { type BufferGeometry, Camera, Color, ColorManagement, GLSL3, LinearSRGBColorSpace } from "three";
-// A Drawing, which three.js calls Mesh, is a geometry and the material with which it is drawn.
+// `Drawing` is the class Mesh of three.js: a geometry with the material that draws it.
 import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRenderer } from "three";
 
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
@@ -60,11 +60,11 @@ export class GeometryView {
     private pointed: HighlightedElements | undefined;
     private highlighted: HighlightedElements | undefined;
     /**
-     * The hit tester of the picture; undefined before the first picture. The hit tester is valid until the next
-     * picture.
+     * The hit tester of the picture, which finds the element at a pixel. Undefined before the first picture, and valid
+     * until the next picture.
      */
     hitTester: HitTester | undefined;
-    private sortedOrbit: Orbit | undefined; // the orbit for which the meshes are ordered
+    private sortedOrbit: Orbit | undefined; // the orbit for which the meshes are sorted
     private readonly background = new Color();
 
     /** Requires WebGL 2. */
@@ -101,10 +101,11 @@ export class GeometryView {
     }
 
     /**
-     * The material of a mesh. `painted`: all shapes are drawn in painter's order, without a depth test. `solid`: shapes
-     * are drawn with the depth buffer, and antialiased by alpha to coverage. `blended`: shapes are tested against the
-     * depth buffer, but not written to it, so they hide nothing that is drawn later; they are blended in painter's
-     * order.
+     * Makes the material of a mesh:
+     * - `painted`: shapes are drawn in painter's order, without a depth test.
+     * - `solid`: shapes use the depth buffer, and alpha to coverage antialiases them.
+     * - `blended`: shapes are blended in painter's order. The depth buffer hides them, but they are not written to it,
+     *   so they hide nothing.
      */
     private makeMaterial(kind: "painted" | "solid" | "blended", uniforms = this.uniforms): RawShaderMaterial {
         const [painted, solid] = [kind === "painted", kind === "solid"];
@@ -112,13 +113,13 @@ export class GeometryView {
             ...{ vertexShader, fragmentShader, glslVersion: GLSL3, uniforms },
             ...{ transparent: !solid, alphaToCoverage: solid, depthTest: !painted, depthWrite: solid },
             defines: painted ? {} : { SOLID: 1 },
-            side: 2, // DoubleSide: patches may be seen from either side
+            side: 2, // DoubleSide: both sides of a face may be visible
         });
     }
 
     /**
-     * Replaces the slices to draw. `orbit` is the orbit for which the server placed the camera of the picture; `counts`
-     * has the polytope's numbers of elements.
+     * Replaces the picture to draw. `orbit` is the orbit for which the server placed the picture's camera. `counts` has
+     * the polytope's numbers of elements.
      */
     update(picture: Slices, orbit: Orbit, counts: ElementCounts): void {
         this.counts = counts;
@@ -143,7 +144,7 @@ export class GeometryView {
         this.projectionUniforms.barRadius.value = this.projectionMesh.barRadius;
     }
 
-    /** Highlights these elements, which are under the pointer, until the next call. Does not draw. */
+    /** Highlights the elements under the pointer until the next call. Does not redraw the picture. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.pointed = pointed;
         const { picture, highlighted: before } = this;
@@ -156,7 +157,7 @@ export class GeometryView {
     }
 
     /**
-     * Draws the slices as seen from this orbit. `size` and `leastText`, the least font size of labels, are in device
+     * Draws the picture as seen from this orbit. `size` and `leastText`, the least font size of labels, are in device
      * pixels.
      */
     draw(orbit: Orbit, size: Viewport, leastText: number): void {
@@ -184,8 +185,8 @@ export class GeometryView {
     }
 
     /**
-     * Draws the picture on white with `pen`, whose canvas has this size. Afterwards, the caller must call draw(), to
-     * show the picture on the page again.
+     * Draws the picture on white with `pen`, whose canvas has the size `size`. The caller must then call draw(), which
+     * shows the usual picture on the page again.
      */
     drawForPrint(pen: CanvasRenderingContext2D, orbit: Orbit, size: Viewport, leastText: number): void {
         const { picture, pictureOrbit, counts, pointed } = this;
@@ -199,8 +200,8 @@ export class GeometryView {
     }
 
     /**
-     * Sets the alpha of all pixels to 1. Alpha to coverage leaves other values in the canvas, which Firefox on Mesa uses
-     * when it composes the page, although the context has no alpha.
+     * Sets the alpha of all pixels to 1. Alpha to coverage leaves other values in the canvas. Firefox on Mesa uses them
+     * when it composes the page, although the context has no alpha channel.
      */
     private makeOpaque(): void {
         const gl = this.renderer.getContext();
@@ -211,8 +212,8 @@ export class GeometryView {
     }
 
     /**
-     * Renders the projection and then the slices. Slices are not tested against the depths of the projection, so that
-     * it never covers a slice, wherever the viewer moves the camera.
+     * Renders the projection, then the slices. The depths of the projection are cleared in between, so that the
+     * projection never covers a slice.
      */
     private render(): void {
         const { renderer, fogPainter, surfacePainter, viewCamera } = this;
@@ -235,8 +236,8 @@ export class GeometryView {
     }
 
     /**
-     * Draws a part of the fog of each slice, from far to near; FogPainter.draw() describes the parts. In each slice,
-     * draws the translucent surfaces before the part "inFront".
+     * Draws a part of the fog of each slice, from far to near (see FogPainter.draw()). Before the part "inFront" of a
+     * slice, draws the slice's translucent surfaces.
      */
     private drawFogAndSurfaces(part: "behind" | "inFront"): void {
         this.fogPainter.begin(this.viewCamera);

@@ -1,5 +1,5 @@
-// A vertex buffer that each picture overwrites, and that grows to powers of two. Once it is large enough, a new picture
-// allocates no memory.
+// A vertex buffer that each new picture overwrites. Its size grows to powers of two, so most pictures allocate no
+// memory.
 
 import { BufferAttribute, DynamicDrawUsage } from "three";
 
@@ -21,7 +21,9 @@ export class GrowingBuffer<T extends NumberArray> {
         return this.attribute.array as T;
     }
 
-    /** Sets the number of items; the caller must then write them all. Returns true if a larger buffer was allocated. */
+    /**
+     * Sets the number of items; the caller must then write all of them. Returns true if a larger buffer was allocated.
+     */
     resize(items: number): boolean {
         this.used = items;
         if (items <= this.attribute.count) return false;
@@ -29,7 +31,7 @@ export class GrowingBuffer<T extends NumberArray> {
         return true;
     }
 
-    /** Marks the items as changed, so that the next rendering uploads them to the graphics card. */
+    /** Marks all items in use as changed. The next rendering then uploads them to the graphics card. */
     markChanged(): void {
         this.attribute.clearUpdateRanges();
         this.attribute.addUpdateRange(0, this.used * this.itemSize);

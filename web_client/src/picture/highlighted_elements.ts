@@ -1,5 +1,5 @@
-// What is drawn in the color of the highlight: the kept element, which the user has clicked and which is the
-// `highlight` of the state, and the element under the pointer.
+// Which elements are drawn in the highlight color. They are the kept element, which the user has clicked and which is
+// the `highlight` of the state, and the element under the pointer.
 
 import type { Highlight, PolytopeElement, SceneDescription, Slices, State } from "@oval4d/protocol";
 
@@ -8,7 +8,10 @@ export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">
 
 /** The parts of a picture that show the highlighted elements. */
 export interface HighlightedElements {
-    /** Numbers in `of.vertices` and `of.edges` (see Elements) of slices and of the projection. */
+    /**
+     * Numbers in the arrays `of.vertices` and `of.edges` of slices and of the projection; they identify elements of the
+     * polytope (see Elements).
+     */
     vertices: ReadonlySet<number>;
     edges: ReadonlySet<number>;
     /** Vertices of the polytope, numbered as in `coordinates`. */
@@ -18,8 +21,8 @@ export interface HighlightedElements {
 }
 
 /**
- * The parts of a picture that show the element under the pointer. `highlight` is the server's answer about the element;
- * without it, the parts are only those that were cut from the element itself.
+ * The parts of a picture that show the element under the pointer. `highlight` is the server's answer about the element.
+ * Without it, the parts are only those that are sections of the element itself.
  */
 export function pointedElements(
     pointed: PolytopeElement,
@@ -34,7 +37,10 @@ export function pointedElements(
     };
 }
 
-/** What was cut from an element itself; of a cell, only faces were. */
+/**
+ * The parts of a picture that are sections of an element itself. The sections of a cell are faces, which `cell`
+ * highlights.
+ */
 function ownHighlight({ element, number }: PolytopeElement, { edges, faces }: ElementCounts): Highlight {
     const own: Record<PolytopeElement["element"], Partial<Highlight>> = {
         vertex: { vertices: [edges + number], own_vertices: [number] },
@@ -58,16 +64,19 @@ export function keptAndPointedElements(
     };
 }
 
-/** What only one of two highlights of the same picture contains. */
+/** The difference between two highlights of the same picture. */
 export interface HighlightChange {
-    /** Flags of numbers in `of.vertices` and `of.edges`: see isFlagged(). */
+    /**
+     * Flags for numbers in `of.vertices` and `of.edges`; a flag is set if only one of the highlights has the number.
+     * See isFlagged().
+     */
     vertices: Uint8Array;
     edges: Uint8Array;
     /** The cells whose faces have other colors. */
     cells: readonly (number | undefined)[];
 }
 
-/** Whether a number is flagged: faster than whether it is in a set. Numbers beyond the end are not flagged. */
+/** Whether the flag of n is set; not set for numbers beyond the end. Flags in an array are faster than a set. */
 export function isFlagged(flags: Uint8Array, n: number): boolean {
     return n < flags.length && flags[n] === 1;
 }
@@ -80,7 +89,7 @@ export function changeBetween(before: HighlightedElements, after: HighlightedEle
     };
 }
 
-/** Flags of the numbers that are in only one of two sets. */
+/** Flags for numbers; a flag is set if exactly one of the two sets has the number. */
 function flagsOfDifference(before: ReadonlySet<number>, after: ReadonlySet<number>): Uint8Array {
     const differing = [...before].filter((n) => !after.has(n)).concat([...after].filter((n) => !before.has(n)));
     const flags = new Uint8Array(differing.reduce((most, n) => Math.max(most, n + 1), 0));
@@ -89,7 +98,7 @@ function flagsOfDifference(before: ReadonlySet<number>, after: ReadonlySet<numbe
 }
 
 /**
- * The color of the faces of a cell: the color of the highlight if the cell is under the pointer, else the cell's own.
+ * The color of a cell's faces: the highlight color if the cell is under the pointer, otherwise the cell's own color.
  */
 export function cellColor(cell: number, colors: SceneDescription["colors"], highlighted: HighlightedElements): number {
     return cell === highlighted.cell ? colors.highlight : (colors.cells[cell] ?? colors.bar);

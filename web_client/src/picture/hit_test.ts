@@ -1,5 +1,5 @@
-// Finds which element, or which surface of a field, is drawn at a point of the picture: projects all elements to the
-// screen, and meets the triangles of the surfaces with the ray through the point.
+// Finds the element, or the surface of a field, at a pixel of the picture. Projects all elements to the screen, and
+// intersects the surfaces with the ray through the pixel.
 
 import type { Elements, PolytopeElement, Slice, Slices, SurfaceLevel, Vector } from "@oval4d/protocol";
 
@@ -10,19 +10,25 @@ import { hitOnSurface } from "./surface_hit";
 import type { ViewCamera } from "./view_camera";
 
 /**
- * The element that was hit in a slice, in the projection or in the matrix of planar sections. A point of a planar
- * section has the kind `points`. An edge of a planar section has the kind `faces`: like a face of a slice, it is cut
- * from a cell.
+ * The element that is at a pixel, in a slice, in the projection or in the matrix of planar sections. Points of planar
+ * sections have the kind `points`. Edges of planar sections have the kind `faces`, because they are cut from cells like
+ * the faces of slices.
  */
 export interface ElementHit {
     kind: "vertices" | "edges" | "faces" | "points";
-    /** The number in `of` (see Elements and PlanarSection), which identifies the element of the polytope. */
+    /**
+     * The element's number in the array `of` (see Elements and PlanarSection). It identifies an element of the
+     * polytope.
+     */
     source: number;
     /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
 }
 
-/** The element of the polytope that was hit. */
+/**
+ * The element of the polytope that was hit. A vertex of a slice, for example, comes from an edge or a vertex of the
+ * polytope.
+ */
 export function elementOfHit({ kind, source }: ElementHit, counts: ElementCounts): PolytopeElement {
     if (kind === "points") {
         if (source < counts.faces) return { element: "face", number: source };
@@ -39,15 +45,14 @@ export function elementOfHit({ kind, source }: ElementHit, counts: ElementCounts
 }
 
 /**
- * The point that was hit on a surface of a field in a slice or in the projection, or on a contour in the matrix of
- * planar sections.
+ * A point on a surface of a field in a slice or in the projection, or on a contour in the matrix of planar sections.
  */
 export interface LevelHit {
     /** The index of the level in the `levels` of the state. */
     level: number;
-    /** Whether the point is on a cap. */
+    /** Whether the point is on a cap, the flat part where the boundary of the box cuts the body. */
     cap: boolean;
-    /** x, y, z, w after the rotation, in object units from the object's center. */
+    /** The coordinates x, y, z, w of the point after the rotation, in object units from the object's center. */
     point: [number, number, number, number];
     /** The slice that was hit; absent in the projection and in the matrix. */
     slice?: Slice;
@@ -59,12 +64,12 @@ interface PickableMesh {
     slice?: Slice;
     position: Vector;
     scale: number;
-    magnification: number; // vertices are at most this many times scale · circumradius from `position`
+    magnification: number; // vertices are within this factor times scale · circumradius of `position`
     ball: number; // the radius of balls in world units; 0 if they are not drawn
     bar: number; // the radius of bars in world units; 0 if they are not drawn
     hasFaces: boolean; // whether the faces are drawn
     surface?: PickableSurface; // the surfaces of a field that are drawn with the elements
-    distance: number; // the distance of `position` from the eye
+    distance: number; // the distance from `position` to the eye
 }
 
 /** The surfaces of a field in a slice, with their scale from object units to world space. */
@@ -74,31 +79,31 @@ interface PickableSurface {
     levels: readonly SurfaceLevel[];
 }
 
-/** What was hit in a mesh, and its distance from the eye along the axis of the camera. */
+/** What was hit in a mesh, and its distance from the eye along the view axis. */
 interface HitWithDepth {
     hit: ElementHit | LevelHit;
     depth: number;
 }
 
 export const kReach = 4; // CSS pixels: the pointer hits a ball or bar within this distance, even if they are thinner
-// For the hit test, balls and bars are moved toward the viewer by this many times their radii, so that a ball is nearer
-// than the faces around it and the bars that end in it.
+// How far the hit test moves balls and bars toward the viewer, in multiples of their radii. A ball is then nearer than
+// the faces around it and the bars that end in it.
 const kBallRise = 3;
 const kBarRise = 2;
 
 /**
- * For each vertex of the mesh that is tested, kStride numbers: x, y, z in camera coordinates, and x, y in pixels of the
- * picture.
+ * Projected vertices of the tested mesh. Each vertex has kStride numbers: x, y, z in camera coordinates, and x, y in
+ * pixels of the picture.
  */
 let projected = new Float32Array(0);
 const kStride = 5;
 
 /**
- * The element or the surface of a field at the pixel (x, y) of the picture. Of the meshes with an element or a surface
- * at the pixel, takes the mesh whose center is nearest to the eye, and returns the nearest element or surface of this
- * mesh at the pixel; slices come before the projection, over which they are drawn. In the projection of a field, the
- * surface, the bars of the box and those of the section count as one mesh. Undefined if there is none. `ratio` is the
- * number of pixels of the picture per CSS pixel.
+ * Finds the element or the surface of a field at the pixel (x, y) of the picture; undefined if there is none. If
+ * several meshes are at the pixel, takes the one whose center is nearest to the eye, and of this mesh the nearest
+ * element or surface. Slices come before the projection, because they are drawn over it. In the projection of a field,
+ * the surface, the bars of the box and those of the section count as one mesh. `ratio` is the number of picture pixels
+ * per CSS pixel.
  */
 export function hitAt(
     picture: Slices,
@@ -141,7 +146,7 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
         const { surface_scale: surfaceScale } = projection!;
         const hasSurface = i === 0 && focus && scene.surfaces && surfaceScale !== undefined;
         const surface = hasSurface && { slice: focus, scale: surfaceScale, levels: scene.surfaces! };
-        // The perspective projection from 4-D moves points of the circumscribed sphere away from the center by at most
+        // The perspective projection from 4-D moves points on the circumscribed sphere away from the center by at most
         // this factor.
         const magnification = kind === "perspective" ? eyeW / Math.sqrt(eyeW ** 2 - 1) : 1;
         const placed = { position, scale: partScale, magnification, distance: distance(position) };
@@ -155,7 +160,8 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
     const { position, scale, magnification, ball, elements } = mesh;
     const center = viewCamera.project(position);
     const depth = viewCamera.depthOf(position);
-    // A factor on the radius: the pointer also hits what is a few pixels away, and perspective enlarges the near side.
+    // A factor on the radius of the sphere: the pointer also hits shapes a few pixels away, and perspective enlarges
+    // the near side.
     const kRoom = 2;
     const largest = elements.balls?.scale.reduce((most, one) => Math.max(most, one), 1) ?? 1;
     const radius = kRoom * magnification * scale * scene.circumradius + kBallRise * ball * largest;
@@ -164,8 +170,8 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
 }
 
 /**
- * Finds the nearest element or surface of a mesh at the pixel (x, y). `reach` is the least radius of balls and bars, in
- * pixels.
+ * Finds the nearest element or surface of one mesh at the pixel (x, y). `reach` is the least radius of balls and bars,
+ * in pixels.
  */
 class MeshTest {
     private depth = Infinity;
@@ -208,8 +214,8 @@ class MeshTest {
     }
 
     /**
-     * Keeps an element if it is the nearest so far; `depth` is the distance of the element from the eye, along the axis
-     * of the camera.
+     * Records an element as the hit if it is the nearest so far. `depth` is the element's distance from the eye, along
+     * the view axis.
      */
     private keepIfNearest(kind: ElementHit["kind"], source: number, depth: number): void {
         if (depth >= this.depth) return;
@@ -264,7 +270,7 @@ class MeshTest {
         this.hit = { level, cap, point, ...(slice && { slice }) };
     }
 
-    /** Tests the faces. Consecutive loops with the same source form a single face, as in Picker in pick.cpp. */
+    /** Tests all faces. Consecutive loops with the same source form one face, as in the class Picker in pick.cpp. */
     private testFaces(): void {
         const { of, seen: visibility } = this.mesh.elements;
         for (let f = 0, end = 0; f < of.faces.length; f = end) {
@@ -275,8 +281,8 @@ class MeshTest {
     }
 
     /**
-     * The depth, at the tested point, of the face with the loops firstLoop … endLoop − 1; Infinity if the face does not
-     * cover the point. A face covers the points at which the winding number of its loops is not 0.
+     * The depth of a face at the tested pixel; Infinity if the face does not cover the pixel. The face consists of the
+     * loops firstLoop … endLoop − 1, and covers the points at which their winding number is not 0.
      */
     private depthOfFace(firstLoop: number, endLoop: number): number {
         const { begin, corners } = this.mesh.elements.faces;
@@ -296,7 +302,7 @@ class MeshTest {
                 p = q;
             }
         }
-        if (winding === 0) return Infinity; // true of nearly all faces, so the plane of a face is computed only now
+        if (winding === 0) return Infinity; // nearly all faces end here, so the plane of a face is computed after it
         let [nx, ny, nz] = [0, 0, 0];
         for (let loop = firstLoop; loop < endLoop; ++loop) {
             const [x, y, z] = doubleAreaVector(projected, corners, [begin[loop]!, begin[loop + 1]!], kStride);

@@ -1,4 +1,4 @@
-// Finds what is at a point of a picture, and which fraction of its slices is visible.
+// Finds what is at a pixel of a picture, and which fraction of its slices is visible.
 
 import type { Orbit, Slice, Slices, Viewport } from "@oval4d/protocol";
 
@@ -12,15 +12,15 @@ import { ViewCamera } from "./view_camera";
 export class HitTester {
     private readonly viewCamera = new ViewCamera();
 
-    /** `orbit` is the orbit for which the server placed the camera of this picture. */
+    /** `orbit` is the orbit for which the server placed the picture's camera. */
     constructor(
         readonly picture: Slices,
         private readonly orbit: Orbit,
     ) {}
 
     /**
-     * The fraction of the drawn slices whose centers are within a picture of this size, as seen from an orbit, and are
-     * not covered by the parallel coordinates.
+     * The fraction of the drawn slices that are visible in a picture of this size, as seen from `orbit`. A slice is
+     * visible if its center is within the picture and not covered by the parallel coordinates.
      */
     visibleShare(orbit: Orbit, size: Viewport): number {
         this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);
@@ -35,8 +35,8 @@ export class HitTester {
 
     /**
      * The slice at a point of the picture, in pixels; undefined if there is none. Each slice has a disc around its
-     * center, which reaches to its farthest vertex, and has a radius of at least `minRadius` pixels. Of the slices
-     * whose discs contain the point, the one with the nearest center is returned.
+     * center. The disc reaches to the slice's farthest vertex, and its radius is at least `minRadius` pixels. If
+     * several discs contain the point, the slice with the nearest center is returned.
      */
     sliceAt(x: number, y: number, orbit: Orbit, size: Viewport, minRadius: number): Slice | undefined {
         this.viewCamera.set(this.picture.scene.camera, size, this.orbit, orbit);
@@ -54,7 +54,7 @@ export class HitTester {
 
     /**
      * The element, or the surface or contour of a field, at a point of the picture, in pixels; undefined if there is
-     * none. `ratio` is the number of these pixels per CSS pixel.
+     * none. `ratio` is the number of picture pixels per CSS pixel.
      */
     hitAt(x: number, y: number, orbit: Orbit, size: Viewport, ratio: number): ElementHit | LevelHit | undefined {
         const { matrix, scene } = this.picture;
@@ -73,8 +73,8 @@ export class HitTester {
     }
 
     /**
-     * Whether the parallel coordinates cover slices at the height `y` of the picture, in pixels from the top.
-     * `viewCamera` must have been set before.
+     * Whether the parallel coordinates cover slices at the height `y`, in pixels from the top of the picture. The
+     * caller must have set `viewCamera`.
      */
     private isCovered(y: number, size: Viewport): boolean {
         const { scene } = this.picture;
@@ -89,7 +89,7 @@ export class HitTester {
         return matrix && panelAt(matrix, x, y, size);
     }
 
-    /** The largest distance of a vertex from the slice's center in the picture, in pixels. */
+    /** The radius of a slice in the picture, in pixels: the largest distance of a vertex from the slice's center. */
     private radiusOf({ vertices, position: [x, y, z] }: Slice): number {
         const { scale } = this.picture.scene;
         const center = this.viewCamera.project([x, y, z]);

@@ -1,4 +1,4 @@
-// Decodes PNG files in a web worker, decode_worker.ts.
+// Decodes PNG files in a web worker (decode_worker.ts).
 
 interface PendingDecode {
     resolve(bitmap: ImageBitmap): void;
@@ -21,7 +21,7 @@ export class ImageDecoder {
         };
     }
 
-    /** Decodes a PNG file. Transfers the file's buffer to the worker, so the caller can no longer use it. */
+    /** Decodes a PNG file. The buffer of `png` moves to the worker, so the caller can no longer use it. */
     decode(png: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
         return new Promise((resolve, reject) => {
             this.pending.push({ resolve, reject });

@@ -12,15 +12,15 @@ const kFillOpacity = 0.16;
 const kAxisOpacity = 0.55; // the opacity of the lines through the focus point
 const kCorner = 0.03; // the radius of a panel's corners, as a fraction of its side
 const kAxes = ["x", "y", "z", "w"] as const;
-// The font sizes of an axis' name and of its unit, as fractions of a panel's side.
+// The font sizes of an axis's name and of its unit, as fractions of a panel's side.
 const [kNameHeight, kUnitHeight] = [0.3, 0.1];
-const kFocusLine = 0.0011; // the width of the lines through the focus point, as a fraction of the viewport's height
-// For the lines that show the focus point in the focus slice: half their length, in circumradii; and their width, as a
-// fraction of the viewport's height.
+const kFocusLine = 0.0011; // the width of the lines through the focus point, in viewport heights
+// The lines that mark the focus point in the focus slice: half their length in circumradii, and their width in viewport
+// heights.
 const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
-/** What the functions that draw a panel need, and what is the same for all panels of a picture. */
+/** Data for drawing a panel that are the same for all panels of a picture. */
 interface PanelContext {
     pen: CanvasRenderingContext2D;
     matrix: SectionMatrix;
@@ -122,7 +122,7 @@ function boxOf({ x, y, half }: MatrixPanel) {
 
 type Quadruple = [number, number, number, number];
 
-/** Fills the section of a convex polytope if its edges form a single closed polygon. */
+/** Fills the section of a convex polytope. Does nothing if the edges of the section do not form one closed polygon. */
 function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelContext): void {
     const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
     if (boundary.length === 0 || !isConvex) return;
@@ -133,7 +133,10 @@ function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen
     pen.fill();
 }
 
-/** Draws the lines in which the panel's plane meets the planes of the other panels in its row and its column. */
+/**
+ * Draws two lines through the focus point. In them, the panel's plane meets the planes of the other panels in its row
+ * and in its column.
+ */
 function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelContext): void {
     const { row, column, section } = panel;
     const [first, second] = section.axes;

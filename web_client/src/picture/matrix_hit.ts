@@ -1,4 +1,4 @@
-// Finds the point, the edge or the contour of a planar section that is drawn at a pixel of its panel.
+// Finds the point, edge or contour of a planar section at a pixel of a matrix panel.
 
 import type { SceneDescription, SectionMatrix, Viewport } from "@oval4d/protocol";
 
@@ -8,9 +8,8 @@ import type { MatrixPanel } from "./matrix_panel";
 type Pixel = readonly [x: number, y: number];
 
 /**
- * The section's point nearest to the pixel, if a point is drawn at the pixel or is within `reach` pixels of it. If
- * there is no such point, the nearest edge that is drawn at the pixel or is within `reach` pixels of it; else the
- * nearest such contour. Undefined if there is none.
+ * Finds what is drawn at the pixel, or within `reach` pixels of it: the nearest point of the section; without a point,
+ * the nearest edge; without an edge, the nearest contour. Undefined if there is none.
  */
 export function hitInPanel(
     panel: MatrixPanel,
@@ -68,7 +67,7 @@ export function distanceFromSegment(pixel: Pixel, from: Pixel, to: Pixel): numbe
     return Math.hypot(from[0] + part * (to[0] - from[0]) - pixel[0], from[1] + part * (to[1] - from[1]) - pixel[1]);
 }
 
-/** Where a line segment is nearest to a pixel: 0 at its start, 1 at its end. */
+/** The position on a line segment that is nearest to a pixel: 0 at the segment's start, 1 at its end. */
 function nearestPart([x, y]: Pixel, [fromX, fromY]: Pixel, [toX, toY]: Pixel): number {
     const [dx, dy] = [toX - fromX, toY - fromY];
     const along = ((x - fromX) * dx + (y - fromY) * dy) / (dx * dx + dy * dy || 1);

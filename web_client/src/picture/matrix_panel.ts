@@ -1,16 +1,16 @@
-// Where the panels of the matrix of planar sections are in the picture. Pixels are counted from the upper left corner.
+// Positions of the matrix panels in the picture. Pixels are counted from the picture's upper left corner.
 
 import type { PlanarSection, SectionMatrix, Viewport } from "@oval4d/protocol";
 
 const kAxes = [0, 1, 2, 3] as const; // x, y, z, w
 
 /**
- * The panel in row `row` and column `column` of the matrix. It shows the section by a plane: axis `column` points to
- * the right, axis `row` upward.
+ * The matrix panel in row `row` and column `column`, both 0 to 3. It shows the section of the object by a plane; axis
+ * `column` points to the right, axis `row` upward.
  */
 export class MatrixPanel {
     readonly section: PlanarSection;
-    /** The center in pixels, where the panel shows the origin. */
+    /** The pixel at the center of the panel, where the panel shows the origin. */
     readonly x: number;
     readonly y: number;
     /** Half the side of the panel, in pixels. */
@@ -37,7 +37,7 @@ export class MatrixPanel {
         return [this.x + across * this.pixelsPerUnit, this.y - up * this.pixelsPerUnit];
     }
 
-    /** The point of the panel that is nearest to a pixel: its coordinates along axis `column` and axis `row`. */
+    /** The point of the panel that is nearest to a pixel, as coordinates along axis `column` and axis `row`. */
     coordinatesAt(x: number, y: number): [across: number, up: number] {
         const within = (offset: number): number => Math.min(this.half, Math.max(-this.half, offset));
         return [within(x - this.x) / this.pixelsPerUnit, within(this.y - y) / this.pixelsPerUnit];
@@ -51,7 +51,7 @@ export function panelsOf(matrix: SectionMatrix, viewport: Viewport): MatrixPanel
     );
 }
 
-/** The center, in pixels, of that panel on the diagonal of the matrix which shows the name of `axis`, 0 to 3. */
+/** The center, in pixels, of the diagonal panel that shows the name of `axis`, 0 to 3. */
 export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: number, { height }: Viewport) {
     return {
         x: (left + axis * step + panel / 2) * height,
@@ -59,7 +59,7 @@ export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: n
     };
 }
 
-/** The panel that contains a pixel; undefined on the diagonal, between the panels and outside the matrix. */
+/** The panel at a pixel; undefined on the diagonal of the matrix, between the panels and outside the matrix. */
 export function panelAt(matrix: SectionMatrix, x: number, y: number, viewport: Viewport): MatrixPanel | undefined {
     const { left, bottom, panel, step } = matrix;
     const [across, up] = [x / viewport.height - left, 1 - y / viewport.height - bottom];

@@ -1,29 +1,31 @@
-// Converts a picture to colors with enough contrast on white paper, for printing. The page converts its own pictures,
-// because printing cannot wait until the server has sent a picture with a white background.
+// Converts a picture to colors with enough contrast on white paper, for printing. The page converts its own picture,
+// because printing cannot wait for another picture from the server.
 
 import type { Slices } from "@oval4d/protocol";
 
 import table from "../../../protocol/colors.json";
 
 const kLeastContrast = 3.6; // the least contrast to white, as in server/scene/color.cpp
-// The greatest luminance with at least this contrast to white (WCAG 2.2).
+// The greatest luminance whose contrast to white is at least kLeastContrast (WCAG 2.2).
 const kMostLuminance = 1.05 / kLeastContrast - 0.05;
 
 const numberOf = (color: string): number => parseInt(color.slice(1), 16);
 const { dark, light } = table.schemes;
-/** The greatest opacity of translucent faces; 1 has another meaning: see `opacity` in protocol/README.md. */
+/** The greatest opacity of translucent faces. The value 1 has another meaning: see `opacity` in protocol/README.md. */
 const kMostTranslucent = 0.999;
 
 function fixedColors({ text, focus, ball, bar, zero, highlight, axes }: typeof dark): number[] {
     return [text, focus, ball, bar, zero, highlight, ...axes].map(numberOf);
 }
 
-/** For each fixed color of pictures on a dark ground, the color that replaces it on a light ground. */
+/** Maps each fixed color of pictures on dark ground to the corresponding color on light ground. */
 const kReplaced = new Map(
     fixedColors(dark).map((color, i): [number, number] => [color, fixedColors(light)[i]!]),
 );
 
-/** Returns the picture in colors for white. The result shares most of its data that are not colors with `picture`. */
+/**
+ * Returns the picture with colors for a white background. The result shares with `picture` most data other than colors.
+ */
 export function onWhite(picture: Slices): Slices {
     const { scene, slices, projection, histogram } = picture;
     const background = numberOf(table.grounds.white);
@@ -85,15 +87,12 @@ export function onWhite(picture: Slices): Slices {
     };
 }
 
-/** Converts the opacity of faces from a dark to a light ground. Translucent faces stay translucent. */
+/** Converts the opacity of faces from dark to light ground. Translucent faces stay translucent. */
 function onLightGround(opacity: number): number {
     return opacity < 1 ? Math.min((opacity * light.faces) / dark.faces, kMostTranslucent) : opacity;
 }
 
-/**
- * The color itself if its contrast to white is large enough, otherwise a darker color of the same hue with this
- * contrast.
- */
+/** Returns a color with enough contrast to white: the color itself, or a darker color of the same hue. */
 function darkened(color: number): number {
     const channels = [16, 8, 0].map((shift) => {
         const value = ((color >> shift) & 255) / 255;

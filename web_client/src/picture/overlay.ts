@@ -1,5 +1,5 @@
-// Draws the axes, the labels, the parallel coordinates and the matrix of planar sections over the picture. Positions
-// are rounded to canvas pixels, so that lines are sharp.
+// Draws the axes, labels, parallel coordinates and matrix of planar sections over the picture. Rounds positions to
+// whole pixels, so that lines are sharp.
 
 import type { SceneDescription, Slice, Slices, Viewport } from "@oval4d/protocol";
 
@@ -31,35 +31,38 @@ export function drawOverlay(
 }
 
 /**
- * The height of the upper edge of the parallel coordinates above the bottom of the picture, in pixels, as
- * CoordinatesLayout::top() in C++.
+ * The height of the parallel coordinates, from the bottom of the picture to their upper edge, in pixels.
+ * CoordinatesLayout::top() in C++ computes the same height.
  */
 export function heightOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
     return (zero + amplitude + 0.01) * height;
 }
 
-/** Covers slices that extend into the parallel coordinates. They can do so only if the viewer has moved the camera. */
+/**
+ * Covers the parts of slices that extend into the parallel coordinates. This happens only after the viewer has moved
+ * the camera.
+ */
 function clearCoordinatesArea(pen: CanvasRenderingContext2D, scene: SceneDescription, viewport: Viewport): void {
     const top = Math.round(heightOfCoordinates(scene, viewport));
     pen.fillStyle = cssColor(scene.colors.background);
     pen.fillRect(0, viewport.height - top, viewport.width, top);
 }
 
-/** The label of a slice, at its place in the picture. */
+/** The label of a slice, with its position in the picture. All lengths are in canvas pixels. */
 interface OverlayLabel {
     slice: Slice;
     x: number;
     y: number;
-    size: number; // font size, in canvas pixels like the other members
+    size: number; // font size
     digits: number; // height of the digits
     half: number; // half the width of the text
-    room: number; // half the width of the room that other labels must leave free
+    room: number; // half the width that other labels must leave free
 }
 
 /**
- * Draws the labels of the slices. A label that is too small to read is enlarged. A label is omitted if it overlaps the
- * label of a slice nearer to the focus slice, or if an edge of the picture would cut it, as can happen after it was
- * enlarged or the viewer has moved the camera. The label of the focus slice is always drawn.
+ * Draws the labels of the slices. Enlarges labels that are too small to read. Omits a label that overlaps the label of
+ * a slice nearer to the focus slice, or that an edge of the picture would cut. Always draws the label of the focus
+ * slice.
  */
 function drawLabels(
     pen: CanvasRenderingContext2D,
@@ -75,13 +78,13 @@ function drawLabels(
             ? viewport.height - heightOfCoordinates(scene, viewport)
             : viewport.height;
     const labeled = slices.filter((slice) => slice.drawn && slice.label !== "");
-    // All labels take as much room as the widest one. Otherwise more labels would be omitted on the side of the focus
-    // where they have a minus sign than on the other side.
+    // Each label reserves the width of the widest label. Otherwise minus signs would cause more omitted labels on one
+    // side of the focus slice than on the other.
     const sample = 100; // the font size at which the labels are measured
     setFontAndMeasureDigits(pen, sample);
     const widest = Math.max(...labeled.map((slice) => (slice.focus ? 0 : pen.measureText(slice.label).width / sample)));
-    // Labels nearer to the focus slice are placed first. Of two labels at the same distance, the one that is first in
-    // `slices` comes first, as in LabelLayout::removeOverlappingLabels() in C++.
+    // Labels nearer to the focus slice are placed first. At equal distances, the first in `slices` comes first, as in
+    // LabelLayout::removeOverlappingLabels() in C++.
     const focusIndex = slices.find((slice) => slice.focus)?.index ?? 0;
     const fromFocus = ({ index }: Slice): number => Math.abs(index - focusIndex);
     labeled.sort((a, b) => fromFocus(a) - fromFocus(b));
@@ -112,7 +115,7 @@ function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, 
     setFontAndMeasureDigits(pen, label.size);
     const x = Math.round(label.x);
     const baseline = Math.round(label.y + digits);
-    // A background behind the label keeps it legible where it covers another slice.
+    // A background behind the label keeps it legible over another slice.
     const half = Math.round(label.half) + Math.round((focus ? 0.9 : 0.25) * digits);
     const margin = Math.round((focus ? 0.6 : 0.13) * digits);
     const height = digits + 2 * margin;
@@ -160,7 +163,7 @@ function drawAxes(
         pen.lineTo(tipX, tipY);
         pen.stroke();
         ball(tipX, tipY, 0.065, color);
-        // The name of an axis that points toward the viewer is placed beside it.
+        // If an axis points toward the viewer, its name is beside the axis.
         const across = Math.hypot(direction.x, direction.y);
         const [nameX, nameY] = across * 1.28 < 0.3 ? [0.3, -0.3] : [direction.x * 1.28, direction.y * 1.28];
         pen.fillText(name, Math.round(x + nameX * length), Math.round(y - nameY * length + 0.4 * digits));

@@ -1,7 +1,8 @@
-// The painter's algorithm for the mesh of slices_mesh.ts. The slices are painted from far to near; of each slice, first
-// the back faces, then the balls and bars on the back, then the front faces, then the other balls and bars. Balls are
-// painted from far to near, and each ball is followed by its bars to nearer balls. Therefore a bar covers the farther
-// of its two balls, and the nearer ball covers the bar. This order is exact for convex slices that do not overlap.
+// The painter's algorithm for the mesh of slices_mesh.ts: sorts shapes so that later ones cover earlier ones. Slices
+// are painted from far to near. Of each slice, the back faces come first, then the balls and bars on the back, then the
+// front faces, then all other balls and bars. Balls are painted from far to near. After each ball, its bars to nearer
+// balls follow, so a bar covers its farther ball, and its nearer ball covers the bar. This order is exact for convex
+// slices that do not overlap.
 
 import type { Parts } from "@oval4d/protocol";
 
@@ -17,12 +18,12 @@ export class PaintersOrder {
     private vertexInFront = new Uint8Array(0);
     private edgeInFront = new Uint8Array(0);
     private faceInFront = new Uint8Array(0);
-    private nearness = new Float32Array(0); // for each vertex; increases toward the viewer
-    private order = new Uint32Array(0); // each slice's vertices from far to near
-    private scratch = new Uint32Array(0); // the working memory of sortByKey()
+    private nearness = new Float32Array(0); // one number for each vertex; larger is nearer to the viewer
+    private order = new Uint32Array(0); // the vertices of each slice, from far to near
+    private scratch = new Uint32Array(0); // working memory of sortByKey()
     private rank = new Uint32Array(0); // the index of each vertex in `order`
     private readonly sliceRanges: SliceRanges[] = []; // the slices from far to near
-    // A slice's edges, grouped by the rank of the farther of their two vertices.
+    // The edges of a slice, grouped by the rank of each edge's farther vertex.
     private readonly edgesByRank = new EdgeBuckets();
     private out = new Uint32Array(0);
     private used = 0;
@@ -42,7 +43,7 @@ export class PaintersOrder {
         this.rank = ensureCapacity(this.rank, vertexCount);
     }
 
-    /** Writes the mesh's indices to `out`, and returns their number. */
+    /** Writes the indices of the mesh in painting order to `out`, and returns their number. */
     writeIndices(viewCamera: ViewCamera, out: Uint32Array<ArrayBuffer>): number {
         this.out = out;
         this.used = 0;
@@ -68,9 +69,7 @@ export class PaintersOrder {
         this.sliceRanges.sort((a, b) => b.distance - a.distance);
     }
 
-    /**
-     * Finds which faces of a slice are turned to the viewer. A vertex or edge is in front if it belongs to such a face.
-     */
+    /** Finds the faces of a slice that are turned toward the viewer. A vertex or an edge of such a face is in front. */
     private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: ViewCamera): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexInFront.fill(0, ...vertices);

@@ -1,8 +1,8 @@
 // Geometry of polygons in flat arrays.
 
 /**
- * The normal of the polygon corners[begin] … corners[end − 1], by Newell's method; its length is twice the area. The
- * coordinates of point p begin at points[stride · p].
+ * Computes the normal of a polygon by Newell's method; its length is twice the polygon's area. The polygon has the
+ * corners corners[begin] … corners[end − 1]. The coordinates of point p begin at points[stride · p].
  */
 export function doubleAreaVector(
     points: Float32Array,

@@ -1,6 +1,6 @@
-// The projection of the whole object as two meshes, both with a depth test. The solid mesh has the balls and bars of
-// the object, which hide what is behind them. The translucent mesh has the faces, the sections and the faded elements,
-// which are blended from far to near.
+// The projection of the whole object as two meshes, both tested against the depth buffer. The solid mesh has the opaque
+// balls and bars of the object; they hide what is behind them. The translucent mesh has the faces, the sections and the
+// faded elements; they are blended from far to near.
 
 import { BufferGeometry } from "three";
 
@@ -16,7 +16,7 @@ import { sortByKey } from "./sort";
 import type { ViewCamera } from "./view_camera";
 
 /**
- * Which point determines the depth of a translucent shape: the middle of a polygon, the center of a ball, or the
+ * The point that determines the depth of a translucent shape: the middle of a polygon, the center of a ball, or the
  * farther or nearer end of a bar.
  */
 const kMiddle = 0;
@@ -26,13 +26,13 @@ const kNearEnd = 3;
 
 type ProjectionPart = ObjectProjection["parts"][number];
 
-/** The convex polygons that show the faces of a part. */
+/** The convex polygons that show the faces of one part of the projection. */
 interface PartPolygons {
     /** x, y, z of each point. */
     points: Float32Array;
-    /** As in Elements.faces, with indices in `points`. */
+    /** The corners of the polygons, in the format of Elements.faces, with indices into `points`. */
     faces: Elements["faces"];
-    /** For each polygon, the cell that determines its color, and its visibility. */
+    /** For each polygon: the cell that determines its color (`tints`), and its visibility (`seen`). */
     tints: Uint32Array;
     seen: Uint32Array | undefined;
 }
@@ -50,7 +50,8 @@ export class ProjectionMesh {
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // number of vertices in `shapes`
     private polygons: PartPolygons[] = []; // of each part of the picture
-    // For each translucent shape: its first vertex, the number of its vertices, and what determines its depth.
+    // Arrays with one entry for each translucent shape: its first vertex, its number of vertices, and its depth point
+    // (kMiddle …).
     private first = new Uint32Array(0);
     private size = new Uint32Array(0);
     private depthKind = new Uint8Array(0);
@@ -100,7 +101,8 @@ export class ProjectionMesh {
                     this.shapes.setVector("to", this.used, ...point(part.edges[2 * e + 1]!));
                     this.shapes.setShape(this.used, kBar, corner, part.bar / this.barRadius);
                 }
-                // The bars of a section must be drawn over the faces beside them.
+                // The bars of a section must be drawn over the faces beside them, so the nearer end determines their
+                // depth.
                 addQuad(opacity, i > 0 ? kNearEnd : kFarEnd);
             }
             if (part.opacity > 0) this.addPolygons(this.polygons[i]!, place, opacities);
@@ -113,7 +115,10 @@ export class ProjectionMesh {
         return true;
     }
 
-    /** Writes the colors, as SlicesMesh.writeColorsToBuffers() does, in the order in which update() adds the shapes. */
+    /**
+     * Writes the colors of the shapes, in the order in which update() adds them. With `change`, writes only the colors
+     * of elements whose highlight has changed.
+     */
     writeColorsToBuffers(picture: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { projection, scene } = picture;
         if (!projection) return;
@@ -155,7 +160,7 @@ export class ProjectionMesh {
         this.shapes.color.markChanged();
     }
 
-    /** Orders the translucent shapes for this camera. */
+    /** Orders the translucent shapes for this camera, from far to near. */
     sortForCamera({ view: { elements: view } }: ViewCamera): void {
         const { array: at } = this.shapes.at;
         const { array: to } = this.shapes.to;
@@ -216,7 +221,7 @@ export class ProjectionMesh {
         }
     }
 
-    /** Adds a translucent shape that consists of the `vertices` vertices that were added last. */
+    /** Adds a translucent shape. It consists of the last `vertices` vertices that have been added. */
     private addTranslucentShape(vertices: number, depthKind: number): void {
         this.first[this.count] = this.used - vertices;
         this.size[this.count] = vertices;
@@ -246,11 +251,11 @@ export class ProjectionMesh {
     }
 }
 
-/** The opacities of the shapes of a part, 0 … 1; shapes with 0 are not drawn. */
+/** The opacities of the shapes of a part, from 0 to 1. Shapes with the opacity 0 are not drawn. */
 interface PartOpacities {
     ofVertex(vertex: number): number;
     ofEdge(edge: number): number;
-    /** `seen` has the visibility of each polygon. */
+    /** `seen` has the visibility of each polygon, or is undefined if all are visible. */
     ofPolygon(seen: Uint32Array | undefined, polygon: number): number;
 }
 
@@ -263,12 +268,12 @@ function opacitiesOf({ balls, opacity, seen: visibility }: ProjectionPart, { fad
     };
 }
 
-/** The polygons to draw: the faces of a part or, if these need not be convex, the convex polygons that fill them. */
+/** The convex polygons to draw for a part: its faces or, if these may be nonconvex, the polygons that fill them. */
 function polygonsOf({ vertices, faces, of, tints, seen, fill }: ProjectionPart): PartPolygons {
     return fill ? polygonsOfFill(fill) : { points: vertices, faces, tints: tints ?? of.faces, seen: seen?.faces };
 }
 
-/** Joins the triangles of each convex polygon of a fill (see Fill). */
+/** Joins consecutive triangles of a fill to convex polygons (see Fill). */
 function polygonsOfFill({ points, triangles, tints, seen }: Fill): PartPolygons {
     const begin = [0];
     const corners: number[] = [];

@@ -1,8 +1,8 @@
-// Shader programs of painters that use WebGL without three.js.
+// Shader programs for painters that use WebGL directly, without three.js.
 
 /**
- * Compiles and links a program with the uniforms `names`. On failure, throws an Error whose message contains `of`, a
- * name for the program.
+ * Compiles and links a program, and looks up its uniforms `names`. On failure, throws an Error whose message contains
+ * `of`, a name for the program.
  */
 export function makeProgram<Name extends string>(
     gl: WebGL2RenderingContext,

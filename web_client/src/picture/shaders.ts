@@ -1,10 +1,10 @@
-// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v) and axes X, Y, Z. The normal of the
-// body at (u, v) is X·u + Y·v + Z·√(1 − u² − v²). A ball is the unit disk, and Z points to the eye. On a bar, u runs
-// across the bar; v is 0 except at the end that is farther from the eye, which is round. On a face, u = v = 0.
-// Directions of light are passed as dot products with X, Y and Z. Edges are antialiased over one pixel. A ball or bar
-// whose radius is below kThinnest is drawn with the radius kThinnest and reduced opacity.
+// Shaders that draw balls, bars and faces as flat patches with coordinates (u, v). A patch has axes X, Y and Z; the
+// normal of the drawn body at (u, v) is X·u + Y·v + Z·√(1 − u² − v²). The patch of a ball is the unit disk, with Z
+// toward the eye. On a bar, u runs across the bar; v is 0 except at the bar's far end, which is round. On a face, u = v
+// = 0. Directions of light are passed as dot products with X, Y and Z. Edges are antialiased over one pixel. A ball or
+// bar thinner than kThinnest is drawn with this radius and less opacity.
 
-/** Values of the third component of the attribute `shape`: the kind of patch. */
+/** The kinds of patches, as values of the third component of the attribute `shape`. */
 export const kBall = 0;
 export const kBar = 1;
 export const kFace = 2;
@@ -21,16 +21,17 @@ in vec4 color;
 out vec3 place;  // u, v, and half the radius in pixels
 flat out vec3 diffuse, specular, tint;
 flat out float alpha;
-flat out float leastV;  // smaller values of v count as this one
+flat out float leastV;  // lower limit for v in the fragment shader
 #ifdef SOLID
-out float depth;        // of the patch: z in camera coordinates
-flat out float bulge;   // how far the body rises from the patch toward the viewer
+out float depth;        // z of the patch in camera coordinates
+flat out float bulge;   // how far the body rises above the patch toward the viewer
 #endif
 
 const float kThinnest = 0.6;      // radius in pixels
 const float kMinFootRadius = 1.8;  // in pixels; thinner bars have no foot
 
-// Widens a thin radius, in pixels; returns the factor, and sets alpha and place.z accordingly.
+// Widens a radius, in pixels, to at least kThinnest. Returns the factor. Sets alpha, and place.z to half the new
+// radius.
 float widen(float radius, bool round) {
     float part = min(radius / kThinnest, 1.0);
     alpha = round ? part * part : part;
@@ -57,7 +58,8 @@ void ball(vec3 center, float radius, vec3 h) {
 void bar(vec3 from, vec3 end, vec3 h) {
     float radius = barRadius * shape.w / 100.0;
     if (from.z > -radius || end.z > -radius) return;
-    // The eye and the bar's axis lie in a plane with normal n; the silhouette runs parallel to the axis.
+    // n is the normal of the plane through the eye and the bar's axis. The silhouette of the bar runs parallel to the
+    // axis.
     vec3 axis = end - from, n = cross(from, end);
     float n2 = dot(n, n), axis2 = dot(axis, axis), inside2 = n2 - radius * radius * axis2;
     if (inside2 <= 0.0) return;
@@ -70,8 +72,8 @@ void bar(vec3 from, vec3 end, vec3 h) {
     vec3 side = x * (place.x * radius * wide * sqrt(n2 / inside2));
     vec3 corner = (shape.y < 0.0 ? from : end) + side;
 #ifndef SOLID
-    // A bar is drawn over the ball at its far end, and has a round foot there: the half of the circle at this end
-    // that is turned to the eye. The patch extends to where this half ends in the picture. v is 0 at the far end, and
+    // A bar is drawn over the ball at its far end, where it has a round foot: the half of the circle at this end that
+    // faces the eye. The patch extends to the end of the foot in the picture. v is 0 at the far end of the bar, and
     // grows to the end of the patch.
     bool fromIsFar = from.z < end.z;
     vec3 far = fromIsFar ? from : end, along = (fromIsFar ? axis : -axis) / sqrt(axis2);

@@ -1,16 +1,16 @@
-// The vertex buffers of balls, bars and faces, in the format of the shaders.
+// The vertex buffers of balls, bars and faces, in the format of the shaders in shaders.ts.
 
 import type { BufferGeometry } from "three";
 
 import { GrowingBuffer } from "./growing_buffer";
 
-/** The x and y of each corner of the quad that a ball or a bar is drawn on. */
+/** The x and y of the four corners of a quad. A ball or a bar is drawn on such a quad. */
 const kCorners = [-1, -1, 1, -1, -1, 1, 1, 1] as const;
 
-/** The triangles of a quad. */
+/** The two triangles of a quad, as numbers of its corners. */
 export const kQuadTriangles = [0, 1, 2, 2, 1, 3] as const;
 
-/** The fourth component of `shape` for a relative thickness of 1. */
+/** The value in the fourth component of `shape` that means the thickness 1. */
 export const kFullThickness = 100;
 
 export class ShapeBuffers {
@@ -37,12 +37,12 @@ export class ShapeBuffers {
         }
     }
 
-    /** Marks all buffers as changed, so that the next rendering uploads them. */
+    /** Marks all buffers as changed. The next rendering then uploads them to the graphics card. */
     markChanged(): void {
         for (const buffer of [this.at, this.to, this.shape, this.color]) buffer.markChanged();
     }
 
-    /** Sets the attribute `at` or `to` of a vertex; shaders.ts tells what they are for balls, bars and faces. */
+    /** Sets the attribute `at` or `to` of a vertex. shaders.ts describes what they mean for balls, bars and faces. */
     setVector(buffer: "at" | "to", vertex: number, x: number, y: number, z: number): void {
         const { array } = this[buffer];
         array[3 * vertex] = x;
@@ -51,8 +51,8 @@ export class ShapeBuffers {
     }
 
     /**
-     * Sets the kind of patch to which a vertex belongs. `corner`: the corner of the patch's quad, 0 to 3; 0 for a face.
-     * `thickness`: the radius of a bar, relative to the uniform barRadius.
+     * Sets the kind of patch to which a vertex belongs. `corner` is the corner of the patch's quad, 0 to 3; 0 for a
+     * face. `thickness` is the radius of a bar, relative to the uniform barRadius.
      */
     setShape(vertex: number, kind: number, corner = 0, thickness = 1): void {
         const { array } = this.shape;
@@ -62,7 +62,7 @@ export class ShapeBuffers {
         array[4 * vertex + 3] = Math.round(kFullThickness * thickness);
     }
 
-    /** Sets the color, 0xRRGGBB, and the opacity, 0 … 1. */
+    /** Sets the color (0xRRGGBB) and the opacity (0 to 1) of a vertex. */
     setColor(vertex: number, color: number, opacity: number): void {
         const { array } = this.color;
         array[4 * vertex] = color >> 16;

@@ -1,5 +1,5 @@
-// Balls, bars and faces of all slices as one mesh. A new picture changes the vertices of the mesh. A new picture or
-// camera changes the indices: they order all elements from far to near, so that transparency and soft edges are correct
+// The balls, bars and faces of all slices as one mesh. A new picture changes the vertices. A new picture or a new
+// camera changes the indices, which order all elements from far to near. Transparency and soft edges are then correct
 // without a depth buffer.
 
 import { BufferGeometry } from "three";
@@ -23,8 +23,8 @@ export class SlicesMesh {
     private readonly index = new GrowingBuffer(Uint32Array, 1);
 
     /**
-     * Writes the elements of a new picture. If `faces` is false, the mesh does not draw the faces: the picture shows a
-     * field, or FillMesh (fill_mesh.ts) draws them.
+     * Writes the elements of a new picture. If `faces` is false, the mesh omits the faces, because the picture shows a
+     * field or because FillMesh (fill_mesh.ts) draws the faces.
      */
     update(picture: Slices, faces: boolean, highlighted: HighlightedElements): void {
         const { elements } = this;
@@ -32,7 +32,7 @@ export class SlicesMesh {
         this.resizeBuffers();
         const { scene } = picture;
         const { shown } = scene;
-        // If balls are not shown, balls with the radius of the bars join the bars.
+        // Without shown balls, balls as thick as the bars join the bars at their ends.
         const inBall = shown.balls ? Math.sqrt(Math.max(0, scene.ball ** 2 - scene.bar ** 2)) : 0;
         for (const { slice, vertices, edges } of elements.sliceRanges) {
             for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -46,13 +46,13 @@ export class SlicesMesh {
         this.writeFaces();
         this.shapes.markChanged();
         this.writeColorsToBuffers(picture, highlighted);
-        const hasPoints = picture.slices.some((slice) => slice.balls); // points of a cloud are drawn even without balls
+        const hasPoints = picture.slices.some((slice) => slice.balls); // the points of a cloud are always drawn
         this.order.update({ ...shown, faces: shown.faces && faces, balls: shown.balls || hasPoints });
     }
 
     /**
-     * Writes the colors: all of them or, if only the highlight has changed, those of `change`. The picture must be the
-     * one that was last passed to update().
+     * Writes the colors of the elements: all colors or, if `change` is given, only those of elements whose highlight
+     * has changed. The picture must be the last one that was passed to update().
      */
     writeColorsToBuffers({ scene }: Slices, highlighted: HighlightedElements, change?: HighlightChange): void {
         const { sliceRanges, cornerBegin, vertexCount, edgeCount } = this.elements;
@@ -109,8 +109,8 @@ export class SlicesMesh {
     }
 
     /**
-     * Writes a bar, shortened at each end by `inBall`, the length that is hidden inside the ball there. A bar that is
-     * not longer than 2 · inBall becomes a point.
+     * Writes a bar. Shortens it at each end by `inBall`, the length that the ball there hides. A bar not longer than 2
+     * · inBall becomes a point.
      */
     private writeBar(e: number, inBall: number): void {
         const { points, edges, vertexCount } = this.elements;

@@ -1,8 +1,10 @@
-// A stable merge sort; unlike the built-in sort, it allocates no memory.
+// A stable merge sort. Unlike the built-in sort, it allocates no memory.
 
-const kRun = 8; // the items of each initial run, which is sorted by insertion before runs are merged
+const kRun = 8; // insertion sort makes runs of this many items, which are then merged
 
-/** Sorts items[begin] … items[end − 1] by keys[item], ascending, stably. `scratch` has at least `end` elements. */
+/**
+ * Sorts items[begin] … items[end − 1] by keys[item], ascending and stably. `scratch` must have at least `end` elements.
+ */
 export function sortByKey(
     items: Uint32Array,
     [begin, end]: readonly [begin: number, end: number],

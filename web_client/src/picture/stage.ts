@@ -1,5 +1,5 @@
-// The area of the picture. Draws the newest slices or frame, only when something has changed, and reports when a
-// picture has been presented.
+// The area of the page that shows the picture. Draws the newest slices or frame when something has changed, and reports
+// when a picture has been presented.
 
 import { pngText, type Limits, type Orbit, type Slices, type State, type Viewport } from "@oval4d/protocol";
 
@@ -8,7 +8,7 @@ import { GeometryView } from "./geometry_view";
 import type { ElementCounts, HighlightedElements } from "./highlighted_elements";
 import type { HitTester } from "./hit_tester";
 
-/** Where the slices are rendered: on this page, or on the server. */
+/** Where slices are rendered: "geometry" on this page, "frames" on the server. */
 export type RenderingMode = "geometry" | "frames";
 
 export interface StageEvents {
@@ -23,13 +23,13 @@ export interface StageEvents {
 /** The server's limits on the size of pictures. */
 export type SizeLimits = Partial<Pick<Limits, "min_side" | "max_width" | "max_height" | "max_pixels">>;
 
-const kMaxPixels = 4_000_000; // of a picture on the page; more would cost time without a visible benefit
+const kMaxPixels = 4_000_000; // of a picture on the page; more cost time without visible benefit
 const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
-const kLeastTextInFullScreen = 0.02; // the least height of texts in full screen, as a fraction of the window's height
+const kLeastTextInFullScreen = 0.02; // the least height of texts in full screen, in window heights
 
-/** Returns the largest factor by which a picture can be enlarged within the limits. */
+/** The largest factor by which a picture of this size can be enlarged within the limits. */
 function largestScale({ width, height }: Viewport, limits: SizeLimits, maxPixels: number, maxSide: number): number {
     return Math.min(
         Math.sqrt(Math.min(maxPixels, limits.max_pixels ?? Infinity) / (width * height)),
@@ -47,10 +47,10 @@ export class Stage {
     private readonly frames: FrameView;
     private readonly pointedFrame: FrameView;
     private readonly canvases: Record<"solids" | "overlay" | "frame", HTMLCanvasElement>;
-    private isDraft = false; // whether a finer picture will follow the newest one
-    private unpresentedRevision: number | undefined; // the revision of the new picture that the next drawing presents
+    private isDraft = false; // whether a finer picture follows the newest one
+    private unpresentedRevision: number | undefined; // the revision of a new picture that has not been drawn yet
     private drawn: { revision: number; by: RenderingMode } = { revision: 0, by: "frames" };
-    // A message that is sent through this channel during a drawing arrives after the browser has rendered the page.
+    // A message through this channel that is sent during a drawing arrives after the browser has rendered the page.
     private readonly afterRendering = new MessageChannel();
     private scheduled = false;
     private limits: SizeLimits = {};
@@ -66,8 +66,8 @@ export class Stage {
         if (document.createElement("canvas").getContext("webgl2")) {
             this.geometry = new GeometryView(this.canvases.solids, this.canvases.overlay);
         }
-        // After the loss of the WebGL context, three.js makes the browser restore the context, and then uploads its own
-        // data again.
+        // After a loss of the WebGL context, three.js asks the browser to restore the context, and uploads its own data
+        // again.
         for (const change of ["lost", "restored"]) {
             this.canvases.solids.addEventListener(`webglcontext${change}`, () => {
                 this.isContextLost = change === "lost";
@@ -94,17 +94,22 @@ export class Stage {
         this.unpresentedRevision = undefined;
     }
 
-    /** The hit tester of the picture, for points in device pixels; undefined if the server draws the picture. */
+    /**
+     * The hit tester of the picture, which finds what is at a point in device pixels. Undefined if the server draws the
+     * picture.
+     */
     get hitTester(): HitTester | undefined {
         return this.currentMode === "geometry" ? this.geometry?.hitTester : undefined;
     }
 
-    /** Highlights these elements as those under the pointer. The caller must then draw. */
+    /** Highlights the elements under the pointer. The caller must then draw the picture. */
     highlightPointed(pointed: HighlightedElements | undefined): void {
         this.geometry?.highlightPointed(pointed);
     }
 
-    /** Shows new slices at the next drawing. `orbit` is the orbit for which the server placed the camera. */
+    /**
+     * Shows new slices at the next drawing. `orbit` is the orbit for which the server placed the camera of the picture.
+     */
     showSlices(slices: Slices, orbit: Orbit, counts: ElementCounts): void {
         if (this.currentMode !== "geometry" || !this.geometry) return;
         this.geometry.update(slices, orbit, counts);
@@ -124,9 +129,9 @@ export class Stage {
     }
 
     /**
-     * Shows a frame in which the element under the pointer is highlighted in place of the newest frame of the stream,
-     * until hidePointedFrame() is called. `isWanted` is called when the frame has been decoded; if it returns false, the
-     * frame is not shown.
+     * Shows a frame in which the element under the pointer is highlighted, until hidePointedFrame() is called. The
+     * frame covers the newest frame of the stream. `isWanted` is called after decoding; if it returns false, the frame
+     * is not shown.
      */
     async showPointedFrame(png: Uint8Array, isWanted: () => boolean): Promise<void> {
         await this.pointedFrame.decode(png);
@@ -152,13 +157,13 @@ export class Stage {
         requestAnimationFrame(() => this.draw());
     }
 
-    /** Draws the slices at once, within the current animation frame. Does nothing if the server draws the picture. */
+    /** Draws the slices now, within the current animation frame. Does nothing if the server draws the picture. */
     drawNow(): void {
         if (this.currentMode === "geometry") this.geometry?.draw(this.orbit, this.size, this.leastText);
     }
 
     /**
-     * The size, in pixels, of the picture to print. Its aspect ratio is that of the picture on the page. If the server
+     * The size of the picture to print, in pixels, with the aspect ratio of the picture on the page. If the server
      * draws the picture, the size is within the server's limits.
      */
     get printSize(): Viewport {
@@ -168,7 +173,10 @@ export class Stage {
         return { width: Math.floor(width * scale), height: Math.floor(height * scale) };
     }
 
-    /** Fills `canvas` with the picture for print: on white or, if the server has drawn the picture, as it is shown. */
+    /**
+     * Fills `canvas` with the picture to print. The page draws the picture on white; a picture drawn by the server is
+     * printed as it is shown.
+     */
     drawForPrint(canvas: HTMLCanvasElement): void {
         const { frame } = this.canvases;
         const { width, height } = this.currentMode === "geometry" ? this.printSize : frame;
@@ -183,14 +191,14 @@ export class Stage {
     }
 
     /**
-     * The height of the picture on the page, in CSS pixels. The picture may have fewer pixels than the area of the
-     * screen in which it is shown, because kMaxPixels and the server's limits bound its size.
+     * The height of the picture on the page, in CSS pixels. The picture may have fewer pixels than this part of the
+     * screen, because kMaxPixels and the server's limits bound its size.
      */
     get shownHeight(): number {
-        return this.root.clientHeight || this.size.height / devicePixelRatio; // in print, the element has no height
+        return this.root.clientHeight || this.size.height / devicePixelRatio; // in print, clientHeight is 0
     }
 
-    /** The least height of texts in the picture, in pixels of the picture. */
+    /** The least height of texts in the picture, in picture pixels. */
     private get leastText(): number {
         const isFull = document.documentElement.hasAttribute("data-full-screen");
         const least = isFull ? Math.max(kLeastText, kLeastTextInFullScreen * innerHeight) : kLeastText;
@@ -217,13 +225,13 @@ export class Stage {
     }
 
     /**
-     * Updates the size when the window moves to a screen with another pixel ratio. The ResizeObserver does not report
-     * this, because the size in CSS pixels stays the same.
+     * Updates the size when the window moves to a screen with another pixel ratio. The ResizeObserver does not notice
+     * such a move, because the size in CSS pixels stays the same.
      */
     private followPixelRatio(): void {
         const changed = (): void => {
             this.updateSize();
-            this.followPixelRatio(); // the query matches only the ratio for which it was made
+            this.followPixelRatio(); // the query matches only one ratio
         };
         matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener("change", changed, { once: true });
     }
@@ -235,7 +243,7 @@ export class Stage {
         const ratio = Math.min(devicePixelRatio, largestScale(shown, this.limits, kMaxPixels, Infinity));
         const side = (length: number): number => Math.max(this.limits.min_side ?? 1, Math.floor(length * ratio));
         const size = { width: side(clientWidth), height: side(clientHeight) };
-        this.scheduleRedraw(); // even if the size stays the same: zooming the page may change the size of texts
+        this.scheduleRedraw(); // even at the same size, zooming the page may change the size of texts
         if (size.width === this.size.width && size.height === this.size.height) return;
         this.size = size;
         this.events.resized(size);

@@ -1,8 +1,8 @@
-// Finds the point of a field's surfaces that is drawn at a pixel of a slice.
+// Finds the point of a field's surfaces at a pixel of a slice.
 
 import type { Surface, SurfaceLevel, Vector } from "@oval4d/protocol";
 
-/** A ray in the coordinates of a slice: at the depth t, its point is start + t · direction. */
+/** A ray in the coordinates of a slice. Its point at depth t is start + t · direction. */
 export interface SliceRay {
     start: Vector;
     direction: Vector;
@@ -13,22 +13,22 @@ export interface SurfaceHit {
     depth: number;
     /** The index of the level in the `levels` of the state. */
     level: number;
-    /** Whether the point is on a cap. */
+    /** Whether the point is on a cap, the flat part where the boundary of the box cuts the body. */
     cap: boolean;
 }
 
-const kSlack = 1e-6; // triangles are enlarged by this part of their sides, so that no ray passes between two of them
+const kSlack = 1e-6; // enlarges triangles by this fraction, so that no ray passes between two neighbors
 
 /**
- * The point nearest to the eye at which the ray meets a triangle that is drawn, in front of the eye; undefined if it
- * meets none. Tests all triangles, by the algorithm of Möller and Trumbore, which takes some 10 ns for each of them.
+ * Finds the first drawn triangle that a ray meets in front of the eye; undefined if the ray meets none. Tests all
+ * triangles by the algorithm of Möller and Trumbore, which takes about 10 ns for each triangle.
  */
 export function hitOnSurface(
     { points, triangles, level, cap }: Surface,
     looks: readonly SurfaceLevel[],
     { start, direction }: SliceRay,
 ): SurfaceHit | undefined {
-    const isDrawn = new Uint8Array(512); // by 2 · level + cap
+    const isDrawn = new Uint8Array(512); // index: 2 · level + cap
     for (const look of looks) {
         isDrawn[2 * look.level] = 1;
         isDrawn[2 * look.level + 1] = look.caps ? 1 : 0;

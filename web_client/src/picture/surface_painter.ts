@@ -1,8 +1,8 @@
-// Draws the surfaces of a field with a depth buffer, as server/render/slices/surface_batch.cpp does: first the opaque
-// ones, and later the translucent ones in front of what is already drawn. The arrays of a picture are uploaded without
-// conversion. Each slice has its own range of the buffers, and the vertex shader moves the slice to each of its places
-// in the picture. The painter shares the WebGL context with three.js, and tells three.js when it has changed the state
-// of the context.
+// Draws the surfaces of a field with a depth buffer, like server/render/slices/surface_batch.cpp. Opaque surfaces are
+// drawn first; translucent surfaces are blended over the picture later. The arrays of a picture are uploaded without
+// conversion. Each slice has its own range of the buffers, and the vertex shader moves the slice to its places in the
+// picture. The painter shares the WebGL context with three.js, and tells three.js when it has changed the context's
+// state.
 
 import type { WebGLRenderer } from "three";
 
@@ -29,7 +29,7 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 pointColor;  // blue, green, red, 0
 uniform mat4 view, projection;
 uniform vec4 place;  // the world position of the slice's origin, and the scale
-uniform vec4 color;  // not multiplied by alpha
+uniform vec4 color;  // not premultiplied by alpha
 uniform bool hasPointColors;
 out vec3 seen, tint, material;
 ${kLight}
@@ -59,12 +59,12 @@ void main() {
 const kUniforms = ["view", "projection", "place", "color", "hasPointColors", "isCap", "light", "shading"] as const;
 
 /**
- * The buffers of the attributes 0 (points), 1 (normals) and 2 (colors or capColors), and of the indices (triangles).
+ * The buffers for the attributes 0 (points), 1 (normals) and 2 (colors or capColors), and for the indices (triangles).
  */
 const kBuffers = ["points", "normals", "colors", "capColors", "triangles"] as const;
 type BufferName = (typeof kBuffers)[number];
 
-/** The objects of one WebGL context. They are lost together with the context. */
+/** The WebGL objects of the painter. The browser may lose them together with their context. */
 interface SurfaceResources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
@@ -72,7 +72,7 @@ interface SurfaceResources {
     buffers: Record<BufferName, { buffer: WebGLBuffer; size: number }>;
 }
 
-/** The surfaces of one slice, and their ranges of the buffers. */
+/** The surfaces of one slice, and their place in the buffers. */
 interface SliceSurfaces {
     slice: Slice;
     surface: Surface;
@@ -81,13 +81,13 @@ interface SliceSurfaces {
     firstByte: number; // the offset of the slice's indices in the buffer, in bytes
 }
 
-/** A place at which the surfaces of a slice are drawn: in the picture, or in the projection of the whole object. */
+/** A place where the surfaces of a slice are drawn: at the slice, or in the projection of the whole object. */
 interface PlacedSurfaces {
     part: SliceSurfaces;
     position: Vector;
     scale: number; // world units per unit of the object
     isInProjection: boolean;
-    depth: number; // the distance of the slice's origin from the eye, along the camera's axis
+    depth: number; // the distance of `position` from the eye, along the view axis
 }
 
 export class SurfacePainter {
@@ -96,14 +96,14 @@ export class SurfacePainter {
     private readonly placed: PlacedSurfaces[] = []; // from far to near after the sorting in draw()
     private picture: Slices | undefined; // the newest picture; undefined if it has no surfaces
     private levels: SurfaceLevel[] = []; // from the innermost to the outermost
-    private resources: SurfaceResources | undefined; // created when they are needed
+    private resources: SurfaceResources | undefined; // created at the first use
     private readonly gl: WebGL2RenderingContext;
 
     constructor(private readonly renderer: WebGLRenderer) {
         this.gl = renderer.getContext() as WebGL2RenderingContext;
     }
 
-    /** Uploads the surfaces of a new picture to the GPU; returns whether the picture shows the surfaces of a field. */
+    /** Uploads the surfaces of a new picture to the GPU. Returns whether the picture shows surfaces of a field. */
     update(picture: Slices): boolean {
         this.spare.push(...this.parts.splice(0));
         this.placed.length = 0;
@@ -177,13 +177,13 @@ export class SurfacePainter {
         this.renderer.resetState();
     }
 
-    /** Whether the points of level sets or, if `isCap` is true, those of caps have colors of their own. */
+    /** Whether the points of level surfaces (`isCap` false) or of caps (`isCap` true) have their own colors. */
     private hasPointColors(isCap: boolean): boolean {
         const surface = this.parts[0]?.surface;
         return (isCap ? surface?.cap_colors : surface?.colors) !== undefined;
     }
 
-    /** Binds a buffer. If it has fewer than this many bytes, makes it larger; its contents are then lost. */
+    /** Binds a buffer, and enlarges it if it has fewer than `bytes` bytes. Enlarging discards the contents. */
     private bindAndReserve(name: BufferName, bytes: number): void {
         const { gl } = this;
         const target = name === "triangles" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
@@ -195,8 +195,8 @@ export class SurfacePainter {
     }
 
     /**
-     * Draws the opaque surfaces, or the translucent ones from far to near: of all slices, of one slice, or of the focus
-     * slice in the projection.
+     * Draws the opaque surfaces, or the translucent surfaces from far to near. `of` chooses whose surfaces are drawn:
+     * all slices, one slice, or the focus slice in the projection.
      */
     draw(which: "opaque" | "translucent", viewCamera: ViewCamera, of: Slice | "slices" | "projection"): void {
         const { gl, picture, placed } = this;
@@ -221,7 +221,7 @@ export class SurfacePainter {
         else gl.enable(gl.BLEND);
         gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
         gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
-        // Opaque surfaces need no order, but are drawn faster if the nearer ones come first.
+        // Opaque surfaces need no order, but drawing is faster if nearer ones come first.
         for (let i = 0; i < placed.length; ++i) {
             const one = placed[opaque ? placed.length - 1 - i : i]!;
             if (one.isInProjection !== (of === "projection")) continue;
@@ -253,15 +253,15 @@ export class SurfacePainter {
         if (!isOpaque(level)) {
             for (const hidden of [gl.FRONT, gl.BACK]) this.drawSides(part, level, hidden);
         } else if (level.caps) {
-            this.drawSides(part, level, gl.BACK); // a surface with caps is closed, so that its back is not seen
+            this.drawSides(part, level, gl.BACK); // a surface with caps is closed, so its back is invisible
         } else {
             this.drawSides(part, level, undefined);
         }
     }
 
     /**
-     * Draws the triangles of a level. `hidden` is the side, gl.FRONT or gl.BACK, that is not drawn; if it is undefined,
-     * both sides are drawn.
+     * Draws the triangles of a level. `hidden` is the side that is not drawn, gl.FRONT or gl.BACK; undefined draws both
+     * sides.
      */
     private drawSides(
         { groups, firstByte, firstPoint }: SliceSurfaces,
@@ -288,8 +288,8 @@ export class SurfacePainter {
     }
 
     /**
-     * Selects the colors of the triangles that are drawn next: those of the points of level sets or, if `isCap` is
-     * true, of caps. If these points have no colors of their own, selects the color of the level.
+     * Selects the colors for the triangles that are drawn next. These are the colors of the points of level surfaces
+     * or, if `isCap` is true, of caps. If these points have no colors, selects the color of the level.
      */
     private selectColors(isCap: boolean, firstPoint: number): void {
         const { gl } = this;

@@ -1,5 +1,5 @@
-// The triangles of a surface, grouped by level; the caps of a level are a group of their own. If the triangles of a
-// surface are in the order of these groups already, they are not copied.
+// Groups the triangles of a surface by level. The caps of each level are a separate group. Triangles that are already
+// in the order of the groups are not copied.
 
 import type { Integers, Surface } from "@oval4d/protocol";
 
@@ -11,7 +11,7 @@ export class TrianglesByLevel {
     triangles: Integers = new Uint8Array(0);
     private readonly begin = new Uint32Array(kGroups + 1); // group g has the triangles begin[g] … begin[g + 1] − 1
     private readonly next = new Uint32Array(kGroups);
-    private memory = new ArrayBuffer(0); // holds `triangles` if the surface has its triangles in another order
+    private memory = new ArrayBuffer(0); // holds `triangles` if they had to be reordered
 
     /** Groups the triangles of a surface. */
     update(surface: Surface): void {
@@ -38,13 +38,16 @@ export class TrianglesByLevel {
         }
     }
 
-    /** The range of the triangles of a level: those of its caps (cap = 1), or the others (cap = 0). */
+    /** The range of a level's triangles: the triangles of its caps (cap = 1), or all others (cap = 0). */
     range(level: number, cap: number): [begin: number, end: number] {
         const group = groupOf(level, cap);
         return [this.begin[group]!, this.begin[group + 1]!];
     }
 
-    /** Returns an uninitialized array of the type and length of `triangles`, in memory that the next surface reuses. */
+    /**
+     * Returns an array of the type and length of `triangles`. Its contents are undefined, and the next surface reuses
+     * its memory.
+     */
     private reusableArrayLike(triangles: Integers): Integers {
         if (triangles.byteLength > this.memory.byteLength) {
             this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(triangles.byteLength)));

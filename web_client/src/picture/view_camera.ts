@@ -1,5 +1,5 @@
-// The view and projection matrices of the camera. The server has placed the camera for one orbit of the viewer; the
-// page moves the camera to the newest orbit.
+// The view and projection matrices of the camera. The server places the camera for one orbit; the page moves it to the
+// newest orbit.
 
 import { Matrix4, Vector3, Vector4 } from "three";
 
@@ -25,7 +25,8 @@ export class ViewCamera {
     private height = 1;
 
     /**
-     * Sets the camera. `from` is the orbit for which the server placed `camera`; `to` is the orbit from which to look.
+     * Sets the camera. `from` is the orbit for which the server placed `camera`; `to` is the orbit from which to look
+     * now.
      */
     set(camera: SceneDescription["camera"], viewport: Viewport, from: Orbit, to: Orbit): void {
         this.width = viewport.width;
@@ -55,7 +56,10 @@ export class ViewCamera {
         );
     }
 
-    /** Projects a world position to pixels from the upper left corner; undefined for a position behind the viewer. */
+    /**
+     * Projects a world position to pixels from the upper left corner. Returns undefined for a position behind the
+     * viewer.
+     */
     project(world: readonly [number, number, number]): ScreenPoint | undefined {
         const { x, y, w } = this.clip
             .set(...world, 1)
@@ -65,8 +69,8 @@ export class ViewCamera {
     }
 
     /**
-     * Projects a point whose camera coordinates x, y, z begin at points[at]; writes the x and y of its pixel after
-     * them.
+     * Projects a point whose camera coordinates x, y, z begin at points[at]. Writes the x and y of the point's pixel
+     * into the next two elements of `points`.
      */
     cameraToScreen(points: Float32Array, at: number): void {
         const f = this.projection.elements;
@@ -75,13 +79,13 @@ export class ViewCamera {
         points[at + 4] = ((1 - (f[5]! * points[at + 1]!) / depth + f[9]!) / 2) * this.height;
     }
 
-    /** The camera coordinates x and y of a point on the ray through the pixel (x, y): the point at the depth 1. */
+    /** The ray through the pixel (x, y): the camera coordinates x and y of its point at depth 1. */
     rayAt(x: number, y: number): [number, number] {
         const f = this.projection.elements;
         return [((2 * x) / this.width - 1 + f[8]!) / f[0]!, (1 - (2 * y) / this.height + f[9]!) / f[5]!];
     }
 
-    /** The vector from the eye to the point at the depth 1 on the ray through the pixel (x, y), in world space. */
+    /** The ray through the pixel (x, y): the vector in world space from the eye to its point at depth 1. */
     worldRayAt(x: number, y: number): [number, number, number] {
         const [right, up] = this.rayAt(x, y);
         const view = this.view.elements;
@@ -89,18 +93,18 @@ export class ViewCamera {
         return [along(0), along(4), along(8)];
     }
 
-    /** The distance of a world position from the eye along the camera's axis; negative behind the eye. */
+    /** The distance of a world position from the eye, along the view axis; negative behind the eye. */
     depthOf([x, y, z]: readonly [number, number, number]): number {
         const view = this.view.elements;
         return -(view[2]! * x + view[6]! * y + view[10]! * z + view[14]!);
     }
 
-    /** The world's x, y or z axis in camera coordinates. */
+    /** The direction of the world's x, y or z axis in camera coordinates. */
     worldAxisInCamera(i: 0 | 1 | 2): Vector3 {
         return new Vector3().setFromMatrixColumn(this.view, i);
     }
 
-    /** Pixels per world unit at the depth 1. */
+    /** The number of pixels per world unit at depth 1. */
     get pixelsPerUnit(): number {
         return (this.projection.elements[5]! * this.height) / 2;
     }
