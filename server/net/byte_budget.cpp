@@ -29,7 +29,8 @@ bool ByteBudget::Reservation::growTo(std::size_t bytes) {
 std::optional<ByteBudget::Reservation> ByteBudget::Account::reserve(std::size_t bytes) {
     {
         const std::lock_guard lock(budget_.mutex_);
-        // Compare sums with the limits: `limit_ - held_` would wrap around if forceReserve() has exceeded the limit.
+        // Sums are compared with the limits, because `limit_ - held_` would wrap around if forceReserve() has exceeded
+        // the limit.
         if (held_ + bytes > limit_ || budget_.held_ + bytes > budget_.total_) return std::nullopt;
         held_ += bytes;
         budget_.held_ += bytes;

@@ -1,5 +1,5 @@
 #pragma once
-// Limits on the memory and disk space that the server uses for clients.
+// Limits on the memory and disk space that the server uses on behalf of clients.
 
 #include <cstddef>
 #include <memory>
@@ -8,10 +8,14 @@
 
 namespace oval4d::net {
 
-/// Counts and limits the bytes that the server holds for clients: files, pictures and messages that clients have not
-/// yet read; long messages and uploads that the server is receiving; objects loaded or built by name; undo histories.
-/// One budget covers all clients together. The bytes of each client are counted by an object of the class Account: they
-/// are reserved there before they are used. Every function may be called from any thread.
+/// Counts and limits the bytes that the server holds for clients. They are the bytes of four kinds of data:
+/// - files, pictures and messages that clients have not yet read;
+/// - long messages and uploads that the server is receiving;
+/// - objects that clients have loaded or built by name;
+/// - undo histories.
+///
+/// One budget covers all clients together. An Account counts the bytes of one client; they are reserved there before
+/// they are used. Every function may be called from any thread.
 class ByteBudget {
   public:
     class Account;
@@ -40,15 +44,16 @@ class ByteBudget {
         std::size_t size_ = 0;
     };
 
-    /// Counts the bytes held for one client. They may exceed `limit` only through Account::forceReserve() and
+    /// The account of one client in the budget. Its bytes exceed `limit` only through Account::forceReserve() and
     /// Reservation::forceResize().
     class Account : public std::enable_shared_from_this<Account> {
       public:
         Account(ByteBudget& budget, std::size_t limit) : budget_(budget), limit_(limit) {}
 
-        /// Reserves bytes. Returns an empty optional if that would exceed the limit of the client or of the budget.
+        /// Reserves `bytes` bytes. Returns an empty optional if the limit of the client or of the budget would be
+        /// exceeded.
         std::optional<Reservation> reserve(std::size_t bytes);
-        /// Reserves bytes without checking the limits, for data that cannot be refused.
+        /// Reserves `bytes` bytes without checking the limits. Meant for data that the server cannot refuse.
         Reservation forceReserve(std::size_t bytes);
         /// Returns the number of bytes now reserved on this account.
         std::size_t held() const;
@@ -62,7 +67,7 @@ class ByteBudget {
         std::size_t held_ = 0;  // guarded by the budget's mutex
     };
 
-    /// `total`: the limit in bytes for all clients together.
+    /// `total` is the limit for all clients together, in bytes.
     explicit ByteBudget(std::size_t total) : total_(total) {}
 
     /// Returns the number of bytes now reserved on all accounts.

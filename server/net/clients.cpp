@@ -19,16 +19,16 @@ using asio::ip::address_v6;
 namespace {
 
 constexpr double kMinute = 60;
-constexpr std::size_t kFirstSweep = 256;     // number of clients at which forgetIdle() is first called
-constexpr std::size_t kMaxClients = 65'536;  // maximum number of clients with their own account; all others share one
+constexpr std::size_t kFirstSweep = 256;     // forgetIdle() is first called at this number of clients
+constexpr std::size_t kMaxClients = 65'536;  // clients with an account of their own; further clients share one account
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
 address_v6 asIPv6(const address& any) {
     return any.is_v6() ? any.to_v6() : asio::ip::make_address_v6(asio::ip::v4_mapped, any.to_v4());
 }
 
-/// Returns the name of the client at an address: the IPv4 address for IPv4 and IPv4-mapped IPv6 addresses, "::1" for
-/// ::1, and the /64 network for any other IPv6 address.
+/// Returns the name of the client at an address. The name is the address for IPv4 and IPv4-mapped IPv6 addresses and
+/// for ::1. For any other IPv6 address, the name is the /64 network of the address.
 std::string nameOf(const address& any) {
     if (any.is_v4()) return any.to_string();
     address_v6 whole = any.to_v6();

@@ -1,5 +1,5 @@
 #pragma once
-// The clients of the server, identified by IP address, and the limits on each client.
+// The clients of the server, which are identified by IP address, and the limits on each client.
 
 #include <atomic>
 #include <chrono>
@@ -19,10 +19,10 @@
 
 namespace oval4d::net {
 
-/// Maximum values for one client. The limits for all clients together are in ServerOptions.
+/// The limits on one client. ServerOptions has the limits on all clients together.
 struct ClientLimits {
     std::size_t connections = 2048;                  ///< open connections
-    std::size_t sessions = 2500;                     ///< open sessions, and closed ones that have not expired
+    std::size_t sessions = 2500;                     ///< open sessions, and closed sessions that have not expired
     double newSessionsPerMinute = 2000;              ///< new sessions per minute, which may all come at once
     double wrongTokensPerMinute = 20;                ///< wrong tokens per minute, which may all come at once
     double requestsPerSecond = 20'000;               ///< messages and HTTP requests per second; excess ones are delayed
@@ -30,51 +30,53 @@ struct ClientLimits {
     std::size_t bytes = 1U << 30U;                   ///< bytes held for the client (ByteBudget)
 };
 
-/// The account of one client: the client's rate limits, the count of the bytes held for the client
-/// (ByteBudget::Account), and its job queues in the worker pools (see parallel::FairQueue). A client is everybody at
-/// one IPv4 address, or in one IPv6 /64 network (the size that providers assign to one customer). Every function may be
-/// called from any thread.
+/// The account of one client. It has the client's rate limits, the count of the bytes that the server holds for the
+/// client (ByteBudget::Account), and the client's job queues in the worker pools (see parallel::FairQueue). A client is
+/// everybody at one IPv4 address or in one IPv6 /64 network, the size that providers assign to one customer. Every
+/// function may be called from any thread.
 class AddressAccount {
   public:
     using Clock = TokenBucket::Clock;
 
     AddressAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now);
 
-    /// Returns the address or network, such as "192.0.2.7" or "2001:db8:1:2::/64".
+    /// Returns the client's address or network, such as "192.0.2.7" or "2001:db8:1:2::/64".
     const std::string& name() const { return name_; }
 
-    /// Counts a new session against the rate limit. Returns false, and counts nothing, if the limit is reached.
+    /// Counts a new session against the limit of new sessions per minute. If this limit is reached, returns false and
+    /// counts nothing.
     bool admitNewSession(Clock::time_point now);
 
-    /// Counts a wrong token against the rate limit.
+    /// Counts a wrong token against the limit of wrong tokens per minute.
     void countWrongToken(Clock::time_point now);
-    /// Returns whether the client may present a token. After too many wrong tokens, returns false for some time, during
-    /// which the caller must refuse even correct tokens.
+    /// Returns whether the client may present a token. After too many wrong tokens, this is false for some time; the
+    /// caller must then refuse even correct tokens.
     bool mayTryToken(Clock::time_point now) const;
 
-    /// Counts a message or an HTTP request of `bytes` bytes against the rate limits, and returns how long to delay it.
+    /// Counts a message or an HTTP request against the rate limits. `bytes` is its size. Returns how long the caller
+    /// must delay it.
     std::chrono::duration<double> countMessage(std::size_t bytes, Clock::time_point now);
 
-    /// Counts one part of a request body against the limit of bytes per second, and returns how long to wait before
-    /// reading the next part.
+    /// Counts one part of a request body against the limit of bytes per second. `bytes` is the part's size. Returns how
+    /// long the caller must wait before it reads the next part.
     std::chrono::duration<double> countBytes(std::size_t bytes, Clock::time_point now);
 
     /// Returns the account that counts the bytes held for this client.
     ByteBudget::Account& byteAccount() { return *bytes_; }
 
-    /// These functions return the client's flows (see parallel::FairQueue): pictureFlow() in the pool of picture
-    /// workers, exportFlow() in the pool of export workers. Each session of the client creates its own job queue in
-    /// each flow.
+    /// These functions return the client's flows (see parallel::FairQueue). A flow is the client's share of one worker
+    /// pool: pictureFlow() belongs to the picture workers, exportFlow() to the export workers. Each session of the
+    /// client creates its own job queue in each flow.
     const parallel::WorkerPool::ClientFlowPtr& pictureFlow() const { return pictureFlow_; }
     const parallel::WorkerPool::ClientFlowPtr& exportFlow() const { return exportFlow_; }
-    /// These functions return the client's job queue for jobs that belong to no session: pictureJobQueue() in the pool
-    /// of picture workers, exportJobQueue() in the pool of export workers.
+    /// These functions return the client's job queues for work that belongs to no session. pictureJobQueue() is in the
+    /// pool of picture workers, exportJobQueue() in the pool of export workers.
     const parallel::WorkerPool::JobQueuePtr& pictureJobQueue() const { return pictureJobQueue_; }
     const parallel::WorkerPool::JobQueuePtr& exportJobQueue() const { return exportJobQueue_; }
     /// Returns the client's job queue in the pool of load workers (see Services::loadWorkers).
     const parallel::WorkerPool::JobQueuePtr& loadJobQueue() const { return loadJobQueue_; }
 
-    /// Returns whether all rate limits have fully recovered. If they have, this account may be deleted: a new account
+    /// Returns whether all rate limits have fully recovered. This account may then be deleted, because a new account
     /// would treat the client in the same way.
     bool hasRecoveredRateLimits(Clock::time_point now) const;
 
@@ -104,37 +106,38 @@ class IpNetwork {
     bool contains(const boost::asio::ip::address& any) const;
 
   private:
-    boost::asio::ip::address_v6 first_;  // IPv4 addresses are mapped to IPv6
+    boost::asio::ip::address_v6 first_;  // the first address; IPv4 addresses are mapped to IPv6
     unsigned bits_;                      // prefix length of first_, from 0 to 128
 };
 
-/// The accounts of the known clients, by address. Every function may be called from any thread.
+/// The accounts of all known clients, by address. Every function may be called from any thread.
 class Clients {
   public:
-    /// `trustedProxies`: networks (see IpNetwork) of the proxies whose X-Forwarded-For is trusted. `bytes`: the maximum
-    /// number of bytes held for all clients together (ByteBudget).
+    /// `trustedProxies` are the networks (see IpNetwork) of proxies whose header X-Forwarded-For is trusted. `bytes` is
+    /// the maximum number of bytes held for all clients together (ByteBudget).
     Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
-    /// Returns the account of the client at this address; creates the account if the client is not known. Once 65,536
-    /// clients are known, all unknown addresses share one account, "others". `now`: the time from which the rate limits
-    /// of a new account count.
+    /// Returns the account of the client at this address. Creates an account for an unknown client. Once 65,536 clients
+    /// are known, all unknown clients share one account, "others". A new account counts its rate limits from the time
+    /// `now`.
     AddressAccountPtr findOrCreate(const boost::asio::ip::address& any, TokenBucket::Clock::time_point now);
 
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 
-    /// Returns the address of the client behind a proxy. `forwardedFor`: the value of X-Forwarded-For. Starts with
-    /// `proxy` and goes through the entries of X-Forwarded-For, the last one first, as long as the current address is
-    /// that of a trusted proxy and the next entry is an address (see forwardedAddress()). Returns the address at which
-    /// it stops. The first time that an entry is not an address, logs a warning.
+    /// Returns the address of the client behind one or more proxies. `forwardedFor` is the value of X-Forwarded-For.
+    /// Starts at the address `proxy`, and goes through the entries of `forwardedFor` from the last one to the first.
+    /// Moves on while the current address belongs to a trusted proxy and the next entry is an address (see
+    /// forwardedAddress()). Returns the address at which it stops. Logs a warning at the first entry that is not an
+    /// address.
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.
     std::size_t bytesHeld() const { return budget_.held(); }
-    /// Returns the number of known clients: those whose accounts forgetIdle() has not deleted.
+    /// Returns the number of known clients. A client is known until forgetIdle() deletes its account.
     std::size_t size() const;
 
   private:
-    /// Deletes the accounts that nothing else refers to and whose rate limits have fully recovered.
+    /// Deletes the accounts to which nothing else refers and whose rate limits have fully recovered.
     void forgetIdle(TokenBucket::Clock::time_point now);
 
     const ClientLimits limits_;

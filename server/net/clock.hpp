@@ -1,5 +1,5 @@
 #pragma once
-// The clock by which connections and sessions measure time, and the timers that expire by it.
+// The clock with which connections and sessions measure time, and the timers of this clock.
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -11,8 +11,8 @@
 
 namespace oval4d::net {
 
-/// A timer that calls a function. Not thread-safe: use the timer only on the executor for which it was made. The timer
-/// calls the function on this executor.
+/// A timer that calls a function at a given time. The call runs on the executor for which the timer was made. Not
+/// thread-safe: use the timer only on this executor.
 class Timer {
   public:
     using Clock = std::chrono::steady_clock;
@@ -20,17 +20,17 @@ class Timer {
     Timer() = default;
     Timer(const Timer&) = delete;
     Timer& operator=(const Timer&) = delete;
-    /// Cancels the scheduled call, like cancel().
+    /// Cancels a scheduled call, like cancel().
     virtual ~Timer() = default;
 
-    /// Schedules one call of `expired`: at the time `when`, or soon if this time has passed. First cancels an earlier
-    /// scheduled call, like cancel().
+    /// Schedules one call of `expired` for the time `when`; soon if this time has passed. Replaces an earlier scheduled
+    /// call, as if cancel() had been called.
     virtual void start(Clock::time_point when, std::function<void()> expired) = 0;
-    /// Cancels the scheduled call, if there is one. A call that is already due may still come.
+    /// Cancels a scheduled call, if there is one. A call that is already due may still happen.
     virtual void cancel() = 0;
 };
 
-/// A clock that can make timers. Tests pass a clock whose time changes only when the test advances it. Thread-safe.
+/// A clock that makes timers. Tests use a clock whose time changes only when the test advances it. Thread-safe.
 class TimerClock {
   public:
     using Clock = Timer::Clock;
@@ -38,7 +38,7 @@ class TimerClock {
     virtual ~TimerClock() = default;
 
     virtual Clock::time_point now() const = 0;
-    /// Returns a timer that calls functions on `executor`. The clock must outlive the timer.
+    /// Returns a timer whose functions run on `executor`. The clock must outlive the timer.
     virtual std::unique_ptr<Timer> makeTimer(const boost::asio::any_io_executor& executor) const = 0;
 };
 

@@ -6,16 +6,17 @@ namespace {
 
 using process::SandboxMode;
 
-// Maximum number of file descriptors of a child process: the standard streams, the channel to the server, a descriptor
-// that the server passes over this channel, and descriptors that libraries keep open.
+// The maximum number of file descriptors of a child process. Needed are the standard streams, the channel to the
+// server, a descriptor that arrives over this channel, and descriptors that libraries keep open.
 constexpr std::size_t kOwnFiles = 16;
 
-/// Returns `options.drawMemory` or, if this is 0, an upper bound of the memory that a rasterizer process needs for
-/// pictures within the limits, in bytes. Most of that memory is never touched.
+/// Returns the memory limit of a rasterizer process (draws pictures outside the server), in bytes. If
+/// `options.drawMemory` is 0, the limit is an upper bound of what pictures within the other limits need. Most of that
+/// memory is never touched.
 std::size_t drawMemory(const ServerOptions& options) {
     if (options.drawMemory > 0) return options.drawMemory;
-    // In bytes. kOwn: for llvmpipe (the software renderer) and the C library, with a heap for each thread. kEachPixel:
-    // for each pixel, sixteen buffers of four bytes. kEachSliceEdge: for each edge of the slices and the shapes that
+    // All are in bytes. kOwn is for llvmpipe (the software renderer) and the C library, with a heap for each thread.
+    // kEachPixel covers sixteen buffers of four bytes. kEachSliceEdge covers an edge of the slices and the shapes that
     // are drawn for it; measurements gave at most 260 bytes.
     constexpr std::size_t kOwn = std::size_t{3} << 30U, kEachPixel = 64, kEachSliceEdge = 512;
     const auto pixels = static_cast<std::size_t>(options.frame.maxPixels);
@@ -40,8 +41,8 @@ std::vector<std::string> childEnvironment(const ServerOptions& options, std::siz
 }
 
 process::Confinement rasterizerConfinement(const ServerOptions& options) {
-    // In addition to kOwnFiles, a rasterizer process needs one descriptor for each worker: that of the memory into
-    // which it draws the worker's pictures.
+    // Besides kOwnFiles, a rasterizer process needs one descriptor for each worker: the shared memory for the worker's
+    // pictures.
     return {filtersSystemCalls(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 

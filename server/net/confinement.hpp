@@ -1,5 +1,5 @@
 #pragma once
-// The sandbox and memory limits of the server's child processes.
+// The sandbox and the memory limits of the server's child processes.
 
 #include <cstddef>
 #include <string>
@@ -10,17 +10,17 @@
 
 namespace oval4d::net {
 
-/// Returns the environment variables through which the server passes its options to child processes
-/// (process::ChildOptions::environment). `workers`: the number of picture workers. Unless the options turn the sandbox
-/// off, checks whether the system can sandbox child processes. If the system cannot, sets `warning` to a message for
-/// the log, or throws std::runtime_error if the options require a sandbox.
+/// Returns the environment variables that pass the server's options to child processes
+/// (process::ChildOptions::environment). `workers` is the number of picture workers. Unless the options turn the
+/// sandbox off, checks whether the system can sandbox child processes. If it cannot, sets `warning` to a message for
+/// the log; throws std::runtime_error if the options require a sandbox.
 std::vector<std::string> childEnvironment(const ServerOptions& options, std::size_t workers, std::string& warning);
 
-/// Returns the confinement that a rasterizer process applies to itself. `options` must have been read from the
-/// variables that childEnvironment() has returned.
+/// Returns the limits that a rasterizer process (draws pictures outside the server) applies to itself. `options` must
+/// come from the variables that childEnvironment() returns.
 process::Confinement rasterizerConfinement(const ServerOptions& options);
-/// Returns the confinement that a file reader process applies to itself. `options` must have been read from the
-/// variables that childEnvironment() has returned.
+/// Returns the limits that a file reader process (parses files outside the server) applies to itself. `options` must
+/// come from the variables that childEnvironment() returns.
 process::Confinement fileReaderConfinement(const ServerOptions& options);
 
 }  // namespace oval4d::net

@@ -67,8 +67,8 @@ std::size_t ConnectionRegistry::countOf(const AddressAccount* client) const {
     return count == counts_.end() ? 0 : count->second;
 }
 
-/// Removes the oldest idle connection of this client, and returns the handler that ends it; an empty function if no
-/// connection of the client is idle.
+/// Removes the oldest idle connection of this client from the registry. Returns the handler that ends the connection;
+/// an empty function if no connection of the client is idle.
 ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const AddressAccount* client) {
     const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
         return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;
@@ -93,8 +93,8 @@ ConnectionRegistry::AdmissionDecision ConnectionRegistry::makeRoomFor(const Addr
     };
     {
         const std::lock_guard lock(mutex_);
-        // Connections that were refused stay registered until they end. Therefore the number of connections may exceed
-        // a limit by more than one, and several idle connections may have to be evicted.
+        // Refused connections stay registered until they end. The number of connections may therefore exceed a limit by
+        // more than one, and several idle connections may have to be evicted.
         while (admission == AdmissionDecision::admitted) {
             if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
                 evict(&client, AdmissionDecision::client_full);
@@ -116,7 +116,8 @@ std::size_t ConnectionRegistry::size() const {
 }
 
 void ConnectionRegistry::stopAll() {
-    // Call the handlers without holding the lock: a connection may end immediately and destroy its registration.
+    // The handlers are called without the lock, because a connection may end immediately and then destroys its
+    // registration.
     std::vector<EndHandler> ends;
     {
         const std::lock_guard lock(mutex_);

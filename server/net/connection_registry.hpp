@@ -1,5 +1,5 @@
 #pragma once
-// The registry of open connections, which limits their number per client and in total.
+// The registry of open connections. It limits their number, per client and in total.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,15 +11,15 @@
 
 namespace oval4d::net {
 
-/// Limits the number of open connections. At a limit, evicts an idle connection to admit a new one. An HTTP connection
-/// is idle while no request is in progress. A WebSocket is idle until its client has joined a session. Every function
-/// may be called from any thread.
+/// Limits the number of open connections. At a limit, ends an idle connection to make room for a new one. An HTTP
+/// connection is idle while it has no request in progress. A WebSocket is idle until its client has joined a session.
+/// Every function may be called from any thread.
 class ConnectionRegistry {
   public:
     ConnectionRegistry(std::size_t maxConnections, std::size_t maxPerClient)
         : maxConnections_(maxConnections), maxPerClient_(maxPerClient) {}
 
-    /// The reason why a connection must end: the server is stopping, or the connection was idle and is evicted.
+    /// Why a connection must end: the server is stopping, or the idle connection makes room for another one.
     enum class EndReason { stopping, evicted };
     using EndHandler = std::function<void(EndReason)>;
 
@@ -32,15 +32,14 @@ class ConnectionRegistry {
         Registration& operator=(const Registration&) = delete;
         ~Registration();
 
-        /// Sets the handler that ends the connection. The handler is called, on any thread, when the server stops or
-        /// the connection is evicted. If one of these events has already happened, setEndHandler() itself calls the
-        /// handler.
+        /// Sets the function that ends the connection. The registry calls it, on any thread, when the server stops or
+        /// the connection is evicted. If one of these has already happened, setEndHandler() calls the function at once.
         void setEndHandler(EndHandler handler);
 
-        /// Marks the connection as in use, which protects it from eviction, or as idle. A new connection is idle.
+        /// Marks the connection as in use or as idle. A connection in use is never evicted. A new connection is idle.
         void setInUse(bool inUse);
 
-        /// Assigns the connection to another client, which a trusted proxy has named in X-Forwarded-For.
+        /// Assigns the connection to another client. A trusted proxy has named this client in X-Forwarded-For.
         void setClient(const AddressAccountPtr& client);
 
       private:
@@ -48,24 +47,23 @@ class ConnectionRegistry {
         std::uint64_t number_;
     };
 
-    /// The decision on a new connection: admitted, or the limit that is reached.
+    /// The decision on a new connection: it is admitted, or refused because of one of two limits.
     enum class AdmissionDecision { admitted, server_full, client_full };
     /// Decides whether to admit one more connection of this client. At a limit, evicts idle connections, the oldest
-    /// first, until there is room for the new one: connections of this client if the client is at its limit, else
-    /// connections of the client with the most connections. If there is no such idle connection left, returns the limit
-    /// that is reached. `registered`: the number of registrations that the new connection itself already has (0 or 1);
-    /// they are not counted. `isProxy`: whether the client is a trusted proxy, to which the limit per client does not
-    /// apply.
+    /// first, until there is room. If the client is at its own limit, these are connections of this client; otherwise,
+    /// connections of the client that has the most. Returns the reached limit if no such idle connection is left.
+    /// `registered` is the number of registrations that the new connection already has (0 or 1); they are not counted.
+    /// `isProxy` tells whether the client is a trusted proxy, to which the limit per client does not apply.
     AdmissionDecision makeRoomFor(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
 
-    /// Returns the number of registered connections.
+    /// Returns the number of connections in the registry.
     std::size_t size() const;
-    /// Calls the end handlers of all connections with EndReason::stopping. A handler that is set later is called at
-    /// once.
+    /// Calls the end handlers of all connections with EndReason::stopping. From then on, setEndHandler() calls each new
+    /// handler at once.
     void stopAll();
 
   private:
-    // A connection, as its Registration has recorded it.
+    // An entry of the registry: a connection, its client and how to end it.
     struct RegisteredConnection {
         AddressAccountPtr client;
         EndHandler end;
@@ -73,7 +71,7 @@ class ConnectionRegistry {
     };
     using ConnectionsByNumber = std::map<std::uint64_t, RegisteredConnection>;
 
-    // The next three functions require that mutex_ is held.
+    // The caller of these three functions must hold mutex_.
     std::size_t countOf(const AddressAccount* client) const;
     EndHandler evictIdle(const AddressAccount* client);
     void uncount(const AddressAccount* client);

@@ -14,8 +14,8 @@
 
 namespace oval4d::net {
 
-/// A completion token that makes an awaited operation return a tuple beginning with the error code, instead of
-/// throwing.
+/// A completion token for awaited operations. With it, an operation returns a tuple that begins with the error code,
+/// instead of throwing an exception.
 inline constexpr auto kAsTuple = boost::asio::as_tuple(boost::asio::use_awaitable);
 
 /// Converts any duration to the duration type of asio::steady_timer.
@@ -24,15 +24,15 @@ auto toSteadyDuration(Duration duration) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(duration);
 }
 
-/// Calls `start` with a callback, suspends the coroutine until that callback is called, and returns the value that was
-/// passed to the callback. `start` must ensure that the callback is called exactly once, from any thread. The coroutine
-/// resumes on its own executor. Create `start` in an ordinary function: if a lambda is created in a coroutine, GCC 12
-/// destroys its captures twice.
+/// Calls `start` with a callback, suspends the coroutine until the callback is called, and returns the value passed to
+/// it. `start` must make sure that the callback is called exactly once, on any thread. The coroutine resumes on its own
+/// executor. Create `start` in an ordinary function, not in a coroutine: GCC 12 destroys the captures of a lambda in a
+/// coroutine twice.
 template <typename Value>
 boost::asio::awaitable<Value> awaitCallback(std::function<void(std::function<void(Value)>)> start) {
     namespace asio = boost::asio;
     auto initiate = [](auto handler, const std::function<void(std::function<void(Value)>)>& begin) {
-        // A completion handler is move-only, but std::function requires a copyable target.
+        // The completion handler can only be moved, but std::function requires a target that can be copied.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
         begin([shared](Value value) {
             const auto executor = asio::get_associated_executor(*shared);

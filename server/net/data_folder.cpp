@@ -28,27 +28,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Opens a file or folder in the folder whose descriptor is `folder`, without following a symbolic link. Returns the
-/// descriptor, or -1 if it cannot be opened.
+/// Opens a file or folder for reading, without following symbolic links. `folder` is the descriptor of the folder that
+/// contains it; `flags` are further flags for openat(). Returns the new descriptor, or -1 on failure.
 int openName(int folder, const std::string& name, int flags) {
     return openat(folder, name.c_str(), flags | O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
-/// Returns a string that changes when the file with this status changes.
+/// Returns a text that identifies the version of a file. The text changes when the file with this status changes.
 std::string versionOf(const struct stat& status) {
     return std::to_string(status.st_ino) + ':' + std::to_string(status.st_size) + ':' +
            std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
 }
 
-/// Returns a string that changes when the file changes; an empty string if `file` is not a regular file.
+/// Returns a text that identifies the version of an open file; an empty string if `file` is not a regular file.
 std::string versionOf(int file) {
     struct stat status{};
     if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return {};
     return versionOf(status);
 }
 
-/// Returns a string that changes when the metadata of a Zarr folder changes, or when files directly in it are added or
-/// removed; an empty string if `folder` is not a Zarr folder.
+/// Returns a text that identifies the version of a Zarr folder; an empty string if `folder` is not a Zarr folder. The
+/// text changes when its metadata change, or when files directly in it are added or removed.
 std::string versionOfZarr(int folder) {
     std::string version;
     for (const std::string_view name : fields::kZarrFiles) {
@@ -66,8 +66,8 @@ std::string versionOfZarr(int folder) {
     return version;
 }
 
-/// Returns a string that changes when a file at any depth in the folder changes, such as a chunk of a Zarr array. Does
-/// not follow symbolic links. Considers at most kMaxFiles files, because reading the status of each file takes time.
+/// Returns a text that changes when any file below the folder changes, such as a chunk of a Zarr array. Does not follow
+/// symbolic links. Considers at most kMaxFiles files, because reading the status of each file takes time.
 std::string versionOfFilesIn(const fs::path& folder) {
     constexpr std::size_t kMaxFiles = 10'000;
     std::size_t count = 0, sum = 0;  // a sum does not depend on the order in which the files are found
@@ -111,13 +111,14 @@ bool isArray(int file) {
     return size > 0 && fields::formatOfFile(std::span(start).first(static_cast<std::size_t>(size))) != nullptr;
 }
 
-/// Returns whether clients may use this name: one path component, in UTF-8, that does not begin with a dot.
+/// Returns whether clients may use this name for an entry: one path component in UTF-8 that does not begin with a dot.
 bool isAllowedName(const std::string& name) {
     return !name.empty() && name.front() != '.' && name.find('/') == std::string::npos &&
            name.find('\0') == std::string::npos && text::isUtf8(name);
 }
 
-/// Returns a cache key made from everything that determines the result of reading `load`, except the name of the field.
+/// Returns a cache key for the result of reading `load`. The key contains everything that determines the result, except
+/// the name of the field.
 std::string cacheKeyOf(const session::LoadObject& load, const std::string& version) {
     std::string key = load.dataName + '\0' + load.format + '\0' + load.axes + '\0' + load.variable + '\0';
     key += load.secondFormula + '\0' + load.secondVariable + '\0';
@@ -133,9 +134,10 @@ std::string cacheKeyOf(const session::LoadObject& load, const std::string& versi
     return key + '\0' + version;
 }
 
-/// Returns a copy of the loaded field in which Field::shared is true: its memory does not count against the sessions
-/// that use it, because DataFolder::bytes_ counts it. If the samples are in a mapped file, are a part of an array, or
-/// have replaced a coarser level of an image, sets Field::source. Returns an error if the object is not an array.
+/// Returns a copy of the loaded field in which Field::shared is true. The memory of such a field does not count against
+/// the sessions that use it, because DataFolder::bytes_ counts it. Sets Field::source if the samples are in a mapped
+/// file, are a part of an array, or have replaced a coarser level of an image. Returns an error if the object is not an
+/// array.
 Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings loaded,
                                                      const session::LoadObject& load) {
     const fields::Field* const field = slicing::fieldIn(loaded.object);
@@ -223,7 +225,7 @@ std::vector<std::string> DataFolder::readNames() const {
     return found;
 }
 
-/// Opens the entry with this name: its file, its Zarr folder, or the files of its series.
+/// Opens the entry with this name. An entry is a file, a Zarr folder, or a folder with the files of a series.
 Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const {
     const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
     if (folder_.empty() && !store_) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
@@ -280,8 +282,8 @@ std::string DataFolder::currentVersion(const OpenedEntry& opened) {
     return version;
 }
 
-/// Returns a field from the cache, called `name`, and marks it as the most recently used one. Returns an empty optional
-/// if the cache does not have the field, or if the field's file can no longer be read. Requires that mutex_ is held.
+/// Returns a field of the cache under the name `name`, and marks it as the most recently used. Returns an empty
+/// optional if the cache lacks the field or if the field's file can no longer be read. The caller must hold mutex_.
 std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& key, const std::string& name) {
     const auto found = std::ranges::find(recent_, key, &CachedField::key);
     if (found == recent_.end()) return {};
@@ -304,8 +306,8 @@ std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& k
     return loaded;
 }
 
-/// Drops the least recently used field that no session uses; if `onDisk` is true, considers only the fields with a file
-/// in the field cache. Returns whether it has dropped a field. Requires that mutex_ is held.
+/// Drops the least recently used field that no session uses. If `onDisk` is true, considers only fields with a file in
+/// the field cache. Returns false if there is no such field. The caller must hold mutex_.
 bool DataFolder::dropOneUnused(bool onDisk) {
     const auto isUnused = [&](const CachedField& field) {
         return std::get<slicing::FieldPtr>(field.loaded.object).use_count() == 1 && (field.onDisk || !onDisk);
@@ -317,9 +319,8 @@ bool DataFolder::dropOneUnused(bool onDisk) {
     return true;
 }
 
-/// Makes a file of this size in the field cache. If there is no room, first drops unused fields that have a file in the
-/// field cache. Errors: those of FieldCacheFiles::allocateFile(); `too_many` if there is not enough room even after all
-/// unused fields are dropped.
+/// Makes a file of this size in the field cache. If there is no room, drops unused fields that have a file there.
+/// Errors: those of FieldCacheFiles::allocateFile(); `too_many` if the fields in use leave no room.
 Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
     const std::lock_guard lock(mutex_);
     for (;;) {
@@ -334,9 +335,9 @@ Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
     }
 }
 
-/// Puts a field into the cache. `onDisk`: whether the field has a file in the field cache. Makes room by dropping the
-/// least recently used fields that no session uses. Errors: `too_large` if the field alone exceeds the maximum memory;
-/// `too_many` if the fields in use leave no room for it.
+/// Puts a field into the cache under `key`. Makes room by dropping the least recently used fields that no session uses.
+/// `onDisk` tells whether the field has a file in the field cache. Errors: `too_large` if the field alone exceeds the
+/// maximum memory; `too_many` if the fields in use leave no room.
 Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk) {
     const std::size_t size = slicing::memoryOf(loaded.object);
     const std::lock_guard lock(mutex_);

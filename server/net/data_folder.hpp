@@ -1,5 +1,5 @@
 #pragma once
-// The folder of arrays that the server offers to all sessions (--data).
+// The folder of arrays that the server offers to all sessions (option --data).
 
 #include <atomic>
 #include <chrono>
@@ -27,70 +27,73 @@
 
 namespace oval4d::net {
 
-/// A folder of arrays, on a disk or in an object store. Each entry is a file, a Zarr folder, or a folder that is a
-/// series: its files are the time steps of one array. Clients refer to entries by name; names that begin with a dot or
-/// lead outside the folder are refused, and symbolic links are not followed. Sessions that open the same file in the
-/// same way, under whatever names, share one copy, until the file changes. Fields that are larger than
-/// session::Limits::maxFieldBytes are mapped into memory: from the file in the folder or, if its samples must be
-/// converted, from a file of the field cache (see FieldCacheFiles). Thread-safe.
+/// A folder of arrays, on a disk or in an object store. Each entry is a file, a Zarr folder, or a series. A series is a
+/// folder whose files are the time steps of one array. Clients refer to entries by name. Names that begin with a dot or
+/// lead outside the folder are refused, and symbolic links are not followed. Thread-safe.
 ///
-/// The entries in an object store are Zarr folders. Fields from a store that are in memory are read again when the
-/// metadata of their Zarr folder change; changes of chunks are not noticed.
+/// Sessions that open the same file in the same way share one copy, whatever names they give to it, until the file
+/// changes. Fields larger than session::Limits::maxFieldBytes are mapped into memory: from the file in the folder or,
+/// if the samples must be converted, from a file of the field cache (see FieldCacheFiles).
+///
+/// The entries in an object store are Zarr folders. A field from a store is read again when the metadata of its Zarr
+/// folder have changed; changes of chunks are not noticed.
 class DataFolder {
   public:
-    /// `folder`: a path, or the address of an object store; empty if the server offers none. `bytes`: the maximum
-    /// memory, in bytes, of the fields from the folder, whether or not sessions use them. `fieldCacheFiles` must
-    /// outlive the fields. Throws std::runtime_error if the folder cannot be read, and std::invalid_argument if the
-    /// address is not valid.
+    /// `folder` is a path or the address of an object store; empty if the server offers no arrays. `bytes` is the
+    /// maximum memory of all fields from the folder, used or not. `fieldCacheFiles` must outlive the fields. Throws
+    /// std::runtime_error if the folder cannot be read, and std::invalid_argument if the address is not valid.
     DataFolder(const std::string& folder, std::size_t bytes, FieldCacheFiles& fieldCacheFiles,
                const ObjectStoreLimits& storeLimits = {});
 
-    /// Reads a file as FileReaderPool::read() does.
+    /// A function that reads a file. It has the same effect as FileReaderPool::read().
     using Reader = std::function<Result<session::ObjectWithWarnings>(
         const session::LoadObject& load, const session::Limits& limits, const file_reading::FileAllocator& allocate)>;
 
-    /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Unless
-    /// knownNames() has the names, reads the folder, which blocks the calling thread. The names in an object store are
-    /// those that its object index.json, a JSON array of strings, lists; without one, there are none.
+    /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Blocks the
+    /// calling thread while it reads the folder, unless knownNames() has the names. An object store lists its names in
+    /// its object index.json, a JSON array of strings; without this object, there are no names.
     std::vector<std::string> names() const;
-    /// Returns the names that names() last read from the folder, if it began to read them less than kListedFor ago;
-    /// else an empty optional. Returns an empty list if there is no data folder.
+    /// Returns the result of the last names(), if it began to read the folder less than kListedFor ago; otherwise an
+    /// empty optional. Without a data folder, returns an empty list.
     std::optional<std::vector<std::string>> knownNames() const;
 
-    /// Returns the field that `load.dataName` names. If it is not in memory, calls `reader` with a copy of `load` that
-    /// contains the opened files. Blocks the calling thread until the field is read, by this thread or by another one
-    /// that is already reading the same field. Errors: those of ObjectStore::get(); `not_found` if the folder has no
-    /// such file; `too_large` if the field takes more memory or disk space than the limits allow, or if a series has
-    /// more than kMaxSeries files; `too_many` if fields in use leave too little memory or disk space; `bad_field` if
-    /// the file is not an array, or is found to have changed while it was read; those of `reader`.
+    /// Returns the field of the entry `load.dataName`. If the field is not in memory, calls `reader` with a copy of
+    /// `load` that contains the opened files. Blocks the calling thread until this or another thread has read the
+    /// field. Errors:
+    /// - `not_found` if the folder has no such entry;
+    /// - `too_large` if the field takes more memory or disk space than allowed, or if a series has more than kMaxSeries
+    ///   files;
+    /// - `too_many` if fields in use leave too little memory or disk space;
+    /// - `bad_field` if the file is not an array, or has changed while it was read;
+    /// - those of `reader` and of ObjectStore::get().
     Result<session::ObjectWithWarnings> read(const session::LoadObject& load, const session::Limits& limits,
                                              const Reader& reader);
 
-    /// Returns the memory, in bytes, of all fields from the folder.
+    /// Returns the memory that all fields from the folder take, in bytes.
     std::size_t bytesInMemory() const;
 
-    /// The maximum number of names that names() returns, and of files in a series.
+    /// The maximum number of names that names() returns, and the maximum number of files in a series.
     static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
-    /// The time for which knownNames() returns names that were read from the folder.
+    /// For this time, knownNames() returns names that were read from the folder before.
     static constexpr std::chrono::seconds kListedFor{2};
 
   private:
     using Clock = std::chrono::steady_clock;
-    // A file, a Zarr folder or a series that open() has opened.
+    // An entry that open() has opened: a file, a Zarr folder or a series.
     struct OpenedEntry {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
         std::shared_ptr<const fields::FolderFiles> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
-        std::string version;  // changes when one of `files` changes, or the metadata of the Zarr folder
-        // Changes when a chunk of the Zarr folder changes; empty without a Zarr folder. A change while a field is read
-        // does not make read() fail, because a simulation may be writing other arrays of the folder.
+        std::string version;  // changes with `files` or the metadata of the Zarr folder
+        // Changes when a chunk of the Zarr folder changes; empty without a Zarr folder. Such a change during read() is
+        // no error, because a simulation may be writing other arrays of the folder.
         std::string chunks;
     };
-    // A field in memory, under the name with which it was read.
+    // A field in memory, under the name with which it was first read.
     struct CachedField {
         std::string key;
         session::ObjectWithWarnings loaded;
-        // The copies of the field under other names. They keep the field in use (see fields::changedCopy()).
+        // Copies of the field under other names. A copy in use also keeps the field in use (see fields::changedCopy()).
         std::map<std::string, std::weak_ptr<const fields::Field>, std::less<>> renamed = {};
         std::size_t bytes = 0;
         bool onDisk = false;  // whether the field has a file in the field cache
@@ -109,14 +112,15 @@ class DataFolder {
     std::optional<session::ObjectWithWarnings> find(const std::string& key, const std::string& name);
 
     const std::filesystem::path folder_;              // empty if there is none on a disk
-    const std::unique_ptr<const ObjectStore> store_;  // null if there is none
+    const std::unique_ptr<const ObjectStore> store_;  // null without an object store
     const std::size_t maxBytes_;
     FieldCacheFiles& fieldCacheFiles_;
     mutable std::mutex namesMutex_;  // guards names_ and listed_
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
-    // Guards the members below. A thread may hold this mutex while it allocates or frees gigabytes on the disk.
-    // Therefore knownNames() and bytesInMemory(), which threads that serve sockets call, do not lock the mutex.
+    // Guards the members below. A thread may hold this mutex while it allocates or frees gigabytes on the disk. The
+    // threads that serve sockets must not wait for that: they call knownNames() and bytesInMemory(), which do not lock
+    // it.
     std::mutex mutex_;
     std::list<CachedField> recent_;      // the most recently used first
     std::atomic<std::size_t> bytes_{0};  // total memory of the fields in `recent_`, in bytes

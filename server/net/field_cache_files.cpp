@@ -13,14 +13,14 @@ namespace oval4d::net {
 
 namespace {
 
-/// Sets the size of a file, and reserves its blocks on the disk if the file system can do so. Returns 0 or an error
-/// number.
+/// Sets the size of an open file, and reserves its blocks on the disk if the file system can do so. Returns 0 on
+/// success, else an error number (errno).
 int allocate(int file, std::size_t bytes) {
     const auto size = static_cast<off_t>(bytes);
     if (fallocate(file, 0, 0, size) == 0) return 0;
     if (errno != EOPNOTSUPP && errno != ENOSYS) return errno;
-    // This file system cannot reserve blocks, so only check that there is room now. If the disk becomes full while the
-    // file is written, the process that writes it reports an error.
+    // This file system cannot reserve blocks, so only the present free space is checked. If the disk becomes full
+    // later, the process that writes the file reports an error.
     struct statvfs status{};
     if (fstatvfs(file, &status) != 0) return errno;
     if (status.f_bavail * status.f_frsize < bytes) return ENOSPC;

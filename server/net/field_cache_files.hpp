@@ -1,5 +1,5 @@
 #pragma once
-// Files of samples, for fields of the data folder that are too large for memory and cannot be mapped as they are.
+// Files of samples for large fields of the data folder. Their original files cannot be mapped into memory as they are.
 
 #include <atomic>
 #include <cstddef>
@@ -12,23 +12,24 @@
 
 namespace oval4d::net {
 
-/// The field cache on the disk (--field-cache): unnamed files, with a limit on their total size. The system deletes
-/// each file when the last reference to it is gone, at the latest when the server ends, even by a crash. Thread-safe.
+/// The field cache on the disk (option --field-cache). It consists of unnamed files and has a limit on their total
+/// size. The system deletes a file when the last reference to it is gone, at the latest when the server ends or
+/// crashes. Thread-safe.
 class FieldCacheFiles {
   public:
-    /// `folder`: empty for /var/tmp, which is on a disk even where /tmp is in memory. `bytes`: the maximum total size
-    /// of the files.
+    /// `folder` is empty for /var/tmp, which is on a disk even where /tmp is in memory. `bytes` is the maximum total
+    /// size of the files.
     FieldCacheFiles(const std::string& folder, std::size_t bytes);
 
     using FilePtr = std::shared_ptr<const fields::FileHandle>;
 
-    /// Returns a new file of this size. Reserves its space on the disk if the file system can do so, so that writing to
-    /// it cannot fail for lack of space. Returns a null pointer if this size is within the limit, but the total size of
-    /// all files would exceed it. This object must outlive the file. Errors: `too_large` if the file is larger than the
-    /// limit; `internal` if it cannot be made; `too_many` if the disk is full.
+    /// Returns a new file of this size. Reserves its space on the disk if the file system can do so; writing to the
+    /// file then cannot fail for lack of space. Returns a null pointer if only the total size of all files would exceed
+    /// the limit. This object must outlive the file. Errors: `too_large` if the file alone exceeds the limit;
+    /// `internal` if it cannot be made; `too_many` if the disk is full.
     Result<FilePtr> allocateFile(std::size_t bytes);
 
-    /// Returns the size of all files, in bytes.
+    /// Returns the total size of all files, in bytes.
     std::size_t diskBytes() const { return bytes_; }
 
   private:

@@ -12,7 +12,8 @@ namespace oval4d::net {
 
 namespace {
 
-// Shortens the text to the host, its first `hostLength` bytes. Returns whether the rest was empty or a valid ":port".
+// Shortens `text` to the host, which is its first `hostLength` bytes. Returns whether the rest was empty or a valid
+// ":port".
 bool cutToHost(std::string_view& text, std::size_t hostLength) {
     constexpr std::size_t kMaxDigits = 5;
     const std::string_view rest = text.substr(hostLength);

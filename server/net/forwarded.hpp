@@ -1,5 +1,5 @@
 #pragma once
-// The addresses in X-Forwarded-For.
+// Parses the addresses in the HTTP header field X-Forwarded-For.
 
 #include <optional>
 #include <string_view>
@@ -8,10 +8,9 @@
 
 namespace oval4d::net {
 
-/// Returns the address in an entry of X-Forwarded-For, as proxies write it: an IPv4 address, or an IPv6 address with or
-/// without brackets, each with or without a port, with or without double quotes (RFC 7239, section 6). An IPv6 address
-/// with a port needs brackets. Returns an empty optional for other entries, such as "unknown" and obfuscated
-/// identifiers ("_hidden").
+/// Returns the address in an entry of X-Forwarded-For. The entry is an IPv4 or IPv6 address, with or without a port,
+/// and with or without double quotes (RFC 7239, section 6). An IPv6 address may have brackets; with a port, it must
+/// have them. Returns an empty optional for other entries, such as "unknown" or obfuscated identifiers ("_hidden").
 std::optional<boost::asio::ip::address> forwardedAddress(std::string_view entry);
 
 }  // namespace oval4d::net

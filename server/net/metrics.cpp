@@ -10,10 +10,10 @@ namespace {
 
 using prometheus::Histogram;
 
-// Upper bounds of the histogram buckets, in seconds, of all histograms but that of the time to make a file.
+// The upper bounds of the histogram buckets, in seconds, for all times but the time to make a file.
 const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0.01, 0.02, 0.05, 0.1, 0.3, 1, 3};
 
-// Upper bounds of the histogram buckets, in seconds, for the time to make a file.
+// The upper bounds of the histogram buckets, in seconds, for the time to make a file.
 const Histogram::BucketBoundaries kFileBuckets{1e-3, 1e-2, 0.1, 0.3, 1, 3, 10, 20, 60};
 
 prometheus::Gauge& gauge(prometheus::Registry& registry, const char* name, const char* help) {

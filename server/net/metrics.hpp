@@ -1,5 +1,5 @@
 #pragma once
-// The Prometheus metrics that /metrics serves.
+// The Prometheus metrics of the server, which the path /metrics serves.
 
 #include <prometheus/counter.h>
 #include <prometheus/gauge.h>
@@ -49,15 +49,15 @@ class Metrics {
     prometheus::Counter& workerSeconds;       ///< busy seconds, summed over all picture workers
     prometheus::Histogram& latency;  ///< seconds from a session change until its picture is written to the socket
 
-    /// Counts an error sent to a client.
+    /// Counts an error that was sent to a client.
     void countError(ErrorCode code);
     /// Counts an HTTP request that was answered with this status.
     void countRequest(unsigned httpStatus);
-    /// Counts a picture that was sent to a client in this stream.
+    /// Counts a picture that was sent to a client over this stream.
     void countPicture(wire::Stream stream);
-    /// Records the duration of each step of a picture; ignores steps that took no time.
+    /// Records how long each step of making a picture took. Ignores steps that took no time.
     void observe(const pipeline::PictureTimes& times);
-    /// Records the duration of a store operation, and counts the operation as failed unless `succeeded`.
+    /// Records the duration of a store operation in seconds. Counts the operation as failed if `succeeded` is false.
     void observeStore(const std::string& operation, double seconds, bool succeeded);
 
     /// Returns all metrics in the Prometheus text exposition format.

@@ -19,12 +19,12 @@ namespace {
 
 using fields::FilePart;
 
-constexpr std::size_t kMaxKey = 1024;  // maximum length of a path in bytes, as S3 allows it
-// The bytes of an error page that are read, so that the connection can be used again.
+constexpr std::size_t kMaxKey = 1024;  // maximum length of a path in bytes, the limit of S3
+// At most this many bytes of an error page are read. The connection can then be used again.
 constexpr std::size_t kMaxErrorPage = std::size_t{64} << 10U;
 constexpr long kOk = 200, kPartialContent = 206;
 
-// A request in progress, for the functions that libcurl calls.
+// The state of a request in progress, for the functions that libcurl calls.
 struct Transfer {
     CURL* handle;
     long wantedStatus;
@@ -41,13 +41,13 @@ long statusOf(CURL* handle) {
     return status;
 }
 
-// Takes bytes of the answer. Returns a number other than `count` to end the transfer.
+// Receives bytes of the answer (a write function of libcurl). Returns a number other than `count` to end the transfer.
 std::size_t onAnswerBytes(char* from, std::size_t /*one*/, std::size_t count, void* context) {
     auto& transfer = *static_cast<Transfer*>(context);
     const long status = statusOf(transfer.handle);
     if (status != transfer.wantedStatus) {
         transfer.ignored += count;
-        // With status 200, the store sends the whole object instead of the part.
+        // With status 200, the store sends the whole object instead of the requested part.
         return status == kOk || transfer.ignored > kMaxErrorPage ? 0 : count;
     }
     transfer.isTooLarge = count > transfer.maxBytes - transfer.bytes.size();
@@ -61,7 +61,7 @@ std::size_t onAnswerBytes(char* from, std::size_t /*one*/, std::size_t count, vo
     return count;
 }
 
-// Called at least once a second. Returns a number other than 0 to end the transfer.
+// A progress function of libcurl, called at least once a second. Returns a number other than 0 to end the transfer.
 int onProgress(void* context, curl_off_t /*total*/, curl_off_t /*now*/, curl_off_t /*uploadTotal*/,
                curl_off_t /*uploadNow*/) {
     return static_cast<const Transfer*>(context)->stop.stop_requested() ? 1 : 0;
@@ -78,14 +78,15 @@ bool isPathOfNames(std::string_view path) {
     return true;
 }
 
-// Returns the value of the header Range after "bytes=".
+// Returns the value of the request header Range, without its beginning "bytes=".
 std::string rangeOf(const FilePart& part) {
     if (part.fromEnd) return '-' + std::to_string(part.size);
     const bool endsWithFile = part.size > FilePart::kAll - part.offset;
     return std::to_string(part.offset) + '-' + (endsWithFile ? "" : std::to_string(part.offset + part.size - 1));
 }
 
-// Removes a number and the character `after` it from the start of a text. Returns an empty optional if there are none.
+// Removes a number, and the character `after` behind it, from the start of `text`. Returns an empty optional if the
+// text does not start so.
 std::optional<std::uint64_t> takeNumberBefore(std::string_view& text, char after) {
     std::uint64_t number = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -96,8 +97,8 @@ std::optional<std::uint64_t> takeNumberBefore(std::string_view& text, char after
     return number;
 }
 
-// Returns whether the header Content-Range (RFC 9110, section 14.4) of an answer of `count` bytes states that they are
-// the part, or as much of it as the object has.
+// Returns whether the answer contains the requested part, or as much of it as the object has. `header` is the answer's
+// Content-Range (RFC 9110, section 14.4), and `count` the answer's number of bytes.
 bool isRangeOf(std::string_view header, const FilePart& part, std::size_t count) {
     constexpr std::string_view kUnit = "bytes ";
     if (!header.starts_with(kUnit)) return false;
@@ -117,7 +118,7 @@ std::string contentRangeOf(CURL* handle) {
                                                                                                          : "";
 }
 
-// Returns why a transfer without a complete answer failed.
+// Returns the reason why a transfer failed before its answer was complete.
 std::string reasonOf(CURLcode code) {
     switch (code) {
         case CURLE_COULDNT_RESOLVE_HOST:
@@ -138,7 +139,7 @@ std::string reasonOf(CURLcode code) {
     }
 }
 
-// Returns why an answer with this status is refused.
+// Returns the reason why an answer with this status is refused.
 std::string reasonOf(long status, bool isPart) {
     const std::string number = " (status " + std::to_string(status) + ")";
     if (status == kOk && isPart)
@@ -155,11 +156,11 @@ std::string reasonOf(long status, bool isPart) {
 }
 
 long curlMilliseconds(std::chrono::duration<double> time) {
-    constexpr double kMost = 1e9;  // also for times that no `long` can represent
+    constexpr double kMost = 1e9;  // so large that a `long` can still represent it
     return static_cast<long>(std::clamp(time.count() * 1000, 1.0, kMost));
 }
 
-// Returns the address with a slash at its end. Throws std::invalid_argument if it is not valid.
+// Returns the address of a store with a slash at its end. Throws std::invalid_argument if the address is not valid.
 std::string checkedAddress(std::string address) {
     const auto invalid = [](const std::string& why) { return std::invalid_argument("--data: " + why); };
     if (!address.starts_with("http://") && !address.starts_with("https://"))
@@ -250,7 +251,7 @@ Result<std::optional<std::string>> ObjectStore::get(const std::string& path, con
     }
     if (code == CURLE_ABORTED_BY_CALLBACK) return Error{ErrorCode::internal, "the server stops reading this field"};
     if (transfer.isTooLarge) return tooLarge;
-    // A transfer that onAnswerBytes() has ended has a code, too; its status tells more.
+    // If onAnswerBytes() has ended a transfer, its status tells more than its code.
     if (code != CURLE_OK && (code != CURLE_WRITE_ERROR || status == transfer.wantedStatus))
         return refused(reasonOf(code));
     constexpr long kNotFound = 404, kGone = 410, kRangeNotSatisfiable = 416;

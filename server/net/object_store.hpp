@@ -1,5 +1,5 @@
 #pragma once
-// A store of objects that answers GET requests: an S3-compatible store with a public bucket, or any HTTP server.
+// Reads objects over HTTP: from an S3-compatible store with a public bucket, or from any HTTP server.
 
 #include <chrono>
 #include <cstddef>
@@ -22,31 +22,31 @@ struct ObjectStoreLimits {
     std::size_t objectBytes = 128U << 20U;            ///< maximum size of an object, or of a part of one, in bytes
 };
 
-/// Gets objects whose addresses begin with one base address, which the server's operator names. Does not follow
-/// redirects, so that no request goes to another address. Keeps connections open, one for each thread that has made a
+/// Reads objects whose addresses begin with one base address, which the server's operator chooses. Does not follow
+/// redirects, so that no request goes to another address. Keeps connections open: one for each thread that has made a
 /// request at the same time as others. Thread-safe.
 class ObjectStore {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `address` begins with http:// or https://. Throws std::invalid_argument if it is not valid, or if it contains a
-    /// user name, a query or a fragment.
+    /// `address` begins with http:// or https://. Throws std::invalid_argument if the address is not valid, or contains
+    /// a user name, a query or a fragment.
     ObjectStore(const std::string& address, const ObjectStoreLimits& limits);
     ~ObjectStore();
     ObjectStore(const ObjectStore&) = delete;
     ObjectStore& operator=(const ObjectStore&) = delete;
 
-    /// Returns whether a value of --data is the address of a store rather than the path of a folder.
+    /// Returns whether a value of the option --data is the address of a store rather than the path of a folder.
     static bool isAddress(const std::string& text);
 
-    /// Gets the part of an object; fewer bytes if the object ends before the part does. `path` is relative to the
-    /// address; it is made of names separated by slashes, which are not percent-encoded. Returns an empty optional if
-    /// there is no such object (404 or 410), or if a name in `path` is empty, "." or "..". Blocks the calling thread
-    /// until `until`, until the time allowed for a request has passed, or until a stop is requested (within a second).
+    /// Reads a part of an object; fewer bytes if the object ends before the part does. `path` is relative to the base
+    /// address. It consists of names separated by slashes, without percent encoding. Returns an empty optional if there
+    /// is no such object (404 or 410), or if a name in `path` is empty, "." or "..". Blocks the calling thread until
+    /// `until`, until the maximum time of a request has passed, or until a stop is requested (within a second).
     ///
-    /// Errors: `too_large` if the part takes more bytes than are allowed; `internal` if the store cannot be reached,
-    /// does not answer in time, redirects, or answers with an error, with a whole object instead of a part, or with
-    /// another number of bytes than it states. The log says so, too, with the address.
+    /// Errors: `too_large` if the part exceeds the allowed size; `internal` if the store cannot be reached, does not
+    /// answer in time, redirects, answers with an error, sends a whole object instead of a part, or sends another
+    /// number of bytes than it states. The log has each error with the address.
     Result<std::optional<std::string>> get(const std::string& path, const fields::FilePart& part,
                                            Clock::time_point until = Clock::time_point::max(),
                                            const std::stop_token& stop = {}) const;
@@ -55,7 +55,7 @@ class ObjectStore {
     struct HandleCloser {
         void operator()(void* handle) const;
     };
-    using Handle = std::unique_ptr<void, HandleCloser>;  // a CURL*, which keeps its connection open
+    using Handle = std::unique_ptr<void, HandleCloser>;  // a libcurl handle (CURL*), which keeps its connection open
 
     Handle takeHandle() const;
 

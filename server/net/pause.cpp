@@ -10,7 +10,7 @@ namespace oval4d::net {
 
 namespace {
 
-/// Returns a function that starts the timer, which then calls the function's argument at the time `when`.
+/// Returns a function that starts the timer. At the time `when`, the timer calls the argument of that function.
 std::function<void(std::function<void(std::monostate)>)> timerStarter(Timer& timer, Timer::Clock::time_point when) {
     return [&timer, when](const std::function<void(std::monostate)>& done) {
         timer.start(when, [done] { done(std::monostate{}); });

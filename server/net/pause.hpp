@@ -1,5 +1,5 @@
 #pragma once
-// A pause of a coroutine, by the clock of connections.
+// A pause for coroutines, measured by the clock of connections.
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/awaitable.hpp>
@@ -9,8 +9,8 @@
 
 namespace oval4d::net {
 
-/// Waits for this long, by `clock`, which must outlive the wait. Does not wait if `duration` is not positive. The
-/// coroutine that awaits the result must run on `executor`.
+/// Suspends the coroutine for `duration`, measured by `clock`, which must outlive the pause. Does not wait if
+/// `duration` is not positive. The coroutine must run on `executor`.
 boost::asio::awaitable<void> pauseFor(const TimerClock& clock, boost::asio::any_io_executor executor,
                                       std::chrono::duration<double> duration);
 

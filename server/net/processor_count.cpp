@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the CPU quota of a control group as a number of processors, such as 2 for the cpu.max "200000 100000".
-/// Returns an empty optional if there is no quota ("max 100000") or no such file.
+/// Returns the CPU quota of a control group as a number of processors: 2 for the cpu.max "200000 100000". Returns an
+/// empty optional if there is no quota ("max 100000") or no such file.
 std::optional<double> quotaIn(const fs::path& group) {
     double quota = 0, period = 0;
     if (std::ifstream(group / "cpu.max") >> quota >> period && period > 0) return quota / period;
@@ -36,9 +36,9 @@ std::size_t usableProcessorCount(const fs::path& root) {
         const std::string controllers = line.substr(first + 1, second - first - 1);
         if (!controllers.empty() && controllers != "cpu" && controllers != "cpu,cpuacct") continue;
         const fs::path mount = root / "sys/fs/cgroup" / controllers;
-        // In a container, the path in the line may be that of the group on the host, but the container sees only its
-        // own group, at `mount`. Therefore try the path and all its parents, up to `mount`; quotaIn() skips files that
-        // do not exist.
+        // In a container, the line may contain the path of the group on the host, although the container sees only its
+        // own group, at `mount`. Therefore the path and all its parents up to `mount` are tried. quotaIn() skips
+        // missing files.
         for (fs::path path = line.substr(second + 2);; path = path.parent_path()) {
             if (const auto quota = quotaIn(mount / path)) most = std::min(most, *quota);
             if (path.empty()) break;

@@ -42,11 +42,11 @@ namespace {
 
 constexpr std::size_t kTokenBytes = 20;
 constexpr auto kWorkerStopTimeout = 500ms;
-// The time after which file reader processes end if no file is read: as long as they run, a client that loads another
-// file need not wait for a process to start.
+// File reader processes end after this time without a file to read. Until then, a client that loads another file need
+// not wait for a process to start.
 constexpr Seconds kReaderIdleTimeout{10};
 
-/// Raises the soft limit of open files to the hard limit, because each connection uses a file descriptor.
+/// Raises the process's limit of open files to the maximum, because each connection uses a file descriptor.
 void raiseFileLimit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -59,8 +59,8 @@ store::StoreOptions storeOptions(const ServerOptions& options) {
             std::chrono::duration_cast<store::Milliseconds>(options.storeTimeout), options.storeQuota};
 }
 
-/// Returns the URL of the server at this endpoint. For an unspecified address ("all interfaces"), the host in the URL
-/// is localhost, which a browser on this machine can open.
+/// Returns the URL of the server at this endpoint. If the endpoint stands for all interfaces, the host in the URL is
+/// localhost, which a browser on this machine can open.
 std::string urlFor(const tcp::endpoint& endpoint) {
     const bool all = endpoint.address().is_unspecified();
     const std::string address = all ? "localhost" : endpoint.address().to_string();
@@ -72,7 +72,7 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
     tcp::acceptor acceptor(asio::make_strand(io));
     acceptor.open(endpoint.protocol());
     acceptor.set_option(asio::socket_base::reuse_address(true));
-    // The socket of a specific IPv6 address accepts no IPv4 connections, whatever the system's bindv6only setting is.
+    // The socket of a specific IPv6 address accepts no IPv4 connections, whatever the system's setting bindv6only is.
     if (endpoint.address().is_v6() && !endpoint.address().is_unspecified())
         acceptor.set_option(asio::ip::v6_only(true));
     acceptor.bind(endpoint);
@@ -80,9 +80,9 @@ tcp::acceptor bindAcceptor(asio::io_context& io, const tcp::endpoint& endpoint) 
     return acceptor;
 }
 
-/// Returns one acceptor for each address, all on the same port. Skips addresses that this machine does not have, such
-/// as ::1 if IPv6 is off. Throws std::runtime_error if no address is left, or if binding an address fails for any other
-/// reason.
+/// Returns one acceptor for each address, all with the same port. Skips addresses that this machine does not have, such
+/// as ::1 if IPv6 is off. Throws std::runtime_error if no address is left, or if an address cannot be used for any
+/// other reason.
 std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const ServerOptions& options) {
     constexpr int kAttempts = 20;  // attempts to find a port that is free at every address, if options.port is 0
     for (int attempt = 1;; ++attempt) {
@@ -113,7 +113,7 @@ std::vector<tcp::acceptor> bindAcceptors(asio::io_context& io, const ServerOptio
     }
 }
 
-/// The server: owns all services and runs them until a signal stops it.
+/// The server. It owns all services, and runs them until a signal stops it.
 class Server {
   public:
     Server(ServerOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
@@ -205,8 +205,8 @@ bool Server::listensOnlyOnLoopback() const {
                                [](const tcp::acceptor& each) { return each.local_endpoint().address().is_loopback(); });
 }
 
-/// Returns the token that clients must send: the configured one, or a random one if the server listens on an address
-/// other than loopback; empty if none is required.
+/// Returns the token that clients must send: the configured token; without one, a random token if the server listens on
+/// an address other than loopback. Empty if no token is required.
 std::string Server::requiredToken() const {
     if (!options_.token.empty()) return options_.token;
     return options_.open || listensOnlyOnLoopback() ? std::string() : store::randomName(kTokenBytes);
@@ -239,8 +239,8 @@ void Server::run() {
     spdlog::info("stopped");
 }
 
-/// Stops the workers. Some jobs cannot be interrupted: if one is still running after kWorkerStopTimeout, exits the
-/// program immediately. That loses nothing: by then no client waits for the job, and the sessions have been written.
+/// Stops the workers. Some jobs cannot be interrupted. If one still runs after kWorkerStopTimeout, ends the program at
+/// once. Nothing is lost: no client waits for the job anymore, and the sessions have been written.
 void Server::stopWorkers() {
     std::atomic_bool ended = false;
     std::thread watchdog([&ended] {
@@ -265,8 +265,8 @@ asio::awaitable<void> Server::acceptConnections(tcp::acceptor& acceptor) {
         const auto [fault] = co_await acceptor.async_accept(socket, kAsTuple);
         if (fault == asio::error::operation_aborted) co_return;
         if (fault) {
-            // The most likely reason is that no file descriptor is free. Wait, because one becomes free when a
-            // connection ends.
+            // Most likely, no file descriptor is free. One becomes free when a connection ends, so the loop waits and
+            // tries again.
             spdlog::warn("cannot accept fault=\"{}\"", fault.message());
             co_await pauseFor(clock_, acceptor.get_executor(), 100ms);
             continue;
@@ -281,11 +281,11 @@ asio::awaitable<void> Server::stopOnSignal() {
     asio::signal_set signals(executor, SIGINT, SIGTERM, SIGHUP);
     const auto [fault, number] = co_await signals.async_wait(kAsTuple);
     spdlog::info("stopping signal={} connections={}", number, connections_.size());
-    signals.clear();  // a second signal ends the program immediately
+    signals.clear();  // a second signal ends the program at once
     readiness_.markStopping();
     for (tcp::acceptor& acceptor : acceptors_) asio::post(acceptor.get_executor(), [&acceptor] { acceptor.close(); });
     const auto limit = clock_.now() + toSteadyDuration(options_.stopTimeout);
-    // Save all sessions before clients reconnect to other servers, so that those servers have the latest changes.
+    // All sessions are saved before clients reconnect to other servers, so that those servers have the latest changes.
     auto saving = std::make_shared<std::monostate>();
     sessions_->saveAll(saving);
     const std::weak_ptr<std::monostate> saved = std::exchange(saving, nullptr);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMinQuota = std::size_t{1} << 20U;
 
-/// Returns the name of an option's environment variable: "OVAL4D_MAX_MESSAGE" for "--max-message".
+/// Returns the name of the environment variable for an option: "OVAL4D_MAX_MESSAGE" for "--max-message".
 std::string variableFor(const std::string& option) {
     std::string name = "OVAL4D_" + option.substr(2);
     std::ranges::transform(name, name.begin(), [](unsigned char c) { return c == '-' ? '_' : std::toupper(c); });
@@ -38,12 +38,12 @@ void addSeconds(CLI::App& app, const std::string& name, Seconds& value, const st
         ->check(CLI::Range(0.001, 1e9));
 }
 
-/// Adds an option for a size in bytes; a suffix stands for a power of 1024, as in 512k or 8M.
+/// Adds an option for a size in bytes. A suffix stands for a power of 1024, as in 512k or 8M.
 CLI::Option* addBytes(CLI::App& app, const std::string& name, std::size_t& value, const std::string& help) {
     return add(app, name, value, help)->transform(CLI::AsSizeValue(false))->type_name("BYTES");
 }
 
-/// A CLI11 validator: returns an error message if the text is not a network, else an empty string.
+/// A validator for CLI11. Returns an error message if the text is not a network, else an empty string.
 std::string checkNetwork(const std::string& text) {
     try {
         (void)IpNetwork(text);

@@ -1,5 +1,5 @@
 #pragma once
-// The options of the server, which are set on the command line or by environment variables.
+// The options of the server, which the command line or environment variables set.
 
 #include <chrono>
 #include <cstddef>
@@ -25,7 +25,7 @@ namespace oval4d::net {
 
 using Seconds = std::chrono::duration<double>;
 
-/// The options of the server, with their defaults. Sizes are in bytes unless noted.
+/// The options of the server with their defaults. Sizes are in bytes unless noted.
 struct ServerOptions {
     std::vector<std::string> hosts{"127.0.0.1", "::1"};  ///< addresses to listen on
     std::uint16_t port = 8080;                           ///< 0: any free port
@@ -36,8 +36,9 @@ struct ServerOptions {
     int ioThreads = 1;                                   ///< threads that read and write sockets
     std::string logLevel = "info";                       ///< least severe level to log, by its name in spdlog
 
-    /// In this order: host names that clients may use for the server; origins of foreign pages that may connect (for
-    /// both, see AccessControl); networks of proxies whose X-Forwarded-For is trusted (see IpNetwork).
+    /// allowedHosts are host names that clients may use for the server; allowedOrigins are origins of foreign pages
+    /// that may connect (see AccessControl). trustedProxies are networks of proxies whose X-Forwarded-For is trusted
+    /// (see IpNetwork).
     std::vector<std::string> allowedHosts, allowedOrigins, trustedProxies;
     std::string token;  ///< secret that clients must send; empty: a random one, but none if all hosts are loopback
     bool open = false;  ///< require no token, even on addresses other than loopback; `token` must be empty then
@@ -88,10 +89,10 @@ struct ServerOptions {
 };
 
 /// Adds the options of the server to `app`. Parsing a command line with `app` then writes the values to `options`. Each
-/// option can also be set by an environment variable OVAL4D_….
+/// option can also be set by an environment variable that begins with OVAL4D_.
 void addOptions(CLI::App& app, ServerOptions& options);
 
-/// Returns a JSON object with the limits that clients need to know, for the `welcome` message.
+/// Returns the limits that clients need to know as a JSON object, for the message `welcome`.
 std::string limitsJson(const ServerOptions& options);
 
 }  // namespace oval4d::net

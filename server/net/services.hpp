@@ -1,5 +1,5 @@
 #pragma once
-// The services that connections and sessions share, and the errors that connections and sessions send to clients.
+// The services that connections and sessions share, and errors that both send to clients.
 
 #include <boost/asio/io_context.hpp>
 
@@ -18,22 +18,22 @@
 
 namespace oval4d::net {
 
-/// The reply to a request that failed because of a fault of the server.
+/// The error for a request that failed because of a fault of the server.
 inline const Error kInternalError{ErrorCode::internal,
                                   "the server failed to carry out this request; the session is unchanged"};
 
-/// The reply to a request that would exceed the byte limit (ByteBudget) of the client or of all clients together.
+/// The error for a request that would exceed the byte limit (ByteBudget) of the client or of all clients together.
 inline const Error kTooManyBytes{
     ErrorCode::too_many,
     "the server already holds as many bytes as it may for this client, or for all clients: unread files and pictures, "
     "polytopes loaded or built by name, and undo history (--max-client-bytes, --max-bytes); try again when some of "
     "them have been freed"};
 
-/// The reply to a request whose job was rejected because the job queue is full (parallel::QueueFull).
+/// The error for a request whose job was rejected because the job queue is full (parallel::QueueFull).
 inline const Error kTooManyJobs{ErrorCode::too_many,
                                 "too many pictures and files are waiting for a worker; try again later"};
 
-/// References to the shared services, which outlive every connection and session.
+/// References to the shared services. The services outlive every connection and session.
 struct Services {
     const ServerOptions& options;
     boost::asio::io_context& io;

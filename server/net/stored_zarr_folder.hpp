@@ -14,18 +14,18 @@
 
 namespace oval4d::net {
 
-/// A Zarr folder in an object store. Keeps its own metadata files, which are read first, so that all of a field is read
-/// with the same ones.
+/// A Zarr folder in an object store. open() reads the metadata files of the folder once, so that all of a field is read
+/// with the same metadata.
 class StoredZarrFolder final : public fields::FolderFiles {
   public:
-    /// Reads the metadata of the folder called `name`. Returns null if there is no such Zarr folder. Errors: those of
-    /// ObjectStore::get(). `store` must outlive the folder.
+    /// Opens the folder called `name`, and reads its metadata. Returns null if there is no such Zarr folder. Errors:
+    /// those of ObjectStore::get(). `store` must outlive the folder.
     static Result<std::shared_ptr<const StoredZarrFolder>> open(const ObjectStore& store, const std::string& name);
 
     Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& part,
                                                   std::chrono::steady_clock::time_point until,
                                                   const std::stop_token& stop) const override;
-    /// Returns a string that depends on the metadata that open() has read.
+    /// Returns a text that identifies the version of the folder: it depends on the metadata that open() has read.
     std::string version() const override;
 
   private:
@@ -33,7 +33,7 @@ class StoredZarrFolder final : public fields::FolderFiles {
 
     const ObjectStore& store_;
     const std::string prefix_;
-    std::map<std::string, std::optional<std::string>> metadata_;  // by path; empty optionals for missing files
+    std::map<std::string, std::optional<std::string>> metadata_;  // by path; an empty optional means a missing file
 };
 
 }  // namespace oval4d::net

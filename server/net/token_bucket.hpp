@@ -6,14 +6,14 @@
 
 namespace oval4d::net {
 
-/// A token bucket. It fills at a constant rate, holds at most `burst` tokens, and may be overdrawn: its level may be
-/// negative. Not thread-safe.
+/// A token bucket for rate limits. It fills at a constant rate, and holds at most `burst` tokens. It may be overdrawn:
+/// its level is then negative. Not thread-safe.
 class TokenBucket {
   public:
     using Clock = std::chrono::steady_clock;
     using Seconds = std::chrono::duration<double>;
 
-    /// Creates a full bucket. `perSecond`: the number of tokens added per second.
+    /// Creates a full bucket. `perSecond` tokens are added per second, up to `burst` tokens.
     TokenBucket(double perSecond, double burst, Clock::time_point now)
         : perSecond_(perSecond), burst_(burst), level_(burst), last_(now) {}
 

@@ -1,5 +1,5 @@
 #pragma once
-// The minimum rate at which a client must read, or send the body of a request.
+// The minimum rate at which a client must read, or must send the body of a request.
 
 #include <algorithm>
 #include <chrono>
@@ -10,11 +10,11 @@
 
 namespace oval4d::net {
 
-/// Computes the timeouts that enforce a minimum rate while one message or reply is written, or one body is read.
-/// Without a minimum rate, a very slow client could make the server hold the data for hours. Each fragment must be
-/// transferred within ServerOptions::writeTimeout. In addition, when n bytes have been transferred, the next fragment
-/// must be transferred within n / ServerOptions::minReadRate + 2 · ServerOptions::writeTimeout after the start. If
-/// ServerOptions::minReadRate is 0, only the first limit applies.
+/// Computes timeouts that enforce a minimum rate while one message, reply or body is transferred. Without a minimum
+/// rate, a very slow client could make the server hold the data for hours. Two limits apply to each fragment. It must
+/// be transferred within ServerOptions::writeTimeout. After n bytes, the next fragment must be transferred within n /
+/// ServerOptions::minReadRate + 2 · ServerOptions::writeTimeout from the start. If ServerOptions::minReadRate is 0,
+/// only the first limit applies.
 class TransferDeadline {
   public:
     using Clock = TimerClock::Clock;

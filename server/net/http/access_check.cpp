@@ -22,7 +22,7 @@ AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget&
         const auto found = request.find(name);
         return found == request.end() ? std::string_view() : std::string_view(found->value());
     };
-    // A target in absolute form overrides the Host field (RFC 9112, section 3.2.2).
+    // A request target with a host (absolute form) overrides the field Host (RFC 9112, section 3.2.2).
     return {target.authority.empty() ? headerField(request, http::field::host) : std::string_view(target.authority),
             headerField(request, http::field::origin),
             headerField(request, http::field::authorization),
@@ -33,8 +33,8 @@ AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget&
             field("Sec-Fetch-Dest")};
 }
 
-// Returns whether `offered`, a list of subprotocols, contains the server's subprotocol or is empty. Names are
-// case-sensitive (RFC 6455, section 11.5).
+// Returns whether the server can use one of the subprotocols that a client offers, in the text of the header field. An
+// empty list is acceptable. Names are case-sensitive (RFC 6455, section 11.5).
 bool acceptsSubprotocol(const std::string& offered) {
     const http::token_list names(offered);
     return offered.empty() || std::ranges::any_of(names, [](beast::string_view name) { return name == kSubprotocol; });
@@ -65,8 +65,8 @@ bool isCrossSiteRestricted(const RequestTarget& target) {
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
                                  AddressAccount& client, AddressAccount::Clock::time_point now, std::string& cookie) {
     AccessCheckInput fields = accessFieldsOf(request, target);
-    // Everybody may load the page's own files. The Origin of such a request is not checked, because it differs from
-    // Host behind a proxy that changes Host.
+    // Everybody may load the page's own files. Such a request may have any Origin, because a proxy that changes Host
+    // would make it differ from the Origin.
     if (!isCrossSiteRestricted(target)) fields.origin = {};
     switch (access.check(fields)) {
         case AccessControl::Verdict::bad_host:
@@ -90,7 +90,8 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
         case AccessControl::Verdict::allowed:
             break;
     }
-    // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
+    // After too many wrong tokens, even correct tokens are refused, so that a client that guesses tokens learns
+    // nothing.
     if (access.requiresToken() && !client.mayTryToken(now))
         return tooManyReply("too many wrong tokens; try again in a minute\n");
     if (isCrossSiteRestricted(target) && access.isUnwantedCrossSite(fields))

@@ -1,5 +1,5 @@
 #pragma once
-// Checks whether requests and WebSocket handshakes are allowed: their host, their origin, their token and their path.
+// Decides whether a request or a WebSocket handshake is allowed, by its host, origin, token and path.
 
 #include <boost/beast/http/field.hpp>
 #include <optional>
@@ -17,25 +17,26 @@ namespace oval4d::net {
 /// Returns the value of a header field; an empty view if there is none. The view refers to the memory of the request.
 std::string_view headerField(const HttpRequest& request, boost::beast::http::field name);
 
-/// Returns the parsed target of a request; an empty optional if it is malformed.
+/// Parses the target (path and query) of a request. Returns an empty optional if it is malformed.
 std::optional<RequestTarget> targetOf(const HttpRequest& request);
 
-/// Returns whether pages of other sites must not request this target: true for the API and for WebSockets, because
-/// answering them costs time or reveals data.
+/// Returns whether pages of other sites must not request this target. True for the API and for WebSockets, because
+/// answers cost time or reveal data.
 bool isCrossSiteRestricted(const RequestTarget& target);
 
-/// Checks a request by the rules of `access`, and counts a wrong token against the client's rate limit, at the time
-/// `now`. If the request is refused, returns the reply. If it is allowed, returns an empty optional, and sets `cookie`
-/// to the value of Set-Cookie for the reply, or to an empty string if the reply needs no cookie.
+/// Checks a request by the rules of `access`. `now` is the present time; a wrong token counts against the client's rate
+/// limit. If the request is refused, returns the reply. If it is allowed, returns an empty optional. Then sets `cookie`
+/// to the value of the reply's Set-Cookie; to an empty string if the reply needs no cookie.
 std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
                                  AddressAccount& client, AddressAccount::Clock::time_point now, std::string& cookie);
 
-/// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc", an empty optional for other paths.
+/// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc". Returns an empty optional for other
+/// paths.
 std::optional<std::string> sessionIn(const std::string& path);
 
-/// Checks a WebSocket handshake, at the time `now`. `hasFurtherBytes`: whether the client has already sent bytes after
-/// the handshake. If the handshake is refused, returns the reply. Otherwise, returns an empty optional, and sets
-/// `session` to the session id in the path.
+/// Checks a WebSocket handshake. `now` is the present time. `hasFurtherBytes` tells whether the client has already sent
+/// bytes after the handshake. If the handshake is refused, returns the reply. If it is allowed, returns an empty
+/// optional, and sets `session` to the session id in the path.
 std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
                                     AddressAccount::Clock::time_point now, bool hasFurtherBytes, std::string& session);
 

@@ -21,13 +21,13 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
 bool isHexadecimal(char c) { return text::isDigit(c) || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F'); }
 bool isHostNameCharacter(char c) { return text::isDigit(c) || text::isLetter(c) || c == '-' || c == '.' || c == '_'; }
 
-/// Returns the port of an authority; `defaultPort` if it is missing, because browsers omit the default port of a
+/// Returns the port of an authority. If it has none, returns `defaultPort`, because browsers omit the default port of a
 /// scheme.
 std::string_view portOrDefault(const Authority& authority, std::string_view defaultPort) {
     return authority.port.empty() ? defaultPort : authority.port;
 }
 
-/// Returns the host name without the dot that marks it as fully qualified: "localhost." is "localhost".
+/// Returns the host name without a final dot. The dot marks a name as fully qualified: "localhost." means "localhost".
 std::string_view withoutFinalDot(std::string_view host) {
     return host.size() > 1 && host.ends_with('.') ? host.substr(0, host.size() - 1) : host;
 }
@@ -37,7 +37,7 @@ bool listed(const std::vector<std::string>& list, std::string_view text) {
         list, [text](const std::string& entry) { return entry == "*" || equalsIgnoringCase(entry, text); });
 }
 
-/// Returns the value of the token cookie in a Cookie header; an empty string if there is none.
+/// Returns the value of the token cookie in the header field Cookie; an empty string if it has no such cookie.
 std::string_view cookieIn(std::string_view header) {
     while (!header.empty()) {
         const std::size_t end = std::min(header.find(';'), header.size());
@@ -51,7 +51,7 @@ std::string_view cookieIn(std::string_view header) {
     return {};
 }
 
-/// Returns the token after "Bearer " in an Authorization header, or the whole header if it has no such prefix.
+/// Returns the token after "Bearer " in the header field Authorization; the whole field if it does not begin so.
 std::string_view bearerIn(std::string_view authorization) {
     constexpr std::string_view kBearer = "Bearer ";
     if (equalsIgnoringCase(authorization.substr(0, kBearer.size()), kBearer))
@@ -102,7 +102,7 @@ AccessControl::Verdict AccessControl::check(const AccessCheckInput& fields) cons
 
 std::string AccessControl::cookieFor(const AccessCheckInput& fields) const {
     if (token_.empty() || !store::equalInConstantTime(fields.token, token_)) return {};
-    // Without a Path attribute, the cookie applies to the page's own folder, whatever path prefix a proxy adds.
+    // A cookie without the attribute Path applies to the page's own folder, whatever path prefix a proxy adds.
     return std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict";
 }
 
@@ -116,9 +116,9 @@ bool AccessControl::isListedOrigin(std::string_view origin) const {
     return !origin.empty() && listed(origins_, origin);
 }
 
-/// Returns whether a request to `host` with this Origin is allowed. A request without an Origin is allowed, because it
-/// comes from the server's own page or from a program other than a browser. The origin of the server's own pages has
-/// the same host and port as the request; the scheme may differ, because a proxy may terminate TLS.
+/// Returns whether a request to `host` with this Origin is allowed. A request without Origin is allowed, because the
+/// server's own page or a program other than a browser has sent it. The origin of the server's own pages has the same
+/// host and port as the request. Its scheme may differ, because a proxy may terminate TLS.
 bool AccessControl::isAllowedOrigin(std::string_view origin, std::string_view host) const {
     if (origin.empty() || isListedOrigin(origin)) return true;
     for (const auto& [scheme, port] : {std::pair("http://", "80"), std::pair("https://", "443")}) {

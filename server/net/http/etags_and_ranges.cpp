@@ -9,7 +9,7 @@ namespace oval4d::net {
 
 namespace {
 
-/// Parses a number of bytes; returns the maximum of std::size_t for a number that is larger. Returns an empty optional
+/// Parses a decimal number of bytes. Returns the maximum of std::size_t for larger numbers, and an empty optional
 /// unless the text consists of digits.
 std::optional<std::size_t> bytesIn(std::string_view digits) {
     std::size_t value = 0;
@@ -24,7 +24,7 @@ std::optional<std::size_t> bytesIn(std::string_view digits) {
 
 bool matchesEntityTag(std::string_view ifNoneMatch, std::string_view tag) {
     if (text::trimmed(ifNoneMatch) == "*") return true;
-    // Search for quotes, not commas: an entity tag may contain commas, but never quotes.
+    // Searches for quotes instead of commas: an entity tag may contain commas, but never quotes.
     for (std::size_t open = ifNoneMatch.find('"'); open != std::string_view::npos; open = ifNoneMatch.find('"', open)) {
         const std::size_t close = ifNoneMatch.find('"', open + 1);
         if (close == std::string_view::npos) return false;

@@ -38,12 +38,12 @@ namespace {
 constexpr std::uint32_t kMaxHeaderBytes = 16U << 10U;
 constexpr std::size_t kReadBufferBytes = 64U << 10U;
 
-// After a refusal, the server continues to read for at most this many bytes and this long. If it closed the socket
-// while bytes are unread, the connection would be reset, and the client might not receive the reply.
+// After a refusal, the server continues to read for at most this many bytes and this long. Closing a socket with unread
+// bytes would reset the connection, and the client might not receive the reply.
 constexpr std::size_t kMaxLingerBytes = 256U << 10U;
 constexpr auto kLingerTime = std::chrono::seconds(1);
 
-constexpr int kNotSentLowat = 256 << 10;  // approximate maximum of unsent bytes that the kernel buffers
+constexpr int kNotSentLowat = 256 << 10;  // roughly the most unsent bytes in the kernel's buffer
 
 /// Serves the HTTP requests of one connection, one after another.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
@@ -99,8 +99,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     bool timedOut_ = false;                  // whether deadline_ has closed the stream
 };
 
-/// Returns the reply to a request that could not be parsed; an empty optional if the client has disconnected or has not
-/// sent a whole header in time.
+/// Returns the reply to a request that could not be parsed. Returns an empty optional if no reply is possible: the
+/// client has disconnected, or has not sent a whole header in time.
 std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
     if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
         return refusalReply(431, "the header is too long; at most 16 KiB are allowed\n");
@@ -128,7 +128,7 @@ asio::awaitable<void> HttpConnection::run() {
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
 }
 
-/// Serves one request. Returns whether another request may follow on this connection.
+/// Serves one request. Resolves to whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
     const auto uploadTarget = targetOf(request);
     const bool uploads = uploadTarget && isUpload(std::string_view(request.method_string()), uploadTarget->path);
@@ -156,8 +156,8 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
 asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
     http::request_parser<http::empty_body> parser;
     parser.header_limit(kMaxHeaderBytes);
-    parser.body_limit(boost::none);  // no limit is needed: the parser never reads a body
-    // The timeout applies to the whole header.
+    parser.body_limit(boost::none);  // not needed: the parser never reads a body
+    // The timeout covers the reading of the whole header.
     startDeadline(toSteadyDuration(first_ ? options().helloTimeout : options().idleTimeout));
     reading_ = true;
     const auto [fault, size] = co_await http::async_read_header(stream_, buffer_, parser, kAsTuple);
@@ -168,8 +168,8 @@ asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
     co_return std::nullopt;
 }
 
-/// Assigns the connection to the client that a trusted proxy names in X-Forwarded-For, and checks whether that client
-/// has too many connections. Does nothing if the request does not come from a trusted proxy.
+/// If a trusted proxy has sent the request, assigns the connection to the client that X-Forwarded-For names, and checks
+/// whether that client has too many connections. Otherwise does nothing.
 void HttpConnection::identifyClient(const HttpRequest& request) {
     boost::system::error_code fault;
     const auto peer = stream_.socket().remote_endpoint(fault);
@@ -183,8 +183,8 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     admission_ = context_.connections.makeRoomFor(*client_, 1);
 }
 
-/// If this connection exceeds a limit, returns the refusal with which each of its requests is answered; otherwise an
-/// empty optional.
+/// Returns the refusal with which every request on this connection is answered; an empty optional unless the connection
+/// exceeds a limit.
 std::optional<Reply> HttpConnection::refuseConnection() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
         return refusalReply(503, "the server has too many connections; try again later\n");
@@ -226,9 +226,9 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     co_return reply;
 }
 
-/// Receives an uploaded file, and loads its field into a session or restores the state in the file. Before reading the
-/// body, checks the header of the request and joins the session. If the upload is refused before the whole body is
-/// read, closes the connection. Returns whether another request may follow on this connection.
+/// Receives an uploaded file. Loads its field into a session, or restores the state in the file. Before it reads the
+/// body, it checks the header and joins the session. Closes the connection if it refuses the upload before the whole
+/// body is read. Resolves to whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     Upload upload;
     std::string token;
@@ -266,7 +266,7 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     co_return co_await write(request, std::move(reply));
 }
 
-/// Restores the state in an uploaded file. A worker parses the file, because that may take long.
+/// Restores the state that an uploaded file contains. A worker parses the file, because parsing may take long.
 asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> HttpConnection::restoreState(
     std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file) {
     constexpr parallel::WorkerPool::Seconds kRoughCost{0.1};
@@ -287,8 +287,8 @@ Reply HttpConnection::replyTo(const Result<LiveSession::CommandResult>& applied)
     return uploadErrorReply(applied.error());
 }
 
-/// Checks the header of an upload. If the upload is refused, returns the reply. Otherwise, returns an empty optional,
-/// sets `upload`, and sets `token` to the session token that the request contains; the token may be wrong.
+/// Checks the header of an upload. If the upload is refused, returns the reply. Otherwise returns an empty optional,
+/// and sets `upload` and `token`. `token` is the session token in the request, which may be wrong.
 std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const {
     if (auto refusal = refuseConnection()) return refusal;
     const auto target = targetOf(request);
@@ -328,8 +328,8 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
                const SessionManager::JoinHandler& done) { sessions->join(credentials, client, done); };
 }
 
-/// Reads the body of a request whose header is valid. Returns the reply if the body is refused. Else returns an empty
-/// optional: the body is complete, or the stream is closed because the client has disconnected or sends too slowly.
+/// Reads the body of a request with a valid header. If the body is refused, returns the reply. Otherwise returns an
+/// empty optional: the body is complete, or the stream is closed because the client has left or sends too slowly.
 asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
     TransferDeadline deadline(options(), context_.services.clock);
@@ -365,13 +365,13 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
     co_return std::nullopt;
 }
 
-/// Returns the Cross-Origin-Resource-Policy of a reply. If at least one foreign origin is allowed, pages of all origins
-/// may embed replies of the API, because browsers do not tell which page embeds a picture.
+/// Returns the Cross-Origin-Resource-Policy of a reply. If any foreign origin is allowed, pages of all origins may
+/// embed replies of the API, because browsers do not tell which page embeds a picture.
 std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
     return isCrossSiteRestricted(target) && context_.access.allowsForeignOrigins() ? "cross-origin" : "same-origin";
 }
 
-/// Replies to a request and closes the connection, because it is uncertain at which byte a further request would begin.
+/// Sends a refusal and closes the connection, because it is uncertain at which byte the next request would begin.
 asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, Reply reply) {
     resourcePolicy_ = "same-origin";
     HttpRequest last(request);
@@ -380,7 +380,7 @@ asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, Reply r
     co_await linger();
 }
 
-/// Reads and discards input for a short time and then closes the socket, so that the client receives the reply.
+/// Reads and discards input for a short time, then closes the socket. The client then receives the reply sent before.
 asio::awaitable<void> HttpConnection::linger() {
     boost::system::error_code ignored;
     (void)stream_.socket().shutdown(asio::ip::tcp::socket::shutdown_send, ignored);
@@ -395,7 +395,7 @@ asio::awaitable<void> HttpConnection::linger() {
     stream_.close();
 }
 
-/// Writes a reply. Returns whether the connection stays open.
+/// Writes a reply. Resolves to whether the connection stays open.
 asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply reply) {
     http::response<http::span_body<const char>> response{static_cast<http::status>(reply.status), 11};
     const std::string_view body = request.method() == http::verb::head ? std::string_view() : reply.body.view();
@@ -410,11 +410,12 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
     if (reply.status != 304) response.content_length(reply.body.size());
     const bool rejected = admission_ != ConnectionRegistry::AdmissionDecision::admitted;
     response.keep_alive(request.keep_alive() && !rejected && !stopping_);
-    // Clients of HTTP/1.0 expect the server to close the connection after the reply unless this field says otherwise.
+    // Clients of HTTP/1.0 expect that the server closes the connection after the reply, unless this field says
+    // otherwise.
     if (request.version() < 11 && response.keep_alive()) response.set(http::field::connection, "keep-alive");
     if (reply.status == kUpgradeRequired) response.set(http::field::connection, "close, upgrade");
     context_.services.metrics.countRequest(reply.status);
-    // Log the target without its query, which may contain the token.
+    // The log omits the query of the target, because the query may contain the token.
     const std::string_view target(request.target().data(), request.target().size());
     spdlog::debug("request method={} path=\"{}\" status={}", std::string_view(request.method_string()),
                   target.substr(0, target.find('?')), reply.status);
@@ -447,8 +448,8 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
             self->drop();
         }
     });
-    // Beast checks only the first of several fields called Connection, or called Upgrade. isWebSocketUpgrade() has
-    // checked their combined values, so replace them by single fields with the values that Beast requires.
+    // Of several fields called Connection or Upgrade, Beast checks only the first. isWebSocketUpgrade() has checked
+    // their combined values, so they are replaced by single fields with the values that Beast requires.
     request.set(http::field::connection, "upgrade");
     request.set(http::field::upgrade, "websocket");
     co_await connection->run(std::move(request));
@@ -480,7 +481,7 @@ void HttpConnection::end(ConnectionRegistry::EndReason reason) {
 asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext context) {
     boost::system::error_code fault;
     (void)socket.set_option(asio::ip::tcp::no_delay(true), fault);
-    // Limit the bytes that the kernel buffers, so that the server can see how fast a client reads.
+    // Limits the bytes in the kernel's buffer, so that the server can see how fast a client reads.
     using NotSentLimit = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
     (void)socket.set_option(NotSentLimit(kNotSentLowat), fault);
     const auto peer = socket.remote_endpoint(fault);
@@ -490,7 +491,7 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
     try {
         AddressAccountPtr client = context.services.clients.findOrCreate(peer.address(), context.services.clock.now());
         // The limit of connections per client does not apply to a trusted proxy, because its connections serve many
-        // clients: each request names its client in X-Forwarded-For.
+        // clients. Each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());
         const auto admission = context.connections.makeRoomFor(*client, 0, isProxy);
         co_await std::make_shared<HttpConnection>(std::move(socket), std::move(context), std::move(client), admission)

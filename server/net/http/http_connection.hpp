@@ -1,5 +1,5 @@
 #pragma once
-// Serves an accepted socket: its HTTP requests, and the WebSocket that it may become.
+// Serves an accepted socket: its HTTP requests, and the WebSocket into which it may turn.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -23,8 +23,8 @@ struct ServerContext {
     ConnectionRegistry& connections;
 };
 
-/// Serves a socket until it closes. If a connection limit is reached, replies to requests with status 503 (limit of the
-/// server) or 429 (limit of the client).
+/// Serves a socket until it closes. If the server has too many connections, answers each request with status 503; if
+/// the client has too many, with status 429.
 boost::asio::awaitable<void> serveHttp(boost::asio::ip::tcp::socket socket, ServerContext context);
 
 }  // namespace oval4d::net

@@ -19,28 +19,28 @@ struct Reply {
     std::vector<std::pair<std::string, std::string>> headers;
 };
 
-/// Returns a reply that caches must not use again without asking the server (Cache-Control: no-cache).
+/// Returns a reply with the header field Cache-Control: no-cache. Caches must then ask the server before they use the
+/// reply again.
 Reply noCacheReply(std::string type, SharedBytes body, unsigned status = 200);
 
-/// Like noCacheReply(), with a text as the body. `type`: the media type of the text.
+/// Returns a reply with a text as the body, and with Cache-Control: no-cache. `type` is the media type of the text.
 Reply noCacheTextReply(std::string type, std::string body, unsigned status = 200);
 
-/// Like noCacheTextReply(), with a JSON message of the oval4d protocol as the body.
+/// Returns a reply with a JSON message of the oval4d protocol as the body, and with Cache-Control: no-cache.
 Reply jsonReply(std::string message);
 
-/// Like noCacheTextReply(), with the body `{"type":"error", …}` and the HTTP status `status`. If `status` is 0, the
-/// status is derived from the error code.
+/// Returns a reply with the body `{"type":"error", …}`, and with Cache-Control: no-cache. `status` is the HTTP status;
+/// 0 derives the status from the error code.
 Reply errorReply(const Error& error, unsigned status = 0);
 
-/// Returns a reply with a plain text and empty `headers`, for requests that are refused before a route answers them.
+/// Returns a plain-text reply without further header fields, for requests that are refused before a route answers them.
 Reply refusalReply(unsigned status, std::string text);
 
-/// Returns the plain-text reply to a request whose header has this fault, with the status and the reason of the fault.
-/// If the status is kUpgradeRequired, the header fields of the reply name the WebSocket protocol.
+/// Returns the plain-text reply to a request with this fault in its header. If the status is kUpgradeRequired, the
+/// reply's header fields name the WebSocket protocol.
 Reply refusalReply(const HttpError& fault);
 
-/// Like refusalReply(), with status 429 and the header field Retry-After, which tells the client to wait for ten
-/// seconds.
+/// Returns a plain-text reply with status 429. Its header field Retry-After tells the client to wait for ten seconds.
 Reply tooManyReply(std::string text);
 
 }  // namespace oval4d::net

@@ -10,7 +10,7 @@ namespace oval4d::net {
 
 namespace {
 
-/// Returns the length of "http://" or "https://", in upper or lower case, at the beginning of the text; 0 if there is
+/// Returns the length of "http://" or "https://" at the beginning of the text, in any case; 0 if the text begins with
 /// neither.
 std::size_t schemeLength(std::string_view text) {
     for (const std::string_view scheme : {"http://", "https://"}) {
@@ -20,8 +20,8 @@ std::size_t schemeLength(std::string_view text) {
     return 0;
 }
 
-/// Removes the text up to and including the first separator, and returns the removed text without the separator.
-/// Without a separator, removes and returns all of the text.
+/// Removes and returns the text before the first separator, and also removes the separator. Without a separator,
+/// removes and returns the whole text.
 std::string_view takeUntil(std::string_view& text, char separator) {
     const std::size_t at = text.find(separator);
     const std::string_view head = text.substr(0, at);

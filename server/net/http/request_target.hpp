@@ -1,5 +1,5 @@
 #pragma once
-// Parses the target of an HTTP request into path and query.
+// Parses the target of an HTTP request into a path and a query.
 
 #include <optional>
 #include <string>
@@ -9,16 +9,16 @@
 
 namespace oval4d::net {
 
-/// A request target (RFC 9112, section 3.2).
+/// The parsed target of an HTTP request (RFC 9112, section 3.2).
 struct RequestTarget {
     std::string path;       ///< percent-decoded
-    std::string authority;  ///< host and port, such as "localhost:8080"; empty for a target in origin form
+    std::string authority;  ///< host and port, such as "localhost:8080"; empty if the target has none
     session::QueryParameters query;
 };
 
-/// Parses "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC 9112, section 3.2).
-/// Decodes percent escapes; see session::parseQuery(). Returns an empty optional if an escape is malformed, the
-/// authority is invalid, or the path does not begin with a slash.
+/// Parses a request target such as "/path?name=value&…" (origin form) or "http://host:port/path?…" (absolute form; RFC
+/// 9112, section 3.2). Decodes percent escapes; see session::parseQuery(). Returns an empty optional if an escape is
+/// malformed, the authority is invalid, or the path does not begin with a slash.
 std::optional<RequestTarget> parseRequestTarget(std::string_view text);
 
 }  // namespace oval4d::net

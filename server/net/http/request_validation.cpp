@@ -18,8 +18,8 @@ using http::field;
 
 namespace {
 
-/// Returns whether the key is 16 bytes in base64: 22 digits, the last of which encodes only two bits, and two padding
-/// characters.
+/// Returns whether the key is 16 bytes in base64: 22 digits and two padding characters. The last digit encodes only two
+/// bits.
 bool isWebSocketKey(std::string_view key) {
     constexpr std::size_t kLength = 24, kDigits = 22;
     constexpr std::string_view kLast = "AQgw";

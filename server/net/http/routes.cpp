@@ -36,7 +36,7 @@ Error notFound(const std::string& path) {
     return {ErrorCode::not_found, "there is nothing at the path " + text::inQuotes(path)};
 }
 
-/// Parses a number of pixels. `name`: the name of the query parameter, for the error message.
+/// Parses a number of pixels. `name` is the query parameter's name, for the error message.
 Result<int> parsePixels(const std::string& name, const std::string& text) {
     int value = 0;
     const std::string_view number = text::trimmed(text);
@@ -54,8 +54,8 @@ double residentBytes() {
     return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-/// Removes `width` and `height` from a query, and returns the viewport that they describe after checking it against the
-/// limits.
+/// Removes `width` and `height` from a query. Returns the picture size that they describe, after checking it against
+/// the limits.
 Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::FrameLimits& limits) {
     scene::Viewport viewport = pipeline::usualViewport(limits);
     session::QueryParameters rest;
@@ -72,8 +72,8 @@ Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipe
     return pipeline::checkViewport(viewport, limits);
 }
 
-/// Returns the value of the header field Export-Warnings: the warnings, separated by semicolons (no warning contains
-/// one). Replaces minus signs (U+2212) by hyphens, because clients read header fields as ASCII or ISO 8859-1.
+/// Returns the value of the header field Export-Warnings: the warnings, separated by semicolons, which no warning
+/// contains. Replaces minus signs (U+2212) by hyphens, because clients read header fields as ASCII or ISO 8859-1.
 std::string warningsField(const std::vector<std::string>& warnings) {
     std::string value;
     for (const std::string& warning : warnings) value += (value.empty() ? "" : "; ") + warning;
@@ -83,20 +83,20 @@ std::string warningsField(const std::vector<std::string>& warnings) {
     return value;
 }
 
-/// Returns the file format that a path requests, such as stl for "/api/v1/file.stl"; null for other paths.
+/// Returns the export format that a path requests, such as stl for "/api/v1/file.stl"; null for other paths.
 const exports::Format* formatIn(std::string_view path) {
     constexpr std::string_view kFile = "/api/v1/file.";
     return path.starts_with(kFile) ? exports::formatNamed(path.substr(kFile.size())) : nullptr;
 }
 
-/// Returns a job that draws a picture as a PNG file. The result of the job is empty if the picture would exceed the
-/// limit of the bytes held for the client (ByteBudget::Account).
+/// Returns a job that draws a picture as a PNG file. Its result is empty if the picture would exceed the limit on the
+/// bytes held for the client (ByteBudget::Account).
 std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const session::State& state,
                                                                         scene::Viewport viewport,
                                                                         const AddressAccountPtr& client,
                                                                         Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
-        // Reserve the size of the pixels until the size of the file is known: a PNG file is rarely larger.
+        // Reserves the bytes of the pixels until the size of the file is known. A PNG file is rarely larger.
         auto held = client->byteAccount().reserve(image::byteCount(viewport.width, viewport.height));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
@@ -109,13 +109,14 @@ std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const se
     };
 }
 
-/// The content security policy of the web client: a page loads only files of its own server and connects only to that
-/// server. Pictures that the page offers for download are blobs.
+/// The content security policy of the web client. The page loads files only from its own server and connects only to
+/// it. Pictures that the page offers for download are blobs.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; worker-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
 
-/// Returns the reply to a request for a file of the web client. Supports content negotiation, If-None-Match and ranges.
+/// Returns the reply to a request for a file of the web client. Supports compressed representations (Accept-Encoding),
+/// If-None-Match and byte ranges.
 Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
     const Representation& representation = file.negotiate(request.acceptEncoding);
     Reply reply{200,
@@ -166,8 +167,8 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     co_return errorReply(notFound(path));
 }
 
-/// Returns the state that a query describes. `others`: the names of further parameters that the query may have. If the
-/// polytope of the state must be built, a worker builds it. Throws what runOnPool() throws.
+/// Returns the state that a query describes. `others` are the names of further parameters that the query may have. If
+/// the polytope of the state must be built, a worker builds it. Throws what runOnPool() throws.
 asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
                                                       std::span<const std::string_view> others,
                                                       AddressAccountPtr client) {
@@ -251,8 +252,8 @@ asio::awaitable<Reply> Routes::file(session::QueryParameters query, const export
 Reply Routes::readiness() const {
     if (readiness_.stopping()) return noCacheTextReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
-        // The server stays ready while the store is unavailable: the other servers could not serve its clients better,
-        // because a shared store is then unavailable to them, too.
+        // The server stays ready while the store of sessions is unavailable. Other servers that share the store could
+        // not serve its clients better.
         const std::string error = sessions_.writeBehind().lastError();
         return noCacheTextReply("text/plain",
                                 error.empty() ? "ready\n"

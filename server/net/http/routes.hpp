@@ -1,5 +1,5 @@
 #pragma once
-// The HTTP routes: pictures, files, metadata, health probes, metrics and the web client.
+// The HTTP routes of the server: pictures, files, metadata, health probes, metrics and the web client.
 
 #include <boost/asio/awaitable.hpp>
 #include <memory>
@@ -24,7 +24,7 @@ class Routes {
     Routes(Services services, const WebFiles& files, const Readiness& readiness, const SessionManager& sessions)
         : services_(services), files_(files), readiness_(readiness), sessions_(sessions) {}
 
-    /// The parts of a request that the routes use. Header fields that the request lacks are empty.
+    /// The parts of a request that the routes use. A header field that the request lacks is an empty string.
     struct ParsedRequest {
         std::string method;
         RequestTarget target;

@@ -24,8 +24,7 @@ namespace {
 constexpr std::string_view kSessions = "/api/v1/sessions/", kFields = "/fields/", kMoments = "/moments",
                            kState = "/state";
 
-// The number of bytes to reserve in addition to the received bytes, so that the byte account is not locked for each
-// small part of a body.
+// Bytes to reserve in advance of the received bytes. The byte account is then not locked for each small part of a body.
 constexpr std::size_t kReserved = 1U << 20U;
 
 const Error kNoUpload{ErrorCode::not_found,
@@ -33,8 +32,8 @@ const Error kNoUpload{ErrorCode::not_found,
                       "with POST to /api/v1/sessions/{session}/fields/{name}/moments; a picture or a state is restored "
                       "with PUT to /api/v1/sessions/{session}/state"};
 
-/// Sets the member of `load` that a query parameter specifies. Returns an error if the parameter is unknown or invalid,
-/// else an empty optional.
+/// Sets the member of `load` that a query parameter names. Returns an error if the parameter is unknown or its value is
+/// invalid; otherwise an empty optional.
 std::optional<Error> setMember(session::LoadObject& load, const std::string& name, const std::string& value) {
     const auto found = std::ranges::find(session::kLoadTexts, name, &session::LoadText::name);
     if (found != session::kLoadTexts.end()) {
@@ -93,8 +92,8 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     }
     load.name = rest;
     if (auto error = setMembers(load, target.query)) return std::move(*error);
-    // checkLoad() would accept other formats here: it requires an array format only if `load.file` is set, and the file
-    // is not received yet.
+    // checkLoad() requires an array format only if `load.file` is set. The file is not received yet, so the format is
+    // checked here.
     const bool array = load.format.empty() || session::isArrayFormat(load.format);
     if (!array)
         return Error{ErrorCode::unsupported_format,
@@ -148,7 +147,7 @@ std::optional<Error> UploadedBody::append(std::string_view bytes) {
 
 std::shared_ptr<const fields::FileHandle> UploadedBody::finish() {
     reservedFile_->bytes.forceResize(size_);
-    // Prevent the process that reads the file from changing its size.
+    // The process that reads the file can then no longer change its size.
     fcntl(reservedFile_->file.descriptor(), F_ADD_SEALS, F_SEAL_SHRINK | F_SEAL_GROW | F_SEAL_SEAL);
     return {reservedFile_, &reservedFile_->file};
 }

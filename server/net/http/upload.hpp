@@ -1,5 +1,5 @@
 #pragma once
-// Uploads of fields and states: parses requests like PUT /api/v1/sessions/{id}/fields/{name}, and receives their
+// Uploads of fields and states. Parses requests such as PUT /api/v1/sessions/{id}/fields/{name}, and receives their
 // bodies.
 
 #include <cstddef>
@@ -19,50 +19,54 @@
 
 namespace oval4d::net {
 
-/// A parsed upload request, without the uploaded file.
+/// The parsed header of an upload, without the uploaded file.
 struct Upload {
     std::string session;                      ///< id of the session
-    std::optional<session::LoadObject> load;  ///< how to load the field in the file; empty if the file contains a state
+    std::optional<session::LoadObject> load;  ///< how to load the uploaded field; empty if the file contains a state
 };
 
-/// Returns whether requests with this method and path upload a file, and therefore have a body: PUT and POST to a path
-/// that begins with /api/v1/sessions/.
+/// Returns whether requests with this method and path upload a file, and therefore have a body. These are PUT and POST
+/// to paths that begin with /api/v1/sessions/.
 bool isUpload(std::string_view method, std::string_view path);
 
-/// Parses a request; the caller must ensure that isUpload() is true for it. PUT …/fields/{name} loads a field; POST
-/// …/fields/{name}/moments adds time steps to a loaded field. The query of these requests may have `format`, `axes`,
-/// `box`, `variable`, `values` and `values_variable`. PUT …/state restores the state that the uploaded picture or
-/// `state` message contains; its query must be empty. The server's `token` in a query is ignored. Errors: `not_found`
-/// for any other path; `unsupported_format` if the format is not an array format; `bad_message` for an unknown or
-/// repeated name in the query; those of session::parseBox() and session::checkLoad().
+/// Parses an upload, for which isUpload() must be true. There are three kinds:
+/// - PUT …/fields/{name} loads a field;
+/// - POST …/fields/{name}/moments adds time steps to a loaded field;
+/// - PUT …/state restores the state in the uploaded picture or `state` message.
+///
+/// The query of the first two may have `format`, `axes`, `box`, `variable`, `values` and `values_variable`; the query
+/// of the third must be empty. The server's `token` in a query is ignored. Errors: `not_found` for any other path;
+/// `unsupported_format` if the format is not an array format; `bad_message` for an unknown or repeated name in the
+/// query; those of session::parseBox() and session::checkLoad().
 Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
 
-/// The maximum number of bytes of an uploaded picture or `state` message. The largest picture that oval4d makes is
+/// The maximum size of an uploaded picture or `state` message, in bytes. The largest picture that oval4d makes is
 /// smaller.
 inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
 
-/// The command that restores the state in an uploaded file, or an error; empty before the file is parsed.
+/// The result of parsing an uploaded state: the command that restores it, or an error. Empty before the file is parsed.
 using ParsedStateFile = std::optional<Result<session::Set>>;
-/// Returns a job for a worker pool that parses an uploaded file with a state. `maxMessage`: the maximum number of bytes
-/// of the `state` message in the file. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is empty.
+/// Returns a job for a worker pool that parses an uploaded file with a state. `maxMessage` is the maximum size of the
+/// `state` message in the file, in bytes. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is
+/// empty.
 std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared_ptr<const fields::FileHandle> file,
                                                                      std::size_t maxMessage);
 
-/// Returns the reply to a failed upload, like errorReply(), but with status 415 for `unsupported_format`, and with
-/// status 429 and the header field Retry-After for `too_many`.
+/// Returns the reply to a failed upload. Like errorReply(), but `unsupported_format` has status 415, and `too_many` has
+/// status 429 and the header field Retry-After.
 Reply uploadErrorReply(const Error& error);
 
-/// The body of an upload while it is received: a file in memory. Its bytes are reserved in the client's byte account
-/// (ByteBudget::Account) until this object and all copies of the pointer from finish() have been destroyed.
+/// Receives the body of an upload into a file in memory. Its bytes stay reserved in the client's byte account
+/// (ByteBudget::Account) until this object and all copies of finish()'s result are destroyed.
 class UploadedBody {
   public:
     /// Throws std::system_error if the system cannot create the file.
     explicit UploadedBody(const AddressAccountPtr& client);
 
-    /// Appends bytes. Errors: `too_many` if the byte account has no room for them; `internal` if the system has no
-    /// memory.
+    /// Appends bytes to the file. Errors: `too_many` if the client's byte account has no room; `internal` if the system
+    /// has no memory.
     std::optional<Error> append(std::string_view bytes);
-    /// Returns the file. append() must not be called afterward.
+    /// Returns the complete file. append() must not be called afterward.
     std::shared_ptr<const fields::FileHandle> finish();
 
   private:

@@ -46,7 +46,7 @@ std::string etagOf(const std::string& content) {
     return fmt::format("\"{:016x}\"", crc.checksum());
 }
 
-/// Returns the content coding for a file name extension; an empty string for an uncompressed file.
+/// Returns the content coding for the extension of a file name; an empty string for an uncompressed file.
 std::string_view codingOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     return extension == ".br" ? "br" : extension == ".gz" ? "gzip" : "";

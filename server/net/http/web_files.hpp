@@ -1,5 +1,5 @@
 #pragma once
-// The files of the built web client, held in memory.
+// The files of the built web client, which the server holds in memory.
 
 #include <filesystem>
 #include <map>
@@ -11,10 +11,10 @@
 
 namespace oval4d::net {
 
-/// The bytes of a file, uncompressed or compressed: a representation in the sense of RFC 9110, section 3.2.
+/// The bytes of a file in one content coding, compressed or not (a representation in RFC 9110, section 3.2).
 struct Representation {
     SharedBytes bytes;
-    std::string coding;  ///< the content coding (Content-Encoding); "identity" if uncompressed
+    std::string coding;  ///< the Content-Encoding; "identity" if uncompressed
     std::string etag;    ///< the entity tag, including its quotes
 };
 
@@ -23,19 +23,19 @@ struct WebFile {
     std::string type;  ///< the Content-Type
     std::vector<Representation> representations;
 
-    /// Returns the representation that an Accept-Encoding field prefers (RFC 9110, section 12.5.3), or the smallest of
-    /// several equally preferred ones. Returns the uncompressed representation if the field accepts none of them.
+    /// Returns the representation that the header field Accept-Encoding prefers (RFC 9110, section 12.5.3). Among
+    /// equally preferred ones, returns the smallest. Returns the uncompressed one if the field accepts none.
     const Representation& negotiate(std::string_view acceptEncoding) const;
 };
 
-/// The files of a folder, which the constructor reads: later changes to the folder have no effect. The files
-/// `app.js.br` and `app.js.gz` are compressed representations of `app.js`.
+/// The files of a folder, as they were when the constructor read them. The files `app.js.br` and `app.js.gz` count as
+/// compressed representations of `app.js`.
 class WebFiles {
   public:
     /// Reads all files below `root`. Logs a warning if there is no index.html; a missing folder counts as empty.
     explicit WebFiles(const std::filesystem::path& root);
 
-    /// Returns the file at this URL path, index.html for "/"; nullptr if there is none.
+    /// Returns the file at this URL path; "/" means index.html. Returns nullptr if there is no such file.
     const WebFile* find(std::string_view path) const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// The names in the data folder, for coroutines on the threads that read and write sockets.
+// Lists the data folder for coroutines on the threads that serve sockets, without blocking these threads.
 
 #include <boost/asio/awaitable.hpp>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace oval4d::net {
 
-/// Returns DataFolder::names(). If the folder must be read, a load worker reads it, because the folder may be on a slow
-/// disk or a network drive. Throws QueueFull if too many jobs are waiting.
+/// Returns the names of DataFolder::names(). If the folder must be read, a load worker reads it, because the folder may
+/// be on a slow disk or a network drive. Throws QueueFull if too many jobs are waiting.
 boost::asio::awaitable<std::vector<std::string>> dataNames(Services services, AddressAccountPtr client);
 
 }  // namespace oval4d::net

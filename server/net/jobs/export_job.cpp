@@ -9,8 +9,8 @@ namespace oval4d::net {
 
 namespace {
 
-/// Adds 1 to Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the destructor records how
-/// long the file took.
+/// Counts an exported file in Metrics::filesUnderWay while this object exists. If markSucceeded() was called, the
+/// destructor records how long the file took.
 class ScopedFileMetrics {
   public:
     explicit ScopedFileMetrics(Metrics& metrics) : metrics_(metrics) { metrics_.filesUnderWay.Increment(); }

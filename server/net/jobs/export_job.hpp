@@ -1,5 +1,5 @@
 #pragma once
-// The job that makes a file for export on a worker.
+// A job that makes an exported file on a worker.
 
 #include <functional>
 #include <optional>
@@ -19,12 +19,12 @@ struct FinishedFile {
     std::vector<std::string> warnings;
 };
 
-/// The result of the job that exportJob() returns: the file, or an error. Empty only until the job is done.
+/// The result of an export job: the file or an error. Empty only until the job is done.
 using ExportResult = std::optional<Result<FinishedFile>>;
 
-/// Returns a job that makes the requested file. The bytes of the file are reserved on the client's byte account until
-/// the last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportFile(); `too_many` means that
-/// the byte account has no room for the file.
+/// Returns a job that makes the requested file. The file's bytes stay reserved on the client's byte account until the
+/// last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportFile(); `too_many` means that the
+/// byte account has no room for the file.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const scene::PictureRequest& picture,
                                                           const exports::ExportRequest& request,
                                                           const AddressAccountPtr& client);

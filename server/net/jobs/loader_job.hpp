@@ -10,7 +10,7 @@
 
 namespace oval4d::net {
 
-/// Returns a job for a worker, which does the work that `loader` has deferred (see ObjectLoader::completePending()).
+/// Returns a job that does the work that `loader` has deferred (see ObjectLoader::completePending()). A request of
 /// `stop` ends a search for critical values of w early.
 inline std::function<std::monostate(std::size_t worker)> loaderJob(const std::shared_ptr<session::ObjectLoader>& loader,
                                                                    std::stop_token stop = {}) {

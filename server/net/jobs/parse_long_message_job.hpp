@@ -1,5 +1,5 @@
 #pragma once
-// Parses long messages on workers. A message is long if it has more than ServerOptions::maxRequestBytes bytes.
+// Parses long messages on workers. A message is long if it exceeds ServerOptions::maxRequestBytes.
 
 #include <cstddef>
 #include <functional>
@@ -12,14 +12,14 @@
 
 namespace oval4d::net {
 
-/// The result of parsing a message.
+/// The result of parsing a message: a request, or what is wrong with the message.
 using ParseResult = std::variant<wire::Request, wire::BadRequest>;
 
-/// Returns the error for a message that is too long for its type. The error states the maximum lengths.
+/// Returns the error for a message that is too long for its type. The error text states the maximum lengths.
 Error messageTooLong(const ServerOptions& options);
 
-/// Returns a job that parses a long message. The result is an error unless the message is a `load`, because no other
-/// message may be long. `text` and `options` must outlive the job.
+/// Returns a job that parses a long message. Only a `load` message may be long, so the result for any other type is an
+/// error. `text` and `options` must outlive the job.
 std::function<ParseResult(std::size_t worker)> parseLongMessageJob(std::string_view text, const ServerOptions& options);
 
 }  // namespace oval4d::net

@@ -1,5 +1,5 @@
 #pragma once
-// Runs a job on a worker pool and awaits its result in a coroutine.
+// Runs a job on a worker pool, while a coroutine waits for the result.
 
 #include <boost/asio/associated_executor.hpp>
 #include <boost/asio/async_result.hpp>
@@ -15,10 +15,10 @@
 
 namespace oval4d::net {
 
-/// Queues `work` in `jobQueue` of `pool`, suspends the coroutine until a worker has run `work`, and returns the result.
+/// Queues `work` in `jobQueue` of `pool`, suspends the coroutine until a worker has run it, and returns its result.
 /// `pool` is a parallel::WorkerPool or a pipeline::PipelinePool. `cost` is the estimated running time of `work`. The
-/// coroutine resumes on its own executor. Throws the exception that `work` threw, or QueueFull if the pool rejected the
-/// job. Create `work` in an ordinary function: if a lambda is created in a coroutine, GCC 12 destroys its captures
+/// coroutine resumes on its own executor. Throws the exception of `work`, or QueueFull if the pool rejects the job.
+/// Create `work` in an ordinary function, not in a coroutine: GCC 12 destroys the captures of a lambda in a coroutine
 /// twice.
 template <typename Value, typename Pool>
 boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename Pool::JobArgument)> work,
@@ -27,7 +27,7 @@ boost::asio::awaitable<Value> runOnPool(Pool& pool, std::function<Value(typename
     namespace asio = boost::asio;
     auto start = [&pool, cost](auto handler, std::function<Value(typename Pool::JobArgument)> job,
                                parallel::WorkerPool::JobQueuePtr in) {
-        // A completion handler is move-only, but std::function requires a copyable target.
+        // The completion handler can only be moved, but std::function requires a target that can be copied.
         auto shared = std::make_shared<decltype(handler)>(std::move(handler));
         auto run = [shared, job = std::move(job)](typename Pool::JobArgument argument) mutable {
             std::exception_ptr failure;

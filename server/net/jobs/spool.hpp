@@ -1,5 +1,5 @@
 #pragma once
-// Keeps large replies on disk until clients have read them.
+// Keeps large replies on a disk until clients have read them.
 
 #include <string>
 
@@ -7,9 +7,9 @@
 
 namespace oval4d::net {
 
-/// Writes `bytes` to an unnamed temporary file and returns a memory mapping of that file, so that the system can evict
-/// its pages when memory is scarce. The file is in `folder`, or in the system's temporary folder if `folder` is empty.
-/// Data of less than 1 MiB stays in memory. Larger data also stays in memory if the file cannot be created or written.
+/// Writes `bytes` to an unnamed temporary file and returns a memory mapping of the file. The system can then evict its
+/// pages when memory is scarce. The file is in `folder`; an empty `folder` means the system's temporary folder. Data of
+/// less than 1 MiB stay in memory, and so do larger data if the file cannot be written.
 SharedBytes spool(std::string bytes, const std::string& folder);
 
 }  // namespace oval4d::net

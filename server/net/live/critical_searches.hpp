@@ -1,5 +1,5 @@
 #pragma once
-// The searches of a session for critical values of w, at which the type of the section changes.
+// The searches of a session for critical values of w. At such a value, the section w = const changes its type.
 
 #include <memory>
 #include <stop_token>
@@ -11,15 +11,15 @@
 
 namespace oval4d::net {
 
-/// A queued or running search for critical values of w.
+/// A queued or running search for critical values of w, which can be stopped.
 class CriticalSearchHandle {
   public:
-    /// `by`: the connection that requested the search; null if the search is for LiveSession::apply(). `workersStop`:
-    /// the stop token of the workers; when the workers are stopped, the search stops, too.
+    /// `by` is the connection that has requested the search; null for LiveSession::apply(). `workersStop` is the stop
+    /// token of the workers: stopping the workers also stops the search.
     CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isRequestedBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
-    /// Returns the arguments that determine the result of the search.
+    /// Returns the data that determine the result of the search.
     const session::CriticalSearchArguments& arguments() const { return arguments_; }
     std::stop_token stopToken() const { return stop_.get_token(); }
     void stop() { stop_.request_stop(); }
@@ -35,16 +35,16 @@ class CriticalSearchHandle {
     std::stop_callback<StopRequester> whenWorkersStop_;
 };
 
-/// The searches of a session. Not thread-safe.
+/// All searches of one session. Not thread-safe.
 class CriticalSearches {
   public:
-    /// Registers a search for the critical values of w of a state. The caller must run the search, and keep the
+    /// Registers a search for the critical values of w of a state. The caller must run the search, and must keep the
     /// returned pointer until the search ends.
     std::shared_ptr<CriticalSearchHandle> add(const std::shared_ptr<Peer>& by, const session::State& state,
                                               std::stop_token workersStop);
-    /// Requests a stop of the searches that this connection has requested.
+    /// Stops the searches that this connection has requested.
     void stop(const std::shared_ptr<Peer>& by);
-    /// Requests a stop of the searches whose results this state does not need: those with other arguments().
+    /// Stops the searches whose results this state does not need, because their arguments() differ.
     void stopUnneeded(const session::State& state);
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// The errors that sessions send to clients.
+// Errors that a session sends to its clients.
 
 #include <cstdint>
 #include <exception>
@@ -13,14 +13,14 @@
 
 namespace oval4d::net {
 
-/// Sends an `error` message, and counts it. `id`: the id of the request that failed; empty if the error answers no
-/// request.
+/// Sends an `error` message to a client, and counts the error. `id` is the id of the failed request; empty if the error
+/// answers no request.
 void sendError(Peer& peer, Metrics& metrics, const Error& error, std::optional<double> id);
 
-/// Returns the error for a client to whom a picture, a file or the critical values of a state cannot be sent, or whose
-/// command cannot be applied to a state, because the work has failed with `why`: `bad_field` if the file of the
-/// state's field can no longer be read, `too_large` if the slices have too many edges, else `otherwise`. Logs the
-/// failure unless it returns `too_large`.
+/// Returns the error that a client gets after work for it has failed with `why`. The work was to make a picture, a file
+/// or critical values of w, or to apply a command. Returns `bad_field` if the file of the state's field can no longer
+/// be read, `too_large` if the slices have too many edges, and otherwise `otherwise`. Logs the failure unless it
+/// returns `too_large`.
 Error logAndClassifyFailure(const session::State& state, const std::string& sessionId, std::uint64_t revision,
                             const std::exception& why, const Error& otherwise);
 

@@ -19,7 +19,7 @@ namespace asio = boost::asio;
 
 namespace {
 
-// Returns whether the object is this level of an image. A file that has been replaced may have other levels.
+// Returns whether the object is this level of an image. After a file was replaced, an image may have other levels.
 bool isLevel(const slicing::Object& object, std::uint32_t level) {
     const fields::Field* const field = slicing::fieldIn(object);
     return field != nullptr && field->imageLevel.levels > 0 && field->imageLevel.level == level;
@@ -45,7 +45,7 @@ void FieldRefinement::update() {
     asio::co_spawn(strand_, refine(shared_from_this()), asio::detached);
 }
 
-/// Returns how to load the level that is to be read next; an empty optional if there is none, or no client.
+/// Returns how to load the level to read next. Returns an empty optional if there is no further level or no client.
 std::optional<session::LoadObject> FieldRefinement::nextLoad() const {
     if (!hasClients_()) return {};
     return session::loadOfFinerLevel(metered_->value.current);

@@ -1,5 +1,5 @@
 #pragma once
-// Replaces the level of a multiscale image that a session shows by finer ones, in the background.
+// Replaces a coarse level of a multiscale image by finer levels, in the background, while a session shows the image.
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/awaitable.hpp>
@@ -15,24 +15,24 @@
 
 namespace oval4d::net {
 
-/// Reads the finer levels of the image that a session shows, one after another, as many as follow (see
-/// fields::ImageLevel::finer). Each replaces the one before in place: see session::replaceField(). This ends when the
-/// session shows another object, when its last client leaves, or when a level cannot be read; the level that is shown
-/// then stays. It begins again when the image is shown again, and when a client comes. Every function runs on the
-/// session's strand.
+/// Reads the finer levels of the image that a session shows, one after another (see fields::ImageLevel::finer). Each
+/// level replaces the one before it (see session::replaceField()). Reading ends when the session shows another object,
+/// when its last client leaves, or when a level cannot be read; the present level then stays. Reading begins again when
+/// the image is shown again or a client comes. Every function runs on the session's strand.
 class FieldRefinement : public std::enable_shared_from_this<FieldRefinement> {
   public:
-    /// Reads what `load` names. May throw parallel::Canceled after a request of `stop`.
+    /// A function that reads the object that `load` describes. It may throw parallel::Canceled after a request of
+    /// `stop`.
     using Reader =
         std::function<boost::asio::awaitable<Result<slicing::Object>>(session::LoadObject load, std::stop_token stop)>;
 
-    /// `hasClients` tells whether clients are connected to the session `metered`. `refined` is called after each change
-    /// of the session.
+    /// `metered` is the session. `hasClients` tells whether clients are connected to it. `refined` is called each time
+    /// this object has changed the session.
     FieldRefinement(boost::asio::any_io_executor strand, std::shared_ptr<MeteredSession> metered,
                     std::function<bool()> hasClients, Reader read, std::function<void()> refined);
 
-    /// Begins or ends the reading of finer levels, as the object that the session shows and its clients demand. Must be
-    /// called when these may have changed.
+    /// Begins or ends the reading of finer levels, as needed for the shown object and the present clients. Must be
+    /// called when the object or the clients may have changed.
     void update();
 
   private:
@@ -45,8 +45,8 @@ class FieldRefinement : public std::enable_shared_from_this<FieldRefinement> {
     const Reader read_;
     const std::function<void()> refined_;
     bool isRunning_ = false;   // whether refine() is running
-    slicing::Object coarser_;  // while a level is being read: the field that it will replace; else null
-    std::stop_source stop_;    // of the reading
+    slicing::Object coarser_;  // the field that the level being read will replace; null while no level is being read
+    std::stop_source stop_;    // stops the reading of a level
 };
 
 }  // namespace oval4d::net

@@ -136,9 +136,9 @@ asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::
     co_return applied;
 }
 
-/// Applies a command. Slow work runs on a worker: later messages of this client wait for it, but not those of other
-/// clients. If several servers share the store and `awaitStore` is true, this function returns only when the result is
-/// in the store, because a command must not be acknowledged before that.
+/// Applies a command. Slow work runs on a worker; later messages of this client wait for it, messages of other clients
+/// do not. If several servers share the store and `awaitStore` is true, returns only after the store has the result,
+/// because a command must not be acknowledged before.
 asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(AddressAccountPtr by,
                                                                               std::shared_ptr<Peer> peer,
                                                                               const session::Command& command,
@@ -152,8 +152,8 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     session::ComputedOutcome outcome;
     try {
         while (session::needsLoading(session_, command, limits, loader, outcome)) {
-            // Without this call, the connection would not read for some time while this command runs, and would notice
-            // too late that the client has left.
+            // While this command runs, the connection would otherwise not read for some time, and would notice too late
+            // that the client has left.
             if (peer && loader.isSearchPending()) peer->watchForDisconnect();
             if (auto refused = co_await loading_->completePending(by, peer, loader)) co_return *refused;
         }
@@ -176,7 +176,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     if (applied.revision != before) publisher_->sessionChanged(services_.clock.now());
     loading_->searches().stopUnneeded(session_.current);
     refinement_->update();
-    // The first picture of a new field that is larger than memory is a draft, because a picture of full quality takes
+    // The first picture of a new field that is larger than memory is a draft, because a picture in full quality takes
     // much longer.
     const fields::Field* const field = slicing::fieldIn(session_.current.object);
     if (session_.current.source != source && field != nullptr && field->source) publisher_->beginDrafts();
@@ -208,10 +208,11 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
     co_return;
 }
 
-// This function is last in the file, because the specializations of executeAndAnswer() must be declared before it.
+// This function is last in the file, because it uses the specializations of executeAndAnswer(), which must be declared
+// before.
 asio::awaitable<void> LiveSession::executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request) {
     assertOnStrand();
-    // The body is moved, because that of a `load` message may be large.
+    // The body is moved, because the body of a `load` message may be large.
     co_await std::visit([&](auto& body) { return executeAndAnswer(peer, std::move(body), request.id); }, request.body);
 }
 

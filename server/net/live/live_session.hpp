@@ -26,59 +26,63 @@
 
 namespace oval4d::net {
 
-/// A session in use: holds the session's value and applies commands. Every command is applied when it arrives;
-/// SessionPublisher then sends the changed state and pictures to the clients, SessionSaver saves the session, and
-/// FieldRefinement replaces a coarse level of an image by finer ones. RequestAnswers answers questions. The members of
-/// a session are used only on its strand. Public functions may be called from any thread.
+/// A session in use. Holds the value of the session, and applies each command when it arrives. Its parts do the rest:
+/// - SessionPublisher sends changed states and pictures to the clients.
+/// - SessionSaver saves the session in the store.
+/// - FieldRefinement replaces a coarse level of an image by finer ones.
+/// - RequestAnswers answers questions.
+///
+/// The members of a session are used only on its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = SessionPublisher::Strand;
     using RequestId = RequestAnswers::RequestId;
 
-    /// `client`: the client that opened the session; the session's memory counts as bytes held for this client
-    /// (ByteBudget::Account). `value`: the session, new or read from the store. `fence`: the fence with which the
-    /// session was created in the store or fetched from it (see store::Fence).
+    /// `client` opened the session; the session's memory counts as bytes held for this client (ByteBudget::Account).
+    /// `value` is the session's value, new or read from the store. `fence` is the number with which the session was
+    /// created in the store or fetched from it (see store::Fence).
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
                 store::Fence fence, AddressAccountPtr client, session::Session value);
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
-    /// Adds a client, or changes its stream if it was added before. Sends the client the message `welcome`; the state
-    /// and a picture follow. If another server has taken over the session, closes the client's connection instead.
+    /// Adds a client to the session; if it was added before, changes its stream. Sends the client the message
+    /// `welcome`, then the state and a picture. If another server has taken over the session, closes the client's
+    /// connection instead.
     boost::asio::awaitable<void> addAndWelcome(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id);
 
-    /// Executes a request of a client that was added with addAndWelcome(), and returns when the request is answered.
-    /// However, if the request asks for critical values of w, returns at once and answers later.
+    /// Executes a request of a client that addAndWelcome() has added. Returns when the request is answered. A request
+    /// for critical values of w is an exception: the function returns at once, and the answer follows later.
     boost::asio::awaitable<void> execute(std::shared_ptr<Peer> peer, wire::Request request);
 
     /// The result of a command.
     struct CommandResult {
         std::uint64_t revision = 0;
-        std::vector<std::string> warnings;  ///< about the file that was loaded
-        bool owned = true;                  ///< false if another server has taken over the session in the meantime
+        std::vector<std::string> warnings;  ///< warnings about a loaded file
+        bool owned = true;                  ///< false if another server has meanwhile taken over the session
     };
     /// Applies a command for a client that need not be connected to the session. Connected clients see the change.
     /// Errors: those of session::apply(); `too_many` if a limit on bytes or jobs is reached; `internal` if another
-    /// server has taken over the session. The awaited optional is never empty; it is needed because Asio requires a
-    /// default-constructible result.
+    /// server has taken over the session. The awaited optional is never empty; Asio requires a default-constructible
+    /// result.
     boost::asio::awaitable<std::optional<Result<CommandResult>>> apply(AddressAccountPtr client,
                                                                        session::Command command);
 
-    /// Removes the client `peer` (none if it is null), then calls `left` with the value of the session; both happen on
-    /// the session's strand. `left` must return whether the session has no clients left. If `left` returns true, this
-    /// object never writes the session to the store again. Must be called after the requests of the client have been
-    /// executed, so that the value for `left` contains their results.
+    /// Removes the client `peer` (nobody if it is null), then calls `left` with the session's value, both on the
+    /// session's strand. `left` must return whether the session has no clients left; if so, this object never writes
+    /// the session to the store again. Must be called after the client's requests have been executed, so that the value
+    /// contains their results.
     void leave(std::shared_ptr<Peer> peer, std::function<bool(const session::Session&)> left);
 
-    /// Ends the searches for critical values of w that `peer` has requested. These requests fail with `canceled`.
+    /// Stops the searches for critical values of w that `peer` has requested. Their requests fail with `canceled`.
     void stopSearches(std::shared_ptr<Peer> peer);
 
     /// Writes the whole session to the store. Holds `completion` until the session is written or the store is found to
-    /// be unavailable. The caller can wait until a std::weak_ptr to `completion` expires.
+    /// be unavailable. A caller that keeps a std::weak_ptr to `completion` can wait until the weak_ptr expires.
     void save(std::shared_ptr<void> completion = {});
 
-    /// Closes all connections, and never writes the session to the store again. Must be called when another server has
-    /// taken over the session.
+    /// Closes the connections of all clients, and never writes the session to the store again. Must be called when
+    /// another server has taken over the session.
     void detachAndDisconnectAll();
 
   private:
@@ -89,8 +93,8 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
     boost::asio::awaitable<void> executeOnStrand(std::shared_ptr<Peer> peer, wire::Request request);
-    /// Executes a request and answers it. There is a specialization for each alternative of wire::Request::body; if one
-    /// is missing, the program does not link.
+    /// Executes a request and answers it. Each alternative of wire::Request::body has a specialization; if one is
+    /// missing, the program does not link.
     template <typename RequestBody>
     boost::asio::awaitable<void> executeAndAnswer(std::shared_ptr<Peer> peer, RequestBody /*body*/, RequestId id);
     boost::asio::awaitable<std::optional<Result<CommandResult>>> applyOnStrand(AddressAccountPtr by,

@@ -11,16 +11,16 @@
 
 namespace oval4d::net {
 
-/// A message to send over a WebSocket.
+/// A message that the server sends over a WebSocket.
 struct OutgoingMessage {
     SharedBytes bytes;
-    bool binary = false;  ///< whether this is a binary message; otherwise it is a text message
+    bool binary = false;  ///< whether the message is binary; otherwise it is text
 };
 
-/// Returns a text message.
+/// Makes an outgoing message from a text.
 inline OutgoingMessage textMessage(std::string text) { return {SharedBytes(std::move(text)), false}; }
 
-/// Returns the message of an answer. `id`: the id of the request that it answers; empty if the request has none.
+/// Makes the outgoing message for an answer. `id` is the id of the answered request; empty if it has none.
 inline OutgoingMessage textAnswer(const wire::Answer& answer, std::optional<double> id) {
     return textMessage(wire::answerMessage(answer, id));
 }

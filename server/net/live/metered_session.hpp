@@ -1,5 +1,5 @@
 #pragma once
-// A session in memory, and the bytes that are reserved for it.
+// A session in memory, with the bytes that are reserved for it.
 
 #include <cstddef>
 #include <memory>
@@ -17,10 +17,10 @@ class MeteredSession {
 
     const AddressAccountPtr& client() const { return client_; }
 
-    /// Adjusts the reserved bytes to the memory of the session after a command. If they would exceed a limit on the
-    /// bytes held for clients, removes the older half of the undo steps, and reserves the memory of the remaining
-    /// session, even if it exceeds the limit. `objectsChanged`: whether the command may have added, removed or replaced
-    /// objects of the session.
+    /// Adjusts the reserved bytes to the memory that the session takes after a command. If they would exceed a limit on
+    /// the bytes held for clients, removes the older half of the undo steps. Then reserves the remaining memory, even
+    /// beyond the limit. `objectsChanged` tells whether the command may have added, removed or replaced objects of the
+    /// session.
     void adjustReservationOrTrimUndo(bool objectsChanged);
 
     session::Session value;
@@ -28,7 +28,7 @@ class MeteredSession {
   private:
     const AddressAccountPtr client_;
     std::size_t objectMemory_;             // result of session::ownObjectMemory(), in bytes
-    ByteBudget::Reservation reservation_;  // for objectMemory_ and the memory of the history
+    ByteBudget::Reservation reservation_;  // covers objectMemory_ and the undo history
 };
 
 }  // namespace oval4d::net

@@ -1,5 +1,5 @@
 #pragma once
-// Decides when a moving object, or a focus that plays, makes its steps.
+// Decides when a moving object, or a focus slice that plays to and fro, makes its steps.
 
 #include <algorithm>
 #include <chrono>
@@ -7,26 +7,25 @@
 
 namespace oval4d::net {
 
-/// Times the steps of a motion: of an object that turns continuously or toward an element, and of a focus that moves to
-/// and fro. Each step covers the time since the previous step: it moves everything as far as it moves in this time.
+/// Times the steps of a motion: an object that turns continuously or toward an element, or a focus slice that moves to
+/// and fro. Each step covers the time since the previous step.
 class MotionTiming {
   public:
     using Clock = std::chrono::steady_clock;
     /// The least time between two steps, and the time that the first step covers.
     static constexpr auto kInterval = std::chrono::duration_cast<Clock::duration>(std::chrono::seconds(1)) / 60;
-    /// The longest time that a step covers. This limit prevents a large jump after a pause, or for a
-    /// client that shows only one picture per second.
+    /// The longest time that a step covers. This limit prevents a large jump after a pause, and with a client that
+    /// shows only one picture per second.
     static constexpr Clock::duration kLongestStep = std::chrono::milliseconds(250);
 
-    /// Records that the motion makes a step now, if one is due. Returns the time that the step covers, or an empty
-    /// optional if no step is due yet.
+    /// Makes a step now, if one is due. Returns the time that the step covers; an empty optional if no step is due yet.
     std::optional<Clock::duration> step(Clock::time_point now) {
         if (last_ && now < due()) return std::nullopt;
         const Clock::duration covered = last_ ? std::min(now - *last_, kLongestStep) : kInterval;
         last_ = now;
         return covered;
     }
-    /// Returns when the next step is due. The caller must ensure that a step was made since the last stop().
+    /// Returns when the next step is due. A step must have been made since the last stop().
     Clock::time_point due() const { return *last_ + kInterval; }
     /// Records that nothing moves.
     void stop() { last_.reset(); }

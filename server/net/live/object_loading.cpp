@@ -28,7 +28,7 @@ asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAcco
     std::shared_ptr<CriticalSearchHandle> search;
     if (loader.isSearchPending())
         search = searches_.add(peer, metered_->value.current, services_.exportWorkers.stopToken());
-    // The worker shares the ownership of the loader, because it may outlive this coroutine.
+    // The worker shares the ownership of the loader, because the worker may outlive this coroutine.
     const auto running = std::make_shared<session::ObjectLoader>(std::move(loader));
     if (needsFile) {
         running->readFilesWith(fileReader(services_, std::move(stop)));

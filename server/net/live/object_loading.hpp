@@ -18,8 +18,8 @@
 
 namespace oval4d::net {
 
-/// Builds and reads the objects that commands need, and searches for critical values of w, on workers. Every function
-/// runs on the session's strand.
+/// Builds and reads objects that commands need, and searches for critical values of w. The work runs on workers. Every
+/// function runs on the session's strand.
 class ObjectLoading {
   public:
     ObjectLoading(Services services, std::shared_ptr<MeteredSession> metered,
@@ -30,21 +30,22 @@ class ObjectLoading {
     /// commands load nothing.
     session::ObjectLoader makeLoader() const;
 
-    /// Builds or reads the loader's pending object on a worker. If a search for critical values of w is pending instead
-    /// (see slicing/critical/), an export worker runs it, and searches() can stop it. `by`: the client in whose job
-    /// queue the job waits. `peer`: the connection that needs the result; may be null. The caller must keep `loader`
-    /// until the result is there. Returns an error if there is no room for the result, else an empty optional. Throws
-    /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws. After an exception, the
-    /// caller must not use the loader anymore. `stop` ends the reading of a file early, with parallel::Canceled.
+    /// Does the work that `loader` has deferred, on a worker: builds or reads an object, or searches for critical
+    /// values of w (see slicing/critical/). An export worker runs such a search, and searches() can stop it. `by` is
+    /// the client in whose job queue the job waits. `peer` is the connection that needs the result; it may be null.
+    /// `stop` ends the reading of a file early, with parallel::Canceled. The caller must keep `loader` until the
+    /// function returns. Returns an error if there is no room for the result, else an empty optional. Throws
+    /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws; the caller must not use the
+    /// loader after an exception.
     boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
                                                                  session::ObjectLoader& loader,
                                                                  std::stop_token stop = {});
 
-    /// Reads an array of the data folder, on a worker, for the client that opened the session. Errors and exceptions:
-    /// those of session::ObjectLoader::objectFrom() and of completePending().
+    /// Reads an array of the data folder on a worker, for the client that opened the session. Errors and exceptions:
+    /// those of session::ObjectLoader::objectFrom() and completePending().
     boost::asio::awaitable<Result<slicing::Object>> readInBackground(session::LoadObject load, std::stop_token stop);
 
-    /// Returns the searches that completePending() runs.
+    /// Returns the searches for critical values of w that completePending() runs.
     CriticalSearches& searches() { return searches_; }
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// Flow control for the pictures that are sent to one client.
+// Flow control for the pictures that one client receives.
 
 #include <chrono>
 #include <cstdint>
@@ -8,33 +8,33 @@
 
 namespace oval4d::net {
 
-/// Tracks the pictures on their way to one client. Each picture is sent (queued), then written to the socket, then
-/// shown by the client. At most kInFlight pictures may be sent but not yet shown: two are enough to keep the client
-/// busy, and few enough that the client need not show many outdated pictures.
+/// Tracks the pictures on their way to one client. A picture is sent (queued), then written to the socket, then shown
+/// by the client. At most kInFlight pictures may be sent but not yet shown. Two pictures keep the client busy, and are
+/// so few that the client shows hardly any outdated ones.
 class Pacing {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::size_t kInFlight = 2;
 
-    /// Returns whether one more picture may be sent, in addition to `pending` pictures that are still being made.
+    /// Returns whether one more picture may be sent. `pending` pictures are still being made, and count as sent.
     bool hasRoom(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
-    /// Returns the newest revision that was sent or skipped; an empty optional if there is none.
+    /// Returns the newest revision that was sent or skipped; an empty optional before the first.
     std::optional<std::uint64_t> newestSentOrSkipped() const { return newest_; }
 
-    /// Records that the picture of this revision was queued for the client.
+    /// Records that the picture of this revision has been queued for the client.
     void recordSent(std::uint64_t revision);
     /// Records that the client will receive no picture of this revision.
     void recordSkipped(std::uint64_t revision) { newest_ = revision; }
-    /// Records that the picture of this revision was written to the socket.
+    /// Records that the picture of this revision has been written to the socket.
     void recordWritten(std::uint64_t revision, Clock::time_point now);
     /// Records that the client has shown this revision, and hence all earlier ones.
     void recordShown(std::uint64_t revision);
 
-    /// Marks as shown the pictures that were written at least `timeout` ago, because some clients do not acknowledge
+    /// Marks pictures as shown that were written at least `timeout` ago, because some clients do not acknowledge
     /// pictures.
     void assumeShown(Clock::time_point now, Clock::duration timeout);
-    /// Returns the time from which assumeShown() with this `timeout` marks the oldest unshown picture as shown. Returns
-    /// an empty optional if there is no such picture, or if that picture is not yet written.
+    /// Returns when assumeShown() with this `timeout` will mark the oldest unshown picture as shown. Returns an empty
+    /// optional if there is no such picture, or if it has not been written yet.
     std::optional<Clock::time_point> deadline(Clock::duration timeout) const;
 
   private:

@@ -27,7 +27,7 @@ using wire::Stream;
 
 namespace {
 
-/// The completion handler of a coroutine, which keeps the answers alive until the coroutine has ended.
+/// The completion handler of a coroutine. It keeps the RequestAnswers object alive until the coroutine has ended.
 struct KeepAnswersAlive {
     std::shared_ptr<RequestAnswers> answers;
     void operator()(const std::exception_ptr& /*failure*/) const {}
@@ -96,15 +96,15 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
             co_await answerWithFile(peer, get.file, id);
             break;
         case wire::GetTarget::critical:
-            // The search may take long, so the client's further messages do not wait for this answer.
+            // The search may take long, so further messages of the client do not wait for this answer.
             asio::co_spawn(strand_, answerWithCriticalValues(peer, id), KeepAnswersAlive{shared_from_this()});
             break;
     }
 }
 
 void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId id) {
-    // Measure State::source, which has the coordinates of the object's file, and not State::object, which is
-    // State::source transformed to the frame of reference.
+    // Measures State::source, which has the coordinates of the object's file. State::object is State::source after the
+    // transformation to the frame of reference.
     const slicing::Object& object = session_.current.source;
     const slicing::Element element{measure.element, measure.number};
     if (const auto exists = session::checkElement(object, element); !exists) {
@@ -206,7 +206,7 @@ asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<P
     peer->send(textMessage(wire::criticalMessage(**found, originW, askedRevision, id)));
 }
 
-/// Finds the critical values of w of the current object. Unless they are known, an export worker searches for them.
+/// Finds the critical values of w of the current object. If they are not known yet, an export worker searches for them.
 asio::awaitable<Result<slicing::CriticalSectionsPtr>> RequestAnswers::findCriticalValues(std::shared_ptr<Peer> peer) {
     session::ObjectLoader loader = loading_->makeLoader();
     const session::State asked = session_.current;
@@ -256,8 +256,8 @@ asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> pee
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
-/// Returns a job that tells the values of the current field at a point, which is in the coordinates of the object's
-/// file after the rotation.
+/// Returns a job that finds the values of the current field at a point. The point is in the coordinates of the object's
+/// file, after the rotation.
 std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::sampleJob(const glm::dvec4& point,
                                                                               RequestId id) const {
     return [state = session_.current, point, askedRevision = revision(), id](pipeline::Pipeline& /*pipeline*/) {
@@ -267,8 +267,8 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::sampleJob(co
     };
 }
 
-/// Returns a job that makes a picture of the current state or, with a point, tells what the picture shows at this
-/// point.
+/// Returns a job that makes a picture of the current state. If `point` is given, the job instead tells what the picture
+/// shows at this point.
 std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob(
     const StreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
     const SnapshotPtr known = publisher_->currentFullSnapshot();

@@ -1,5 +1,5 @@
 #pragma once
-// Answers the questions of clients, which do not change the session.
+// Answers the questions of clients. Questions do not change the session.
 
 #include <boost/asio/awaitable.hpp>
 #include <cstdint>
@@ -27,19 +27,20 @@
 
 namespace oval4d::net {
 
-/// Answers the requests for what a session shows, and for the load of the server. Answers that take long are made by a
-/// worker. Every function runs on the session's strand.
+/// Answers questions about what a session shows and about the load of the server. Workers make answers that take long.
+/// Every function runs on the session's strand.
 class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
   public:
-    using RequestId = std::optional<double>;  ///< the id of a request; empty if the request has none
+    using RequestId = std::optional<double>;  ///< empty if a request has no id
 
-    /// `sessionId`: for the log. `publisher` and `loading`: those of the session `metered`.
+    /// `sessionId` is for the log. `publisher` and `loading` belong to the session `metered`.
     RequestAnswers(Services services, SessionPublisher::Strand strand, std::string sessionId,
                    std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
                    std::shared_ptr<ObjectLoading> loading);
 
-    /// Answers a request `get`, and returns when the answer is sent. However, if the request asks for critical values
-    /// of w, returns at once and answers later. Does nothing if the client was not added to the publisher.
+    /// Answers a request `get`, and returns when the answer is sent. A request for critical values of w is an
+    /// exception: the function returns at once, and the answer follows later. Does nothing if the publisher does not
+    /// know the client.
     boost::asio::awaitable<void> answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id);
     void answer(Peer& peer, const wire::Measure& measure, RequestId id);
     void answer(Peer& peer, const wire::Ping& ping, RequestId id);

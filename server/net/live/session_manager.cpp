@@ -24,8 +24,8 @@ store::WriteBehindStore::WriteBehindSettings settingsFrom(const ServerOptions& o
             options.storeQuota};
 }
 
-/// A store::ObjectLookup that decodes an object of a stored record when it is first requested. keys() returns the keys
-/// of the decoded objects.
+/// Looks up the objects of a stored record (a store::ObjectLookup). Decodes each object when it is first requested.
+/// keys() returns the keys of the decoded objects.
 class RecordObjectDecoder {
   public:
     RecordObjectDecoder(const store::SessionRecord& record, store::DataFolderReader open) : open_(std::move(open)) {
@@ -50,7 +50,7 @@ class RecordObjectDecoder {
     std::map<std::string, std::optional<slicing::Object>> decoded_;
 };
 
-/// Returns the estimated time to decode a record.
+/// Returns the estimated time to decode the record of a session.
 Seconds decodingCost(const store::SessionRecord& record) {
     constexpr double kByte = 1e-7;
     std::size_t bytes = record.whole.size() + record.head.size();
@@ -77,13 +77,13 @@ WriteBehindStore::Listener SessionManager::listener() {
             }};
 }
 
-/// Counts a new session against the client's limit of new sessions per minute. At a limit on the number of stored
-/// sessions, evicts an unmodified closed session to make room. Returns an error if the limit per minute is reached, or
-/// if there is no session to evict. Requires that mutex_ is held.
+/// Counts a new session against the client's limit of new sessions per minute. If the number of stored sessions is at a
+/// limit, evicts a closed session that was never changed. Returns an error if the limit per minute is reached or no
+/// session can be evicted. The caller must hold mutex_.
 std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& client) {
     const auto now = services_.clock.now();
     const ServerOptions& options = services_.options;
-    // The session to evict is determined here, but evicted only when no limit can refuse the new session anymore.
+    // The session to evict is found here, but is evicted only when no limit can refuse the new session anymore.
     std::optional<std::string> evicted;
     if (byClient_.countSessionsOf(client.name(), now) >= options.client.sessions) {
         evicted = byClient_.firstClosedUnmodified(now, &client.name());
@@ -107,7 +107,7 @@ std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& clie
     return std::nullopt;
 }
 
-/// Deletes a session to make room for a new one. Requires that mutex_ is held.
+/// Deletes a session to make room for a new one. The caller must hold mutex_.
 void SessionManager::evict(const std::string& id) {
     spdlog::debug("session evicted for a new one session={}", id);
     writeBehind_.remove(id);
@@ -126,7 +126,8 @@ void SessionManager::create(const AddressAccountPtr& client, const JoinHandler& 
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
     if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
-        // The session must be in the shared store before its client learns its id, so that every server can open it.
+        // The shared store must have the session before the client learns its id, so that every server can open the
+        // session.
         writeBehind_.save(credentials.id, store::kFirstFence, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
@@ -158,8 +159,9 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Ad
                           WriteBehindStore::FetchResult fetch) { self->onRead(pending, std::move(fetch)); });
 }
 
-/// Runs on the thread of the write-behind store. A session that is in the store is claimed only once its record is
-/// decoded: one that this server cannot open is not written, and stays with the server that has it open.
+/// Handles a session that was read from the store. Runs on the thread of the write-behind store. The session is claimed
+/// only after its record has been decoded. A session that this server cannot open is therefore not written, and stays
+/// with the server that has it open.
 void SessionManager::onRead(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
@@ -171,11 +173,11 @@ void SessionManager::onRead(const PendingJoin& pending, WriteBehindStore::FetchR
     }
 }
 
-/// Makes a worker decode a record, because decoding would block the thread of the write-behind store.
+/// Makes a worker decode a record. Decoding here would block the thread of the write-behind store.
 void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<const store::SessionRecord> record,
                                    Ownership ownership) {
     const Seconds cost = decodingCost(*record);
-    // A record that refers to a file of the data folder goes to a load worker, because opening this file may take long.
+    // A record that refers to a file of the data folder goes to a load worker, because opening the file may take long.
     const bool opensFile =
         std::ranges::any_of(record->objects, [](const auto& object) { return store::refersToFile(object.second); });
     parallel::WorkerPool& pool = opensFile ? services_.loadWorkers : services_.pictureWorkers.workers();
@@ -192,14 +194,14 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
                             Ownership ownership) {
     const store::SessionRecord& record = *stored;
     const std::string& id = pending.credentials.id;
-    bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be read later
+    bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be readable later
     try {
         RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
-            isUnread = mustWait = true;  // both stay true if the reader throws, as when the server stops
+            isUnread = mustWait = true;  // both stay true if the reader throws an exception, as when the server stops
             const auto loaded = fileReader(services_)(load, services_.options.session);
             isUnread = !loaded;
             if (loaded) return loaded->object;
-            // `too_large` also means that reading took too long, as it may when many files are read at once.
+            // `too_large` also means that reading took too long, which may happen when many files are read at once.
             constexpr std::array kForNow{ErrorCode::too_many, ErrorCode::too_large, ErrorCode::internal};
             mustWait = std::ranges::find(kForNow, loaded.error().code) != kForNow.end();
             return loaded.error();
@@ -214,7 +216,7 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
         writeBehind_.setStoredKeys(id, objects.keys());
         finishOpening(pending, std::move(value), record.fence);
     } catch (const std::exception& fault) {
-        // Of a damaged record, nothing is certain, not even that a later version has stored it.
+        // Nothing in a damaged record is certain, not even that a later version has stored it.
         const bool isLater = record.damage.empty() && dynamic_cast<const store::LaterRecord*>(&fault) != nullptr;
         if (isLater) {
             spdlog::warn("session of a later version refused session={} store={} reason=\"{}\"", id,
@@ -229,7 +231,7 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
         const std::string what = isLater    ? "this server keeps the session, but cannot open it: "
                                  : isUnread ? "this session cannot be opened: "
                                             : "this session is stored in a form that the server cannot read: ";
-        // After `not_found`, clients forget the session; after the others, they try again.
+        // After `not_found`, clients forget the session; after the other errors, they try again.
         const ErrorCode code = isLater                ? ErrorCode::later_version
                                : isUnread && mustWait ? ErrorCode::internal
                                                       : ErrorCode::not_found;
@@ -237,7 +239,7 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
     }
 }
 
-/// Claims a session whose record was read and decoded.
+/// Claims a session in the store, after its record was read and decoded.
 void SessionManager::claim(const PendingJoin& pending, const std::shared_ptr<const DecodedRecord>& decoded) {
     writeBehind_.claimAndFetch(pending.credentials,
                                [self = shared_from_this(), pending, decoded](WriteBehindStore::FetchResult fetch) {
@@ -245,8 +247,8 @@ void SessionManager::claim(const PendingJoin& pending, const std::shared_ptr<con
                                });
 }
 
-/// Runs on the thread of the write-behind store. If another server has saved the session since its record was read, the
-/// new record is decoded.
+/// Handles a claimed session. Runs on the thread of the write-behind store. If another server has saved the session
+/// since its record was read, the new record is decoded.
 void SessionManager::onClaimed(const PendingJoin& pending, const DecodedRecord& decoded,
                                WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
@@ -266,9 +268,9 @@ void SessionManager::onClaimed(const PendingJoin& pending, const DecodedRecord& 
     startDecoding(pending, std::make_shared<const store::SessionRecord>(std::move(claimed)), Ownership::claimed);
 }
 
-/// Passes the session, or the error, to the client that asked first. If another server has taken over the session in
-/// the meantime, passes kTakenOver, because that server may have changed the session. Then calls join() again for the
-/// other waiting clients. `fence`: the fence with which the session was fetched; 0 if `value` is an error.
+/// Passes the session, or the error, to the client that asked first. If another server has meanwhile taken over the
+/// session and may have changed it, passes kTakenOver. Then calls join() again for the other waiting clients. `fence`
+/// is the number with which the session was fetched (see store::Fence); 0 if `value` is an error.
 void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;
@@ -277,8 +279,8 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
         const std::lock_guard lock(mutex_);
         others = std::move(opening_[id]);
         opening_.erase(id);
-        // Another server may have claimed the session while its record was decoded. If a server claims the session from
-        // now on, dropTakenSession(), which locks mutex_, finds it in live_.
+        // Another server may have claimed the session while its record was decoded. If a server claims it from now on,
+        // dropTakenSession() finds it in live_, because that function locks mutex_.
         if (value && !writeBehind_.owns(id, fence)) value = kTakenOver;
         if (value) session = activate(pending.credentials, fence, pending.client, std::move(*value));
     }

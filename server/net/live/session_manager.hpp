@@ -1,5 +1,5 @@
 #pragma once
-// Manages the sessions of this server. Sessions with clients are in memory; the others are in the store.
+// Manages the sessions of this server. Sessions with clients are in memory; all others are in the store.
 
 #include <cstdint>
 #include <map>
@@ -23,24 +23,24 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     using JoinResult = Result<std::shared_ptr<LiveSession>>;
     using JoinHandler = std::function<void(JoinResult)>;
 
-    /// Creates a session and passes it, or the error `too_many`, to `done`. At a limit on the number of sessions,
-    /// deletes a closed session that was never changed, if there is one.
+    /// Creates a session, and passes it to `done`. If the number of sessions is at a limit, deletes a closed session
+    /// that was never changed; without such a session, passes the error `too_many` to `done`.
     void create(const AddressAccountPtr& client, const JoinHandler& done);
-    /// Adds a client to the session with these credentials, after loading the session from the store if necessary.
-    /// Passes the session to `done`, or an error: `not_found`, `bad_token`, `later_version`, `too_many` if too many
-    /// jobs are queued, or `internal` if the store does not answer or another server takes over the session.
+    /// Adds a client to the session with these credentials. Loads the session from the store if necessary. Passes the
+    /// session to `done`, or an error: `not_found`, `bad_token` or `later_version`; `too_many` if too many jobs are
+    /// queued; `internal` if the store does not answer or another server takes over the session.
     void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
-    /// Removes the client `peer` from a session, and closes the session if it has no other client. `peer`: null if the
+    /// Removes the client `peer` from a session. Closes the session if it has no other client. `peer` is null if the
     /// client was never welcomed, as for an upload. Must be called exactly once for each successful call of create() or
     /// join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WritePolicy::at_close). Holds `completion` until all sessions are written or the store is found to be
-    /// unavailable. The caller can wait until a std::weak_ptr to `completion` expires.
+    /// (WritePolicy::at_close). Holds `completion` until all are written or the store is found to be unavailable. A
+    /// caller that keeps a std::weak_ptr to `completion` can wait until the weak_ptr expires.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
-    /// Writes pending changes to the store, and gives up after about the time `limit`. The caller must not call any
+    /// Writes pending changes to the store. Gives up after about the time `limit`. The caller must not call any
     /// function of this object afterward.
     void stop(Seconds limit);
 
@@ -48,12 +48,12 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     std::size_t openCount() const;
 
   private:
-    // A session with clients.
+    // An open session, and the number of its clients.
     struct SessionWithClients {
         std::shared_ptr<LiveSession> session;
-        int clients = 0;  // number of clients; the session is closed when it reaches 0
+        int clients = 0;  // the session is closed when the number reaches 0
     };
-    // A call of join() that waits for the session to be fetched from the store.
+    // A call of join() that waits until the session is fetched from the store.
     struct PendingJoin {
         store::SessionCredentials credentials;
         AddressAccountPtr client;
@@ -64,7 +64,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     std::shared_ptr<LiveSession> find(const std::string& id) const;
     std::optional<Error> admitSessionMakingRoom(AddressAccount& client);
     void evict(const std::string& id);
-    // The record of a session in the store, and what it contains.
+    // The stored record of a session, with the decoded session.
     struct DecodedRecord {
         std::shared_ptr<const store::SessionRecord> record;
         session::Session value;
@@ -89,8 +89,8 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     mutable std::mutex mutex_;
     std::map<std::string, SessionWithClients, std::less<>> live_;  // guarded by mutex_
     SessionsByClient byClient_;                                    // guarded by mutex_
-    // The sessions that are being fetched from the store, by id, each with the calls of join() that wait for it, except
-    // the call that started the fetch. Guarded by mutex_.
+    // The calls of join() that wait for sessions being fetched from the store, by session id. The call that started a
+    // fetch is not among them. Guarded by mutex_.
     std::map<std::string, std::vector<PendingJoin>, std::less<>> opening_;
     store::WriteBehindStore writeBehind_;  // declared last, because its thread uses the other members
 };

@@ -22,7 +22,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// Time between the rejection of a picture job by a full queue and the next attempt.
+// The time between the rejection of a picture job by a full queue and the next attempt.
 constexpr auto kRetryInterval = 100ms;
 
 const Error kNoPicture{ErrorCode::internal, "this picture could not be made; the session continues"};
@@ -80,7 +80,7 @@ void SessionPublisher::pictureShown(const Peer& peer, std::uint64_t ofRevision) 
 void SessionPublisher::sendAndRequestPictures() {
     assertOnStrand();
     advanceMotion();
-    if (state_ && state_->revision != revision()) state_.reset();  // it may keep objects that the session has dropped
+    if (state_ && state_->revision != revision()) state_.reset();  // it may keep dropped objects alive
     std::vector<StreamKey> missing;
     bool allServed = true;
     const slicing::Quality wanted = wantedQuality();
@@ -110,16 +110,17 @@ void SessionPublisher::sendAndRequestPictures() {
     if (wanted == slicing::Quality::draft) scheduleRefinement();
 }
 
-/// Returns `draft` while a field moves or changes in quick succession, so that pictures follow fast; else `full`.
+/// Returns `draft` while a field moves or changes in quick succession, so that its pictures are made fast; otherwise
+/// `full`.
 slicing::Quality SessionPublisher::wantedQuality() const {
     if (slicing::fieldIn(session_.current.object) == nullptr) return slicing::Quality::full;
     return session_.current.isMoving() || draftTiming_.hasQuickChanges() ? slicing::Quality::draft
                                                                          : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the time when the period of quick changes ends (DraftTiming::restEnds()).
-/// Until the timer expires, wantedQuality() remains `draft`, so that the draft is made even if the server is too busy
-/// to make it before that time.
+/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::restEnds()).
+/// wantedQuality() stays `draft` until the timer expires. The draft is then made even if the server was too busy to
+/// make it earlier.
 void SessionPublisher::scheduleRefinement() {
     if (session_.current.isMoving()) return;
     refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEnds(), [](SessionPublisher& publisher) {
@@ -128,8 +129,8 @@ void SessionPublisher::scheduleRefinement() {
     });
 }
 
-/// Continues the motion (see session::advance()), if the next step is due and a client that has the current revision
-/// can receive the next one.
+/// Makes the next step of a motion (see session::advance()), if the step is due. Waits until a client has the current
+/// revision and can receive the next one.
 void SessionPublisher::advanceMotion() {
     assertOnStrand();
     if (!session_.current.isMoving()) {
@@ -161,8 +162,8 @@ bool SessionPublisher::readyForNext(const Subscriber& subscriber) const {
                : subscriber.pacing.hasRoom(inProgress_.countEncoding(subscriber.streamKey));
 }
 
-/// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while the pictures of a job
-/// are being drawn, because sendAndRequestPictures() is called again afterward.
+/// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while a job's pictures are
+/// being drawn, because sendAndRequestPictures() is called again afterward.
 void SessionPublisher::requestPictures(std::vector<StreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
@@ -188,8 +189,8 @@ void SessionPublisher::requestPictures(std::vector<StreamKey> wanted) {
     }
 }
 
-/// Returns the client in whose job queue a job for the pictures `wanted` must wait. If several clients receive these
-/// pictures, returns another of them for each job, because a job uses up its client's share of the workers.
+/// Returns the client in whose job queue a job for the pictures `wanted` waits. A job uses up its client's share of the
+/// workers, so clients that receive the same pictures take turns.
 const SessionPublisher::Subscriber& SessionPublisher::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
@@ -198,7 +199,7 @@ const SessionPublisher::Subscriber& SessionPublisher::subscriberToCharge(const s
     return *payers[inProgress_.currentOrNextJobNumber() % payers.size()];
 }
 
-/// Schedules another attempt after the pool has rejected a job because its queue is full.
+/// Schedules another attempt after the pool has rejected a job because its queue was full.
 void SessionPublisher::scheduleRetry() {
     retryTimer_.startUnlessRunning(weak_from_this(), services_.clock.now() + kRetryInterval,
                                    &SessionPublisher::sendAndRequestPictures);
@@ -217,7 +218,7 @@ void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
         try {
             if (!suffices(result.snapshot, key))
                 result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key, job.quality);
-            result.snapshot->stateTextFor(key.scheme);  // makes the text here, and not when the strand sends it
+            result.snapshot->stateTextFor(key.scheme);  // makes the text here, so that the strand need not make it
             std::function<void()> whenDrawn;
             if (&key == &job.wanted.back()) whenDrawn = [this, &job, &key] { onLastPictureDrawn(job, key); };
             result.pictures.emplace_back(key, makePicture(pipeline, *result.snapshot, key, {}, whenDrawn));
@@ -232,8 +233,8 @@ void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
     });
 }
 
-/// Called on a worker when the last picture of a job is drawn, but not yet encoded. The next job may be queued as soon
-/// as this function has been called.
+/// Called on a worker when the last picture of a job has been drawn, but not yet encoded. The next job may be queued
+/// from now on.
 void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const StreamKey& key) {
     asio::post(strand_, [self = shared_from_this(),
                          drawn = PictureJobs::PictureBeingEncoded{job.number, job.revision, job.quality, key}] {
@@ -242,9 +243,9 @@ void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const 
     });
 }
 
-/// Sends the pictures that a worker has made. Sends them even if the session has changed in the meantime, because they
-/// are newer than the pictures that the clients have. So when changes are very frequent, clients still see every
-/// picture that the workers have time to make.
+/// Sends the pictures that a worker has made, even if the session has changed since. The pictures are newer than those
+/// that the clients have. During very frequent changes, clients therefore see every picture that the workers have time
+/// to make.
 void SessionPublisher::onJobDone(RevisionPictures result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
@@ -266,7 +267,7 @@ void SessionPublisher::onJobDone(RevisionPictures result) {
     sendAndRequestPictures();
 }
 
-/// Sends the state of the newest snapshot, followed by `picture`, which was made of this snapshot.
+/// Sends the state of the newest snapshot, then `picture`, which shows this state.
 void SessionPublisher::sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
@@ -300,7 +301,8 @@ SnapshotPtr SessionPublisher::currentState() {
     return state_ = makeStateSnapshot(session_.current, revision(), lastChangeTime(), *section_);
 }
 
-/// Returns whether section_ is the section in the focus slice of the current state. Most changes of a look keep it.
+/// Returns whether section_ still names the section in the focus slice of the current state. Most changes of the look
+/// do not change the section.
 bool SessionPublisher::isNamedSectionCurrent() const {
     const session::State& current = session_.current;
     return section_ && section_->isOf(current.object, current.orientation, current.focusW());
@@ -320,8 +322,8 @@ bool SessionPublisher::keepIfCurrent(const SnapshotPtr& state) {
     return true;
 }
 
-/// Lets a worker make the current state for clients without a stream, unless a worker is already making a state.
-/// `subscriber`: the client in whose job queue the job waits.
+/// Makes a worker name the section of the current state, for clients without a stream. Does nothing if a worker is
+/// already doing so. The job waits in the job queue of `subscriber`.
 void SessionPublisher::requestState(const Subscriber& subscriber) {
     assertOnStrand();
     if (stateRequested_) return;
@@ -339,8 +341,8 @@ void SessionPublisher::requestState(const Subscriber& subscriber) {
     if (!stateRequested_) scheduleRetry();
 }
 
-/// Sends the state that a worker has made. Like a picture, it is sent even if the session has changed in the meantime,
-/// because it is newer than the state that the clients have. `made`: the state; null if the worker failed to make it.
+/// Sends the state that a worker has made, even if the session has changed since, because it is newer than the states
+/// that the clients have. `made` is null if the worker has failed.
 void SessionPublisher::onStateMade(const SnapshotPtr& made) {
     assertOnStrand();
     stateRequested_ = false;
@@ -356,8 +358,8 @@ void SessionPublisher::onStateMade(const SnapshotPtr& made) {
     sendAndRequestPictures();
 }
 
-/// Sends the state of `snapshot` to a client without a stream, one message at a time: if the state changes faster than
-/// the client's socket accepts messages, states in between are skipped.
+/// Sends the state of `snapshot` to a client without a stream. Only one state at a time is on its way. If the state
+/// changes faster than the client's socket accepts messages, states in between are skipped.
 void SessionPublisher::sendState(Subscriber& subscriber, const Snapshot& snapshot) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
@@ -377,8 +379,8 @@ void SessionPublisher::sendState(Subscriber& subscriber, const Snapshot& snapsho
                });
 }
 
-/// Starts a timer that calls assumeOverduePicturesShown(), which marks pictures as shown that clients have not
-/// acknowledged in time.
+/// Starts a timer for the pictures that clients have not acknowledged. When it expires, assumeOverduePicturesShown()
+/// marks them as shown.
 void SessionPublisher::scheduleShownTimeout() {
     std::optional<Clock::time_point> first;
     for (const auto& [key, subscriber] : subscribers_) {

@@ -1,5 +1,5 @@
 #pragma once
-// The pictures and states that a session sends to its clients.
+// Sends the pictures and states of a session to its clients.
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/strand.hpp>
@@ -30,86 +30,84 @@
 
 namespace oval4d::net {
 
-/// Sends the states of a session, and pictures of them, to all its clients. Each client is sent pictures of the newest
-/// state as fast as workers make them and the client shows them. A session has at most one job for pictures that is
-/// queued or being drawn; the job makes the pictures of one revision for all clients that can receive them. A newer
-/// state replaces the state of a queued job. While one picture is encoded, the next one may be drawn. The picture of a
-/// revision is made once and shared by all clients with the same StreamKey. While the object or the focus moves, the
-/// publisher moves it by one step whenever a client can receive the next picture. Every function runs on the
-/// session's strand.
+/// Sends the states of a session, and pictures of them, to all its clients. Each client receives pictures of the newest
+/// state as fast as workers make them and the client shows them. At most one picture job of a session is queued or
+/// being drawn. It makes the pictures of one revision for all clients that can receive them; clients with equal
+/// StreamKeys share a picture. A newer state replaces the state of a queued job. While a picture is encoded, the next
+/// one may be drawn. While the object or the focus moves, the publisher makes one step whenever a client can receive
+/// the next picture. Every function runs on the session's strand.
 class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
     using Clock = Pacing::Clock;
-    /// A client, and the job queues, one in each worker pool, in which its jobs for this session wait.
+    /// A client, with the job queues for its work in this session: one in the pool for pictures, one in the pool for
+    /// exports.
     struct JobQueuesOfClient {
         AddressAccountPtr client;
         parallel::WorkerPool::JobQueuePtr pictures, exports;
     };
 
-    /// `sessionId`: for the log. `metered`: the session, whose owner calls sessionChanged() after each change.
+    /// `sessionId` is for the log. `metered` is the session; its owner must call sessionChanged() after each change.
     SessionPublisher(Services services, Strand strand, std::string sessionId, std::shared_ptr<MeteredSession> metered);
 
-    /// Sets the function to call after each step of the motion, so that the changed session can be saved. Must be
-    /// called before a client is added.
+    /// Sets the function that is called after each step of a motion, so that its caller can save the changed session.
+    /// Must be called before a client is added.
     void whenMoved(std::function<void()> moved) { moved_ = std::move(moved); }
 
-    /// Adds a client, which is sent pictures of the kind `key` from now on; only states if key.stream is `none`. If the
-    /// client was added before, replaces the kind of its pictures.
+    /// Adds a client, or changes the pictures of a client that was added before. The client receives pictures of the
+    /// kind `key`; if key.stream is `none`, only states.
     void add(const std::shared_ptr<Peer>& peer, const StreamKey& key);
     void remove(const Peer* peer) { subscribers_.erase(peer); }
     bool hasClients() const { return !subscribers_.empty(); }
-    /// Returns the kind of pictures that a client is sent; null if it was not added. The pointer is valid until the
-    /// next add() or remove().
+    /// Returns the kind of pictures that a client receives; null if the client was not added. The pointer is valid
+    /// until the next add() or remove().
     const StreamKey* streamOf(const Peer& peer) const;
-    /// Returns the job queues of a client in this session. All connections of a client to a session share these job
-    /// queues, so that a client with several connections gets no larger share of the workers.
+    /// Returns the job queues of a client in this session. All connections of the client to the session share these
+    /// queues, so that several connections get no larger share of the workers.
     JobQueuesOfClient jobQueuesOf(const AddressAccountPtr& own) const;
-    /// Closes the connections of all clients.
+    /// Closes the connections of all clients with a WebSocket close code and a reason.
     void closeAll(std::uint16_t code, const std::string& reason);
 
-    /// Notes that the session has reached a new revision.
+    /// Records that the session has reached a new revision.
     void sessionChanged(Clock::time_point now) { draftTiming_.recordChange(now); }
-    /// Until the session rests, makes only drafts of the pictures of a field, as during changes in quick succession
-    /// (see DraftTiming).
+    /// Makes only drafts of the pictures of a field until the session rests, as during quick changes (see DraftTiming).
     void beginDrafts() { draftTiming_.begin(); }
-    /// Notes that a client shows the picture of this revision, and sends the next one.
+    /// Records that a client has shown the picture of this revision, and sends the next picture.
     void pictureShown(const Peer& peer, std::uint64_t ofRevision);
-    /// Sends every client the newest state or picture, if the picture is ready and the client can receive it. Requests
-    /// pictures that are missing. Must be called whenever the session may have changed, a client may have become able
-    /// to receive a picture, or a worker may have become available.
+    /// Sends every client the newest state or picture, if it is ready and the client can receive it. Requests missing
+    /// pictures. Must be called whenever the session may have changed, a client may have become able to receive a
+    /// picture, or a worker may have become available.
     void sendAndRequestPictures();
 
     /// Returns the time at which the session reached its current revision.
     Clock::time_point lastChangeTime() const { return draftTiming_.lastChangeTime(); }
-    /// Returns the current state with the names of its section, without slices; null if naming the section may take
-    /// long, and no worker has named it yet.
+    /// Returns the current state with the names of its section, without slices. Returns null if naming the section may
+    /// take long and no worker has named it yet.
     SnapshotPtr currentState();
-    /// Returns a job for a worker. The job names the section of what is now the current state, and returns this state.
+    /// Returns a job for a worker. The job names the section of the state that is now current, and returns this state.
     std::function<SnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
-    /// Keeps `state`, the result of a currentStateJob(), so that currentState() returns it, and keeps its named
-    /// section, so that the section need not be named again. If the session has changed since the job was created, does
-    /// nothing and returns false.
+    /// Keeps the result of a currentStateJob(): currentState() then returns it, and its section need not be named
+    /// again. If the session has changed since the job was created, does nothing and returns false.
     bool keepIfCurrent(const SnapshotPtr& state);
 
-    /// Returns the section that was named last, which need not be that of the current state; empty if none was.
+    /// Returns the section that was named last. It may belong to an earlier state. Empty if no section has been named.
     const std::optional<slicing::NamedSection>& namedSection() const { return section_; }
-    /// Returns the snapshot of the current revision, of full quality; null if there is none.
+    /// Returns the snapshot of the current revision in full quality; null if there is none.
     SnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
 
   private:
-    // A connected client of this session, and what it was sent.
+    // A connected client of this session, with what it has been sent.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
         JobQueuesOfClient jobQueues;
         StreamKey streamKey;
         Pacing pacing;
         slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
-        bool stateInFlight = false;  // without a stream: whether a `state` message is queued, but not yet written
+        bool stateInFlight = false;  // whether a `state` message is queued but not written (only without a stream)
     };
     // A picture that could not be made, and the reason.
     using FailedPicture = std::pair<StreamKey, Error>;
-    // A job that makes the pictures of one revision that clients wait for: one for each StreamKey among them.
+    // A job that makes the pictures of one revision: one picture for each StreamKey among the waiting clients.
     struct RevisionPicturesJob {
         std::uint64_t number = 0;  // identifies the job within the session; starts at 1
         session::State state;
@@ -118,9 +116,9 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         slicing::Quality quality = slicing::Quality::full;
         SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
         std::vector<StreamKey> wanted;                 // the pictures to make
-        std::optional<slicing::NamedSection> section;  // SessionPublisher::section_ when the job was created
+        std::optional<slicing::NamedSection> section;  // section_ at the creation of the job
     };
-    // The result of a RevisionPicturesJob: the pictures of a revision that it has made, and those that have failed.
+    // The result of a RevisionPicturesJob: the pictures that it has made, and those that have failed.
     struct RevisionPictures {
         std::uint64_t job = 0;  // number of the job
         std::uint64_t revision = 0;
@@ -169,14 +167,14 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     MotionTiming motionTiming_;
     PictureJobs inProgress_;
     SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
-    SnapshotPtr state_;              // what currentState() has returned for the current revision, else null
+    SnapshotPtr state_;              // what currentState() has returned for the current revision; null if nothing
     bool stateRequested_ = false;    // whether a worker has been asked for a state
     std::optional<slicing::NamedSection> section_;  // a section in the focus slice: the one that was named last
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;
 
     // Shared by the strand and a worker.
     std::mutex queuedJobMutex_;
-    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_, but needs no lock while the
+    // The job that waits for a worker; empty if there is none. Guarded by queuedJobMutex_. Needs no lock while the
     // worker pool has no RevisionPicturesJob of this session.
     std::optional<RevisionPicturesJob> queuedJob_;
 };

@@ -29,11 +29,12 @@ void SessionSaver::saveNow(store::SaveCallback written) {
 
 std::optional<SessionSaver::WriteFunction> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
     if (writeBehind_.writePolicy() != WritePolicy::at_once) return std::nullopt;
-    // The head of a record is saved without objects, so a new object requires a save of the whole session.
+    // The head of a record is saved without objects, so a new object requires that the whole session is saved.
     return writeOf(hasNewObject ? SaveScope::whole : SaveScope::head);
 }
 
-/// Returns a function that writes the session as it is now, or only its head (the state and the revision).
+/// Returns a function that writes the present value of the session: all of it, or only its head (the state and the
+/// revision).
 SessionSaver::WriteFunction SessionSaver::writeOf(SaveScope scope) {
     session::Session value;
     if (scope == SaveScope::whole) {

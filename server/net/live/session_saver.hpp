@@ -15,35 +15,35 @@
 
 namespace oval4d::net {
 
-/// Saves a session in use, as the write policy of the store demands: a short time after each change, and perhaps before
+/// Saves a session in use, as the store's write policy demands: a short time after each change, and perhaps also before
 /// the change is acknowledged. After detach(), never writes the session again. Not thread-safe: the functions of this
-/// class, and the functions that they return, must be called on the strand of the session.
+/// class, and the functions that they return, must be called on the session's strand.
 class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
   public:
-    /// Delay from a change until the session is saved. The store must be at most a second behind the session, even on a
-    /// busy machine.
+    /// The delay from a change to the save. The store must be at most one second behind the session, even on a busy
+    /// machine.
     static constexpr std::chrono::milliseconds kDelay{250};
 
-    /// Hands a value of the session to the store, which calls `written` as WriteBehindStore::save() does.
+    /// A function that hands a value of the session to the store. The store then calls `written`, as in
+    /// WriteBehindStore::save().
     using WriteFunction = std::function<void(store::SaveCallback written)>;
 
-    /// `fence`: the fence with which the session was created in the store or fetched from it (see store::Fence).
-    /// `session`: the session, which the caller changes on `strand`. `clock` measures the delay.
+    /// `fence` is the number with which the session was created in the store or fetched from it (see store::Fence).
+    /// `session` is the session, which the caller changes on `strand`. `clock` measures the delay.
     SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
                  std::shared_ptr<const session::Session> session, const TimerClock& clock,
                  const boost::asio::any_io_executor& strand);
 
-    /// Schedules a save. Must be called after each change.
+    /// Schedules a save after kDelay. Must be called after each change of the session.
     void scheduleSave();
 
-    /// Hands the session to the store, which saves it as soon as possible and then calls `written`. If the session is
-    /// detached, saves nothing and destroys `written` without calling it.
+    /// Hands the session to the store. The store saves it as soon as possible and then calls `written`. After detach(),
+    /// saves nothing and never calls `written`.
     void saveNow(store::SaveCallback written = {});
 
-    /// If a change must be written before it is acknowledged, returns a function that writes the session as it is now;
-    /// else returns an empty optional. `hasNewObject`: whether the change has added or replaced an object of the
-    /// session. If the session is detached when the function is called, it writes nothing, and calls its argument with
-    /// `false`.
+    /// Returns a function that writes the present value of the session; an empty optional if a change need not be
+    /// written before it is acknowledged. `hasNewObject` tells whether the change has added or replaced an object. If
+    /// the session is detached when the function is called, it writes nothing, and calls its argument with `false`.
     std::optional<WriteFunction> writeBeforeAcknowledgment(bool hasNewObject);
 
     /// Makes this object never write the session to the store again.
@@ -58,7 +58,7 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     const store::Fence fence_;
     const std::shared_ptr<const session::Session> session_;
     const TimerClock& clock_;
-    OneShotTimer timer_;  // of the delay
+    OneShotTimer timer_;  // measures kDelay
     bool detached_ = false;
 };
 

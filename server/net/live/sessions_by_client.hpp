@@ -1,5 +1,5 @@
 #pragma once
-// Records the sessions of each client, so that one client cannot use up the number of sessions allowed for all clients.
+// Records the sessions of each client, so that no client can use up the sessions allowed for all clients.
 
 #include <chrono>
 #include <cstddef>
@@ -10,38 +10,39 @@
 
 namespace oval4d::net {
 
-/// Records which client opened each session of this process. Covers open sessions, and closed ones that have not
-/// expired. When a limit is reached, finds the session to evict: the unmodified one that was closed first. Not
-/// thread-safe.
+/// Records which client has opened each session of this process: open sessions, and closed sessions that have not
+/// expired. At a limit, finds the session to evict: of the closed sessions that were never changed, the one that was
+/// closed first. Not thread-safe.
 class SessionsByClient {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `expiry`: the time after which a closed session is forgotten.
+    /// `expiry` is the time after which a closed session is forgotten.
     explicit SessionsByClient(Clock::duration expiry) : expiry_(expiry) {}
 
-    /// Records that a client has opened a session. A known session stays assigned to the client that opened it first.
+    /// Records that a client has opened a session. A session that is already recorded stays with its first client.
     void recordOpened(const std::string& id, const std::string& client);
 
-    /// Records that a session has no client anymore. `unmodified`: whether the session was never changed.
+    /// Records that a session no longer has a client. `unmodified` tells whether the session was never changed.
     void recordClosed(const std::string& id, bool unmodified, Clock::time_point now);
 
     /// Removes a session that was deleted or was taken over by another server.
     void remove(const std::string& id);
 
-    /// Returns the number of sessions that a client has opened, both open ones and closed ones that have not expired.
+    /// Returns how many sessions of this client are open, or closed and not expired.
     std::size_t countSessionsOf(const std::string& client, Clock::time_point now);
 
-    /// Returns the id of the unmodified closed session that was closed first. Considers only the sessions of `client`,
-    /// or those of all clients if `client` is null. Returns an empty optional if there is no such session.
+    /// Returns the id of the session that was closed first, among the closed sessions that were never changed.
+    /// Considers only sessions of `client`; sessions of all clients if `client` is null. Returns an empty optional if
+    /// there is no such session.
     std::optional<std::string> firstClosedUnmodified(Clock::time_point now, const std::string* client = nullptr);
 
   private:
     struct RecordedSession {
         std::string client;
-        std::uint64_t closed = 0;  // position in the order in which sessions were closed, from 1; 0 while open
+        std::uint64_t closed = 0;  // number in the order of closing, from 1; 0 while the session is open
         bool unmodified = false;
-        Clock::time_point expires;  // when the session is forgotten, if it is closed
+        Clock::time_point expires;  // when a closed session is forgotten
     };
     struct ClientSessions {
         std::size_t sessions = 0;

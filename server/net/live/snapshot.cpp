@@ -67,7 +67,7 @@ OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapsh
     if (key.scheme == scene::Scheme::light && picture.look.background == Background::automatic)
         picture.look.background = Background::light;
     if (key.stream == Stream::frames) {
-        SharedBytes stateText;  // to store in the PNG file; unlike `picture`, keeps the background `automatic`
+        SharedBytes stateText;  // the state stored in the PNG file; unlike `picture`, keeps the background `automatic`
         if (key.background || key.highlight) {
             session::State state = snapshot.state;
             applyOverrides(state.look);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of one revision of a session.
+// Snapshots of a session: the state of one revision, with the data that its pictures need.
 
 #include <array>
 #include <chrono>
@@ -21,20 +21,21 @@
 
 namespace oval4d::net {
 
-/// The kind of picture that a client receives for each revision. Clients with equal keys share their pictures.
+/// The kind of picture that a client receives for each revision. Clients with equal keys share pictures.
 struct StreamKey {
     wire::Stream stream = wire::Stream::none;
     wire::Encoding encoding = wire::Encoding::json;
     scene::Viewport viewport;
-    scene::Scheme scheme = scene::Scheme::dark;        ///< colors of pictures whose background is `automatic`
-    std::optional<scene::Background> background = {};  ///< if not empty, replaces the session's background
-    /// If the outer optional is not empty, the inner one replaces the element that the session highlights.
+    scene::Scheme scheme = scene::Scheme::dark;        ///< the colors of pictures whose background is `automatic`
+    std::optional<scene::Background> background = {};  ///< replaces the session's background, if not empty
+    /// If the outer optional is not empty, the inner one replaces the highlighted element of the session (none if
+    /// empty).
     std::optional<std::optional<slicing::Element>> highlight = {};
     bool operator==(const StreamKey&) const = default;
 };
 
-/// The state of one revision of a session, with its slices if a client needs them. Its public members do not change
-/// after it is made.
+/// The state of one revision of a session, with its slices if a client needs them. Public members do not change after
+/// the snapshot is made.
 struct Snapshot {
     session::State state;
     std::uint64_t revision = 0;
@@ -44,11 +45,11 @@ struct Snapshot {
     bool sliced = false;                                ///< whether `slices` is set
     slicing::SliceSet slices;
 
-    /// Returns the `state` message of this revision for viewers who prefer pictures of this scheme. Makes the text of
-    /// each scheme only once. Thread-safe.
+    /// Returns the `state` message of this revision for viewers who prefer pictures in this color scheme. Makes the
+    /// text of each scheme only once. Thread-safe.
     SharedBytes stateTextFor(scene::Scheme scheme) const;
-    /// Returns the `state` message that answers the request with this id; without an id, the result of the function
-    /// above.
+    /// Returns the `state` message that answers the request with this id. Without an id, the same as
+    /// stateTextFor(scheme).
     SharedBytes stateTextFor(scene::Scheme scheme, std::optional<double> id) const;
 
   private:
@@ -61,17 +62,17 @@ using SnapshotPtr = std::shared_ptr<const Snapshot>;
 SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
                          std::chrono::steady_clock::time_point changed, const StreamKey& key, slicing::Quality quality);
 
-/// Makes the snapshot of a revision without slices and in full quality, for clients that are sent only states.
-/// `section`: the section in the focus slice.
+/// Makes the snapshot of a revision for clients that receive only states: without slices, and in full quality.
+/// `section` is the section in the focus slice.
 SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
                               std::chrono::steady_clock::time_point changed, const slicing::NamedSection& section);
 
-/// Returns whether the snapshot contains all that pictures of the kind `key` need. Returns false for a null pointer.
+/// Returns whether the snapshot contains everything that pictures of the kind `key` need. False for a null pointer.
 bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
 
-/// Makes a picture: a PNG file if the stream of `key` is frames, else a `slices` message with this request id. For a
-/// PNG file, calls `whenDrawn` when the picture is drawn, but not yet encoded. Must be called on a worker. Throws
-/// std::runtime_error if the picture cannot be drawn.
+/// Makes a picture of a snapshot. If the stream of `key` is frames, the picture is a PNG file; otherwise it is a
+/// `slices` message with this request id. For a PNG file, calls `whenDrawn` when the picture is drawn, but not yet
+/// encoded. Must be called on a worker. Throws std::runtime_error if the picture cannot be drawn.
 OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
                             std::optional<double> id, const std::function<void()>& whenDrawn = {});
 

@@ -1,5 +1,5 @@
 #pragma once
-// A cache of the newest snapshot of a session and its pictures.
+// A cache of a session's newest snapshot and of the pictures made of it.
 
 #include <algorithm>
 #include <cstdint>
@@ -12,29 +12,29 @@
 
 namespace oval4d::net {
 
-/// The newest snapshot of a session, and the pictures that have been made of this snapshot. Each picture is made once,
-/// and sent to all clients with the same StreamKey. Not thread-safe.
+/// The newest snapshot of a session, and the pictures that have been made of this snapshot. Clients with equal
+/// StreamKeys share a picture. Not thread-safe.
 class SnapshotPictureCache {
   public:
     using MessagesByStream = std::vector<std::pair<StreamKey, OutgoingMessage>>;
 
-    /// Returns the snapshot that is kept; null if there is none.
+    /// Returns the snapshot in the cache; null if there is none.
     const SnapshotPtr& snapshot() const { return snapshot_; }
-    /// Returns the snapshot if it has this revision and quality, else null.
+    /// Returns the snapshot in the cache if it has this revision and quality, else null.
     SnapshotPtr find(std::uint64_t revision, slicing::Quality quality) const {
         const bool isKept = snapshot_ && snapshot_->revision == revision && snapshot_->quality == quality;
         return isKept ? snapshot_ : nullptr;
     }
-    /// Returns the picture of this revision for `key`, if its quality is at least `atLeast`; null if there is none.
+    /// Returns the picture of this revision for `key` in the quality `atLeast` or a better one; null if there is none.
     const OutgoingMessage* find(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
         if (!snapshot_ || snapshot_->revision != revision || snapshot_->quality < atLeast) return nullptr;
         const auto found = std::ranges::find(pictures_, key, &MessagesByStream::value_type::first);
         return found == pictures_.end() ? nullptr : &found->second;
     }
 
-    /// Adds pictures of `snapshot`. Does nothing if the snapshot that is kept is newer: it has a later revision, or the
-    /// same revision in a higher quality. If another snapshot is kept, first drops it and its pictures, and keeps
-    /// `snapshot` instead. `snapshot` may be null if there are no pictures.
+    /// Adds pictures of `snapshot`. Does nothing if the cache has a newer snapshot: one of a later revision, or of the
+    /// same revision in higher quality. If the cache has an older snapshot, drops it and its pictures first. `snapshot`
+    /// may be null if there are no pictures.
     void addUnlessOlder(const SnapshotPtr& snapshot, MessagesByStream pictures) {
         const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
         if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;
@@ -42,7 +42,7 @@ class SnapshotPictureCache {
         snapshot_ = snapshot;
         std::ranges::move(pictures, std::back_inserter(pictures_));
     }
-    /// Frees the memory of the snapshot and its pictures.
+    /// Frees the memory of the snapshot and of its pictures.
     void clear() {
         snapshot_.reset();
         pictures_ = {};

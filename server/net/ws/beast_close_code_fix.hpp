@@ -1,9 +1,9 @@
 #pragma once
-// Corrects which close codes Beast accepts from clients. Beast 1.81 rejects 1014, which IANA has registered, and
-// accepts codes from 5000 on, which RFC 6455, section 7.4.2, does not allow; it has no option to change this. This
-// header therefore specializes the function template with which Beast reads a close frame, for the buffer type that
-// Beast uses. Every source file that uses a WebSocket stream must include this header: if a file instantiated the
-// original template, the program would violate the one-definition rule.
+// Corrects which close codes Beast accepts from clients. Beast 1.81 rejects 1014, which IANA has registered. It accepts
+// codes from 5000 on, which RFC 6455, section 7.4.2, does not allow. Beast has no option to change this, so this header
+// specializes the function template with which Beast reads a close frame, for Beast's buffer type. Every source file
+// that uses a WebSocket stream must include this header. A file that instantiated the original template would violate
+// the one-definition rule.
 
 #include <array>
 #include <boost/beast/core/buffers_prefix.hpp>
@@ -15,14 +15,14 @@
 namespace oval4d::net {
 
 /// Returns whether a close code may be sent (RFC 6455, section 7.4, and IANA's "WebSocket Close Code Number Registry").
-/// Allowed values: 1000 to 1003, 1007 to 1014, and 3000 to 4999 (for libraries and applications). 1004 is reserved;
-/// 1005, 1006 and 1015 must never be sent.
+/// Allowed are 1000 to 1003, 1007 to 1014, and 3000 to 4999 (for libraries and applications). 1004 is reserved; 1005,
+/// 1006 and 1015 must never be sent.
 constexpr bool isSendableCloseCode(std::uint16_t code) {
     return (code >= 1000 && code <= 1003) || (code >= 1007 && code <= 1014) || (code >= 3000 && code <= 4999);
 }
 
-/// The type of the buffer sequence (Asio's ConstBufferSequence) in which Beast holds the payload of a close frame, of
-/// at most 125 bytes (RFC 6455, section 5.5).
+/// The type of the buffers in which Beast holds the payload of a close frame (an Asio ConstBufferSequence). The payload
+/// has at most 125 bytes (RFC 6455, section 5.5).
 using ClosePayloadBuffers =
     decltype(boost::beast::buffers_prefix(0, std::declval<boost::beast::static_buffer_base&>().data()));
 

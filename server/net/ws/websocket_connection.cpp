@@ -1,5 +1,5 @@
-// This file is long, because a connection is one class: reading, executing and writing depend on the same state, such
-// as whether the connection is closing.
+// This file is long, because a connection is one class: reading, executing and writing share state, such as whether the
+// connection is closing.
 
 #include "net/ws/websocket_connection.hpp"
 
@@ -30,7 +30,7 @@ constexpr std::size_t kMaxIdleBuffer = 64U << 10U;   // bytes; a larger read buf
 constexpr std::size_t kWriteFragment = 256U << 10U;  // maximum number of bytes per write
 constexpr std::size_t kReadChunk = 64U << 10U;       // maximum number of bytes per read
 
-// The number of bytes that may be queued for a connection even if the client's byte account is full.
+// The bytes that may be queued for a connection even if the client's byte account is full.
 constexpr std::size_t kMinQueue = 64U << 10U;
 
 constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
@@ -61,9 +61,9 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
     co_await readLoop();
     services_.metrics.webSockets.Decrement();
     ended_ = true;
-    // A client that no longer sends may no longer read, so a pending write might never end. Closing the socket ends the
-    // write. Until the handler of the write is called, outbox_ must keep the message that is being written, because the
-    // socket reads its bytes.
+    // A client that no longer sends may also no longer read, so a pending write might never end; closing the socket
+    // ends it. Until the handler of the write is called, outbox_ must keep the message, because the socket reads its
+    // bytes.
     beast::get_lowest_layer(stream_).close();
     if (!writing_) outbox_.clear();
     deadline_->cancel();
@@ -73,8 +73,8 @@ asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
 }
 
 void WebSocketConnection::configureStream(bool offersSubprotocol) {
-    // The WebSocket stream has its own timeouts, so Beast requires that the timeouts of the TCP stream are off. Beast
-    // measures the timeouts of the WebSocket stream with the system's clock, not with Services::clock.
+    // The WebSocket stream has its own timeouts, so Beast requires that the TCP stream has none. Beast measures the
+    // timeouts of the WebSocket stream with the system's clock, not with Services::clock.
     beast::get_lowest_layer(stream_).expires_never();
     const auto ping = toSteadyDuration(services_.options.pingInterval);
     stream_.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), 2 * ping, true});
@@ -86,9 +86,8 @@ void WebSocketConnection::configureStream(bool offersSubprotocol) {
     stream_.auto_fragment(false);
 }
 
-/// Closes the connection if no hello arrives in time. Does nothing if a hello is being handled at the deadline, which
-/// may take long because the session is read from the store. If this hello then fails, handleHello() closes the
-/// connection.
+/// Closes the connection if no hello arrives in time. Does nothing if a hello is being handled at the deadline: reading
+/// its session from the store may take long. If this hello fails, handleHello() closes the connection.
 void WebSocketConnection::startHelloTimer() {
     helloDue_ = services_.clock.now() + toSteadyDuration(services_.options.helloTimeout);
     helloDeadline_->start(helloDue_, [weak = weak_from_this()] {
@@ -102,9 +101,9 @@ void WebSocketConnection::closeWithoutHello() {
     close(close_code::kPolicy, "no hello");
 }
 
-/// Executes the client's messages one after another. While one of them takes long, the next one is read, because Beast
-/// notices the client's pongs only while it reads. Before the client has joined a session, its messages are read one at
-/// a time, because the hello changes their maximum length.
+/// Executes the client's messages one after another. While a message takes long, the next one is read, because Beast
+/// notices the client's pongs only while it reads. Before the client has joined a session, only one message at a time
+/// is read, because the hello changes the maximum length of messages.
 asio::awaitable<void> WebSocketConnection::readLoop() {
     Incoming incoming = co_await read();
     while (!incoming.fault) {
@@ -117,9 +116,9 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
     spdlog::debug("connection ended reason=\"{}\"", incoming.fault.message());
 }
 
-/// Starts to handle the message in `message_`; `executing_` is true until this message has been handled. Asio's
-/// operator && is not used to run handleMessage() together with readAhead(): this operator cancels coroutines in a way
-/// that is not thread-safe if one of them awaits another strand, here the session's
+/// Starts to handle the message in `message_`. `executing_` is true until the message has been handled. Asio's operator
+/// && could run handleMessage() together with readAhead(), but is not used. It cancels coroutines in a way that is not
+/// thread-safe if one of them awaits another strand, here the session's
 /// (https://github.com/chriskohlhoff/asio/issues/1348).
 void WebSocketConnection::startHandling(Incoming incoming) {
     executing_ = true;
@@ -138,8 +137,8 @@ void WebSocketConnection::discardMessage() {
 }
 
 /// Reads the next message. First waits until the current message has been executed, so that a client that closes the
-/// connection right after a request still receives the answer. Once the client has joined a session, this wait ends
-/// early when a pong of the client may be due, or when watchForDisconnect() is called, as it is for long searches.
+/// connection right after a request still receives the answer. After the client has joined a session, the wait ends
+/// early when a pong may be due, or when watchForDisconnect() is called for a long search.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
@@ -158,7 +157,7 @@ asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
     const auto wait = client_->countMessage(message_.size(), services_.clock.now());
     co_await pauseFor(services_.clock, stream_.get_executor(), wait);
     if (closing_) {
-        // Ignore all messages that arrive before the client's close frame.
+        // Messages that arrive before the client's close frame are ignored.
     } else if (!incoming.isText) {
         sendError({ErrorCode::bad_message, "messages to the server must be JSON text, not binary"}, {});
         close(close_code::kNotText, "text expected");
@@ -169,8 +168,7 @@ asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
     }
 }
 
-/// Reads one message into `buffer_`. If the message is refused because of its length, reads it to its end and discards
-/// it.
+/// Reads one message into `buffer_`. A message that is refused because of its length is read to its end and discarded.
 asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
     Incoming incoming;
     bool checked = false;
@@ -181,7 +179,7 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
         if (fault) break;
         if (!checked && buffer_.size() > services_.options.maxRequestBytes) {
             checked = true;
-            // Only one long message at a time may hold memory.
+            // Only one long message at a time may take memory.
             co_await waitUntil(executedSignal_, [this] { return !executing_; });
             admitOrRefuseLongMessage(incoming);
         }
@@ -194,8 +192,8 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
     co_return incoming;
 }
 
-/// Decides from the beginning of a long message whether to keep it. Keeps it if its type is `load` or is not known yet,
-/// and if the client's byte account has room for it. Else sets `incoming.refusal`.
+/// Decides from the beginning of a long message whether to keep it. Keeps a message whose type is `load` or still
+/// unknown, if the client's byte account has room. Otherwise sets `incoming.refusal`.
 void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
     constexpr std::size_t kCopies = 3;  // the message, its parsed members, and a member while it is reallocated
     const auto seen =
@@ -210,7 +208,7 @@ void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
     }
 }
 
-/// Waits until `isTrue` returns true or the connection has ended. Calls `isTrue` again whenever the timer `changed` is
+/// Waits until `isTrue` returns true or the connection has ended. Calls `isTrue` again each time the timer `changed` is
 /// canceled.
 asio::awaitable<void> WebSocketConnection::waitUntil(asio::steady_timer& changed, std::function<bool()> isTrue) {
     while (!isTrue() && !ended_) {
@@ -230,7 +228,7 @@ asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text
             co_return;
         }
         auto parsed = co_await parse(text);
-        discardMessage();  // the text of a long message need not be in memory twice while its object is built
+        discardMessage();  // the text of a long message must not stay in memory while its object is built
         const auto* bad = std::get_if<wire::BadRequest>(&parsed);
         id = bad != nullptr ? bad->id : std::get<wire::Request>(parsed).id;
         if (bad != nullptr) {
@@ -247,7 +245,7 @@ asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text
     }
 }
 
-/// Parses a message. If it has more than ServerOptions::maxRequestBytes bytes, a worker parses it.
+/// Parses a message. A worker parses messages longer than ServerOptions::maxRequestBytes.
 asio::awaitable<ParseResult> WebSocketConnection::parse(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
@@ -309,7 +307,7 @@ asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, Reques
     co_await session_->addAndWelcome(shared_from_this(), std::move(hello), id);
 }
 
-/// Joins or creates the session that a hello requests. If the connection has already joined a session, returns that
+/// Joins or creates the session that a hello requests. If the connection has joined a session before, returns that
 /// session.
 asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinOrCreateSession(wire::Hello hello) {
     const std::string token = hello.token.value_or("");
@@ -322,7 +320,8 @@ asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinOrCreateSes
     if (requestedId_.empty() && hello.token) {
         co_return Error{ErrorCode::bad_token, "a token requires a session in the path: /ws/{session}"};
     }
-    // After too many wrong tokens, even correct ones are refused, so that a client that guesses tokens learns nothing.
+    // After too many wrong tokens, even correct tokens are refused, so that a client that guesses tokens learns
+    // nothing.
     if (hello.token && !client_->mayTryToken(services_.clock.now()))
         co_return Error{ErrorCode::too_many, "this address has sent too many wrong tokens; try again in a minute"};
     auto open = sessionOpener(token);
@@ -331,8 +330,8 @@ asio::awaitable<SessionManager::JoinResult> WebSocketConnection::joinOrCreateSes
     co_return joined;
 }
 
-/// Returns a function that joins the requested session, or creates one if none is requested, and calls its argument
-/// with the result.
+/// Returns a function that joins the requested session, or creates one if none is requested. The function calls its
+/// argument with the result.
 std::function<void(SessionManager::JoinHandler)> WebSocketConnection::sessionOpener(const std::string& token) {
     return [sessions = sessions_, client = client_,
             credentials = store::SessionCredentials{requestedId_, token}](const SessionManager::JoinHandler& done) {
@@ -363,8 +362,8 @@ void WebSocketConnection::send(OutgoingMessage message, std::function<void()> wr
                });
 }
 
-/// Closes the connection, because the client's byte account has no room for another message that the client has not
-/// read.
+/// Closes the connection, because the client has too many unread messages: its byte account has no room for another
+/// one.
 void WebSocketConnection::closeForUnreadBytes() {
     services_.metrics.droppedSlowClients.Increment();
     spdlog::warn("client dropped: too many unread bytes client={}", client_->name());
@@ -399,8 +398,8 @@ void WebSocketConnection::drop() {
     asio::post(stream_.get_executor(), [self = shared_from_this()] { beast::get_lowest_layer(self->stream_).close(); });
 }
 
-/// Sends a close frame after the queued messages. The pending read receives the client's close frame and ends the read
-/// loop.
+/// Sends a close frame after the queued messages. The pending read then receives the client's close frame, which ends
+/// the read loop.
 void WebSocketConnection::startClosing(std::uint16_t code, std::string reason) {
     if (closing_) return;
     closing_.emplace(static_cast<websocket::close_code>(code), reason);
@@ -418,8 +417,8 @@ void WebSocketConnection::writeNext() {
     }
 }
 
-/// Writes the first message in the queue from the offset `from` to its end, in fragments. Each fragment has a deadline
-/// of its own, so that a slow client is not dropped as long as it reads fast enough (see TransferDeadline).
+/// Writes the first message in the queue, from the offset `from` to its end, in fragments. Each fragment has its own
+/// deadline, so a slow client is not dropped as long as it reads fast enough (see TransferDeadline).
 void WebSocketConnection::writeFragmentsFrom(std::size_t from) {
     const std::string_view rest = outbox_.front().message.bytes.view().substr(from);
     const std::string_view fragment = rest.substr(0, kWriteFragment);
@@ -458,7 +457,7 @@ void WebSocketConnection::onMessageWritten(boost::system::error_code fault) {
     writeNext();
 }
 
-/// Starts the deadline of the current write. If the write is not complete by then, the client is dropped.
+/// Starts the deadline of the current write. The client is dropped if the write is not complete by then.
 void WebSocketConnection::startWriteDeadline() {
     const auto due = services_.clock.now() + transferDeadline_->nextFragmentTimeout();
     deadline_->start(due, [self = shared_from_this(), watched = writes_] {

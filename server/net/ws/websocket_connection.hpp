@@ -1,5 +1,5 @@
 #pragma once
-// One WebSocket connection: reads the requests of a client and writes the messages to it.
+// One WebSocket connection, over which a client sends requests and receives messages.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/steady_timer.hpp>
@@ -32,25 +32,25 @@ inline constexpr std::string_view kSubprotocol = "oval4d.v1";
 /// The header of a request for an upgrade to WebSocket.
 using UpgradeRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
-/// Handles the requests of one client over a WebSocket. It answers each request before it executes the next one and
-/// reads at most one message ahead, so TCP back-pressure slows down a client that sends too fast. It writes one message
-/// at a time, and drops a client that reads too slowly. closeForShutdown(), drop() and the functions of Peer may be
-/// called from any thread; all other functions run on the stream's strand.
+/// Handles the requests of one client over a WebSocket. Answers each request before it executes the next one. Reads at
+/// most one message ahead, so TCP back-pressure slows down a client that sends too fast. Writes one message at a time,
+/// and drops a client that reads too slowly. closeForShutdown(), drop() and the functions of Peer may be called from
+/// any thread; all other functions run on the stream's strand.
 class WebSocketConnection final : public Peer, public std::enable_shared_from_this<WebSocketConnection> {
   public:
-    /// `session`: the session id in the request path; empty for a new session. `joined`: called when the client has
-    /// sent its first hello and has joined a session; may be empty.
+    /// `session` is the session id in the request path; empty for a new session. `joined` is called when the client has
+    /// sent its first hello and has joined a session; it may be empty.
     WebSocketConnection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<SessionManager> sessions,
                         AddressAccountPtr client, std::string session, std::function<void()> joined);
 
-    /// Serves the connection, from the handshake until the connection ends. `upgrade`: the client's handshake request.
+    /// Serves the connection from the handshake until its end. `upgrade` is the client's handshake request.
     boost::asio::awaitable<void> run(UpgradeRequest upgrade);
 
     void send(OutgoingMessage message, std::function<void()> written = {}) override;
     const AddressAccountPtr& client() const override { return client_; }
     void watchForDisconnect() override;
     void close(std::uint16_t code, std::string reason) override;
-    /// Closes the connection with code kStopping, because the server stops. Discards the queued messages, except the
+    /// Closes the connection with the code kStopping, because the server stops. Discards all queued messages except the
     /// one that is being written.
     void closeForShutdown();
     /// Closes the socket without a close frame.
@@ -66,7 +66,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     };
     // The result of reading a message.
     struct Incoming {
-        boost::system::error_code fault;  // why reading failed; empty if it succeeded
+        boost::system::error_code fault;  // why reading failed; empty after success
         std::optional<Error> refusal;     // set if the message was long and was refused
         RequestId id;                     // the request id of a refused message, if the id was found
         bool isText = false;
@@ -110,8 +110,8 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     RateLimit rate_;
     boost::beast::flat_buffer buffer_;   // the message that is being read
     boost::beast::flat_buffer message_;  // the message that is being executed
-    // executing_: whether message_ is being handled. watching_: whether watchForDisconnect() was called while message_
-    // is being handled.
+    // executing_ tells whether message_ is being handled. watching_ tells whether watchForDisconnect() has been called
+    // meanwhile.
     bool executing_ = false, watching_ = false;
 
     std::deque<Outgoing> outbox_;
@@ -119,12 +119,12 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     bool writing_ = false, ended_ = false;
     std::uint64_t writes_ =
         0;  // number of completed writes; tells the handler of deadline_ whether the write that it limits is complete
-    std::optional<boost::beast::websocket::close_reason> closing_;  // set once the connection is to be closed
+    std::optional<boost::beast::websocket::close_reason> closing_;  // set when the connection is to be closed
     std::optional<TransferDeadline> transferDeadline_;       // gives the timeouts of the message that is being written
     const std::unique_ptr<Timer> deadline_, helloDeadline_;  // the deadlines of the current write and of the hello
     Timer::Clock::time_point helloDue_;                      // when helloDeadline_ expires
-    // Timers that are canceled to wake waiting coroutines: `drainedSignal_` when messages were written,
-    // `executedSignal_` when a message was handled.
+    // Two timers that are canceled to wake waiting coroutines: `drainedSignal_` after messages have been written,
+    // `executedSignal_` after a message has been handled.
     boost::asio::steady_timer drainedSignal_, executedSignal_;
 };
 
