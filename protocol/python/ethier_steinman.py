@@ -7,9 +7,9 @@ Numerical Methods in Fluids 19 (1994), 369–375. Needs python3-numpy, and pytho
 import numpy
 from oval4d_client import connect
 
-A, D = numpy.pi / 4, numpy.pi / 2  # the parameters a and d of the paper
+A, D = numpy.pi / 4, numpy.pi / 2  # the parameters a and d in the paper of Ethier and Steinman
 FILE = "ethier_steinman.nc"
-SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along x, y and z; number of moments; time of the last moment
+SIZE, MOMENTS, DURATION = 48, 24, 0.6  # samples along x, y and z; number of moments; time of the last one
 
 
 def velocity(x, y, z, t):

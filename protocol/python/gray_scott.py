@@ -7,7 +7,7 @@ import numpy
 from oval4d_client import connect
 
 URL = "http://127.0.0.1:8080/"
-SIZE, MOMENTS, STEPS = 64, 100, 40  # samples along each axis; moments; steps of time from one moment to the next
+SIZE, MOMENTS, STEPS = 64, 100, 40  # samples along each axis; moments; time steps per moment
 DIFFUSION_U, DIFFUSION_V, FEED, KILL = 0.16, 0.08, 0.035, 0.060
 
 

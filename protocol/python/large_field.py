@@ -13,8 +13,8 @@ import dask.array
 import numpy
 import zarr
 
-CHUNK = (1, 128, 128, 128)  # t z y x, 8 MB; a chunk is read as a whole
-SMALLEST = 1 << 24          # a level with at most so many samples has no coarser one
+CHUNK = (1, 128, 128, 128)  # t z y x, 8 MB; the server reads whole chunks
+SMALLEST = 1 << 24          # a level with at most this many samples gets no coarser level
 
 
 def source_of(name):
@@ -38,7 +38,7 @@ def coarser(array):
 
 def write_levels(array, folder):
     """Writes each level from the level before it, so that the source is read only once."""
-    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # chunk t/z/y/x: one folder per index
+    group = zarr.open_group(zarr.NestedDirectoryStore(folder), mode="w")  # for chunk t/z/y/x: one folder per index
     first, levels, steps = numpy.zeros(4), [], numpy.ones(4)
     while True:
         path = str(len(levels))

@@ -63,17 +63,18 @@ if TYPE_CHECKING:
 
 SUBPROTOCOL = "oval4d.v1"
 PNG = b"\x89PNG\r\n\x1a\n"
-# The types of array.array, by the tags of typed arrays of RFC 8746. In MessagePack, these are types of extensions.
+# The type codes of array.array for typed arrays. The keys are CBOR tags (RFC 8746); in MessagePack, they are extension
+# types.
 ARRAY_TYPES = {64: "B", 69: "H", 70: "I", 85: "f", 86: "d"}
-# The same types, and those of signed and long integers, by the markers of numbers in BJData.
+# The type codes of array.array for numbers in BJData. The keys are the markers of the numbers.
 BJDATA_TYPES = {b"i": "b", b"U": "B", b"I": "h", b"u": "H", b"l": "i", b"m": "I", b"L": "q", b"M": "Q", b"d": "f",
                 b"D": "d"}
-# The numpy types of the arrays of a surface.
+# The numpy types of the arrays that describe a surface.
 SURFACE_TYPES = {"points": "f4", "normals": "f4", "triangles": "u4", "level": "u1", "cap": "u1", "colors": "u4",
                  "cap_colors": "u4"}
-MAX_DATA = 1 << 20  # bytes: an array whose file is larger is uploaded by HTTP, not sent in a message
-RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # after these close codes, or without one, the client reconnects
-RETRY_ERRORS = {"later_version", "internal"}  # after these refusals of a hello, the session still exists
+MAX_DATA = 1 << 20  # bytes: a larger array file is uploaded by HTTP instead of being sent in a message
+RECONNECT_CODES = {None, 1001, 1006, 1012, 1013}  # after these close codes, or no code, the client reconnects
+RETRY_ERRORS = {"later_version", "internal"}  # a session exists although the server refuses a hello with these errors
 
 
 class Refused(Exception):
@@ -101,7 +102,7 @@ def _json(message):
             listed = value.tolist()
             if not hasattr(listed, "tolist"):
                 return listed
-            if hasattr(listed, "is_integer"):  # numpy.longdouble: tolist() does not convert it
+            if hasattr(listed, "is_integer"):  # numpy.longdouble, which tolist() does not convert
                 return float(listed)
         raise TypeError(f"a message cannot contain {value!r}")
 
@@ -126,7 +127,7 @@ def connect(url: str = "http://127.0.0.1:8080/", session: Optional[str] = None, 
         raise ValueError("the link to a shared session is damaged: it must end in #session=…&token=…")
     session = session or shared.get("session")
     parts = urlsplit(url)
-    # The token in the query is the one of the server, not of a session.
+    # A token in the query belongs to the server, not to a session.
     access = [part for part in parts.query.split("&") if part.startswith("token=")]
     has_view = not session and len(access) < len([part for part in parts.query.split("&") if part])
     address = socket_url(urlunsplit(parts._replace(query="&".join(access))), session)
@@ -163,20 +164,20 @@ class Client:
         self._hello = {}
         self._reconnecting = False
         self._closing = False
-        # The newest welcome; here and in the next three, None before the first message.
+        # The newest message or frame of each kind; None before the first one.
         self.welcome: Optional[Welcome] = None
         self.newest_state: Optional[State] = None
         self.newest_slices: Optional[dict[str, Any]] = None
         self.newest_frame: Optional[bytes] = None
         self.errors: list[ErrorMessage] = []  # error messages that do not answer a call
-        self._live = None  # the function that live() sets, which is called with each frame of the stream
-        # The revision and the bytes of a frame that is an answer or part of the stream; the next message tells which.
+        self._live = None  # set by live(); called with each frame of the stream
+        # The revision and bytes of a frame. It answers a call or belongs to the stream; the next message tells which.
         self._held = None
-        self.closed = None  # (code, reason) once the connection has ended for good
+        self.closed = None  # (code, reason) after the connection has ended for good
         self._ids = itertools.count(1)
-        self._waiting = {}  # for the id of each call in progress: its answer, or None until the answer arrives
-        self._wants_bytes = set()  # ids of calls that are answered by a binary message, and then by their done
-        self._binary = None  # the newest frame or file, whose done may follow
+        self._waiting = {}  # by the id of each call in progress: its answer, or None before the answer arrives
+        self._wants_bytes = set()  # ids of calls whose answer is a binary message, followed by a done
+        self._binary = None  # the newest frame or file; the done of a call may follow
         self._change = threading.Condition()
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -188,7 +189,7 @@ class Client:
             raise
         self._reader = asyncio.run_coroutine_threadsafe(self._read(), self._loop)
 
-    # Messages
+    # Methods that send messages
 
     def hello(self, stream: Stream = "none", **members: Any) -> Welcome:
         """Sends the first message. `stream` is "geometry", "frames" or "none"; `members` may be width, height,
@@ -295,7 +296,7 @@ class Client:
         path += "/fields/" + quote(name, safe="") + ("/moments" if append else "")
         query = "&".join(filter(None, [parts.query, urlencode({k: v for k, v in query.items() if v}, quote_via=quote)]))
         size = len(data) if isinstance(data, (bytes, bytearray, memoryview)) else data.seek(0, io.SEEK_END)
-        if size > self.welcome["limits"]["upload"]:  # the server would close the connection while it receives the file
+        if size > self.welcome["limits"]["upload"]:  # otherwise the server would close the connection during the upload
             raise Refused("too_large", f"the server accepts files of at most {self.welcome['limits']['upload']} bytes")
         if hasattr(data, "seek"):
             data.seek(0)
@@ -313,7 +314,7 @@ class Client:
         if isinstance(message, dict) and message.get("type") == "error":
             raise Refused(message["code"], message["message"])
         if answer.status != 200 or message is None:
-            reason = text.strip() if media == "text/plain" else answer.reason  # not the page of a proxy, which is HTML
+            reason = text.strip() if media == "text/plain" else answer.reason  # a proxy's page is HTML
             if answer.status == 413:
                 reason += f": the server accepts files of at most {self.welcome['limits']['upload']} bytes"
             raise Refused(str(answer.status), reason)
@@ -443,7 +444,7 @@ class Client:
         self._wait_for(arrived, timeout, f"revision {revision}")
         return cast("State", self.newest_state)  # the server sends a state before its picture
 
-    # Transport
+    # Sending and receiving
 
     @overload
     def request(self, type: Literal["hello"], **members: Any) -> Welcome: ...
@@ -482,7 +483,7 @@ class Client:
         if isinstance(answer, tuple):
             answer, lacks = answer
             for text in lacks:
-                warnings.warn(text, stacklevel=3)  # names the line that called file()
+                warnings.warn(text, stacklevel=3)  # the warning names the line that called file()
         return answer
 
     def send(self, message: Union[Request, dict[str, Any], str, bytes]) -> None:
@@ -533,7 +534,7 @@ class Client:
                         await self._socket.send(json.dumps({"type": "shown", "revision": pictures[-1][0]}))
             except websockets.ConnectionClosed:
                 pass
-            except (ImportError, ValueError) as fault:  # the client cannot decode the message
+            except (ImportError, ValueError) as fault:  # this client cannot decode the message
                 unreadable = fault
                 await self._socket.close(1003)
             end = (self._socket.close_code, self._socket.close_reason or "")
@@ -593,7 +594,7 @@ class Client:
             pictures = [] if held is None else [held]
             if isinstance(message, bytes):
                 self._binary = message
-                if message[0] == PNG[0]:  # not a file
+                if message[0] == PNG[0]:  # a frame, not a file
                     self.newest_frame = message
                     picture = (png_state(message)["revision"], message)
                     if self._wants_bytes:
@@ -608,7 +609,7 @@ class Client:
                     setattr(self, "welcome" if kind == "welcome" else "newest_" + kind, message)
                 if number in self._waiting:
                     framed = kind == "done" and number in self._wants_bytes
-                    # The call may still be in another thread. The next frame is no answer to it.
+                    # The call may still be pending in another thread, but the next frame does not answer it.
                     self._wants_bytes.discard(number)
                     if framed:
                         pictures.clear()
@@ -623,7 +624,7 @@ class Client:
         try:
             if self._live and isinstance(picture, bytes):
                 self._live(picture)
-        except Exception:  # the notebook may be closed; the session goes on
+        except Exception:  # the notebook may have been closed; the session goes on
             self._live = None
 
     def _wait_for(self, happened, timeout, what):
@@ -671,7 +672,7 @@ def _netcdf(arrays):
         return struct.pack(">ii", tag, len(items)) + b"".join(items)
 
     data = [values.astype(">f4").tobytes() for values in arrays.values()]
-    absent, number, dimension, variable = bytes(8), 5, 10, 11  # an empty list, and tags of the format
+    absent, number, dimension, variable = bytes(8), 5, 10, 11  # an empty list, and the tags of the NetCDF format
 
     def header(begin):
         dimensions = [text(f"d{i}") + struct.pack(">i", size) for i, size in enumerate(shape)]
@@ -704,7 +705,7 @@ def png_state(png: bytes) -> dict[str, Any]:
         text = png[at + 8 : at + 8 + size]
         if kind == b"iTXt" and text.startswith(b"oval4d\0"):
             try:
-                # The text follows the keyword, two flags, the language and the translated keyword.
+                # Before the text come the keyword, two flags, the language and the translated keyword.
                 state = json.loads(text.split(b"\0", 5)[-1])
             except RecursionError:
                 break
@@ -720,7 +721,7 @@ def decode(data):
     as the bytes do, or if the bytes are not a message of their kind."""
     if isinstance(data, str):
         return from_json(data)
-    # Kinds that two bytes tell come first.
+    # Kinds that are recognized by two bytes are tried before kinds that are recognized by one.
     for kind in sorted(BINARY_KINDS.values(), key=lambda kind: kind.second_byte is None):
         if data and data[0] in kind.first_bytes and kind.second_byte in (None, *data[1:2]):
             return kind.read(data)
@@ -836,11 +837,12 @@ def _with_rows(encoding, read, failure):
     return message
 
 
-# A kind of binary message: its first bytes, the function that decodes it and, if two bytes tell the kind, the second.
+# A kind of binary message: the possible first bytes, the function that decodes a message and, if two bytes identify the
+# kind, the second byte.
 BinaryMessageKind = collections.namedtuple("BinaryMessageKind", "first_bytes read second_byte", defaults=[None])
 
-# The kinds of binary messages, as ../README.md lists them ("Binary messages"). Each encoding of slices has a kind of
-# its name.
+# The kinds of binary messages by name (see "Binary messages" in ../README.md). Each encoding of slices is a kind with
+# its own name.
 BINARY_KINDS = {"file": BinaryMessageKind(range(0x21, 0x7F), bytes),
                 "frame": BinaryMessageKind(range(0x89, 0x8A), bytes),
                 "cbor": BinaryMessageKind(range(0xA0, 0xC0), from_cbor),

@@ -1,5 +1,5 @@
-// Memory for the typed arrays of one message. The arrays of the next message overwrite this memory. The size of the
-// memory is a power of two, so that messages of about the same size need no new memory.
+// Memory for the typed arrays of one message, which the arrays of the next message overwrite. Its size is a power of
+// two, so messages of similar sizes need no new memory.
 
 /** The class of a typed array, such as Float32Array. */
 export type TypedArrayConstructor<T> = {
@@ -11,15 +11,17 @@ export class Arena {
     private memory = new ArrayBuffer(0);
     private used = 0;
 
-    /** Starts a new message, whose arrays need at most `bytes` bytes. Invalidates the arrays of the last message. */
+    /**
+     * Starts a new message whose arrays need at most `bytes` bytes. The arrays of the previous message become invalid.
+     */
     startMessage(bytes: number): void {
         this.used = 0;
         if (bytes > this.memory.byteLength) this.memory = new ArrayBuffer(2 ** Math.ceil(Math.log2(bytes)));
     }
 
     /**
-     * Copies little-endian bytes into the memory, and returns the copy as an array of numbers; undefined if there is
-     * not enough memory.
+     * Copies little-endian bytes into the memory, and returns the copy as an array of numbers. Returns undefined if the
+     * memory is too small.
      */
     copy<T>(bytes: Uint8Array, arrayType: TypedArrayConstructor<T>): T | undefined {
         const copied = this.allocate(bytes.length / arrayType.BYTES_PER_ELEMENT, arrayType);
@@ -27,7 +29,7 @@ export class Arena {
         return copied;
     }
 
-    /** Returns an uninitialized array of `count` numbers; undefined if there is not enough memory. */
+    /** Returns an array of `count` numbers with undefined contents. Returns undefined if the memory is too small. */
     allocate<T>(count: number, arrayType: TypedArrayConstructor<T>): T | undefined {
         const size = arrayType.BYTES_PER_ELEMENT;
         const begin = Math.ceil(this.used / size) * size;

@@ -1,5 +1,5 @@
-// Builds the npm package: dist/index.js, and the types beside it. npm runs this script when it installs the folder, but
-// does not install the packages that only the build needs. Therefore the script installs them first.
+// Builds the npm package: dist/index.js and its types. npm runs this script when it installs the folder, but does not
+// install the packages that only the build needs. Therefore the script first installs these packages.
 import { execFileSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { rm } from "node:fs/promises";

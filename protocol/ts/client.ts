@@ -1,5 +1,5 @@
-// A client of one session. If the connection breaks, the client reconnects automatically, and returns to the session
-// with the session's token. The client reports the status of the connection.
+// A client of one session. If the connection breaks, the client reconnects automatically, and joins the session again
+// with the session's token. It reports the status of the connection.
 
 import { Arena } from "./arena.js";
 import { decodeBinary, decodeText } from "./decode.js";
@@ -8,60 +8,60 @@ import type { Scheme, State, Stream, Welcome } from "./messages.js";
 import type { Slices } from "./slices.js";
 import type { ExportedFile, Message, Viewport } from "./types.js";
 
-/** The session's name and token, which give access to it. */
+/** The name and the token of a session. Together, they give access to it. */
 export interface Credentials {
     session: string;
     token: string;
 }
 
 export type Status =
-    | { kind: "connecting"; isBlocked?: true } // `isBlocked`: the server answers over HTTP, but no WebSocket opens
+    | { kind: "connecting"; isBlocked?: true } // `isBlocked`: HTTP works, but no WebSocket opens
     | { kind: "open" }
-    // `seconds`: until the next attempt. `refusal`: the code of the error with which the server has refused the session;
-    // after "later_version" and "internal", the session exists, and the client tries again to open it.
+    // `seconds` remain until the next attempt. `refusal` is the error code with which the server has refused the
+    // session. After "later_version" and "internal", the session exists, and the client tries again to open it.
     | { kind: "waiting"; reason: string; seconds: number; isBlocked?: true; refusal?: string }
     | { kind: "closed"; reason: string };
 
 export interface Options {
     /** The address of the service, as typed into a browser, including its path prefix if there is one. */
     url: string | URL;
-    /** "none" if absent. */
+    /** What pictures the server sends; "none" if absent. */
     stream?: Stream;
-    /** "json" if absent. */
+    /** The encoding of `slices` messages; "json" if absent. */
     encoding?: Encoding;
-    /** The size of pictures; if absent, the server's default. */
+    /** The size of pictures; the server's default if absent. */
     viewport?: Viewport;
-    /** The scheme of pictures whose background is `auto`; "dark" if absent. */
+    /** The color scheme of pictures whose background is `auto`; "dark" if absent. */
     scheme?: Scheme;
-    /** The session to open. If absent, a new session is created. */
+    /** The session to open. If absent, the client creates a new session. */
     credentials?: Credentials;
-    /** If true, the arrays passed to `onSlices` are valid only until the next message, which reuses their memory. */
+    /** If true, the arrays passed to `onSlices` are valid only until the next message, which overwrites them. */
     transient?: boolean;
-    /** The WebSocket class to use, for runtimes that do not have a built-in one. */
+    /** The WebSocket class, for runtimes that have no built-in one. */
     webSocket?: new (url: string, protocols: string) => WebSocket;
 
     onStatus?(status: Status): void;
     onWelcome?(welcome: Welcome): void;
     onState?(state: State): void;
-    /** Called with each picture of a geometry stream. Call `shown` once the picture is presented. */
+    /** Called with each picture of a geometry stream. Call `shown` after presenting the picture. */
     onSlices?(slices: Slices): void;
-    /** Called with each picture of a frame stream, a PNG file. Call `shown` once the picture is presented. */
+    /** Called with each picture of a frame stream, which is a PNG file. Call `shown` after presenting the picture. */
     onFrame?(png: Uint8Array): unknown;
-    /** Called for each request, including those that the client makes itself, with a promise of the answer. */
+    /** Called for each request, also for those of the client itself. `answer` is a promise of the answer. */
     onRequest?(answer: Promise<unknown>): void;
-    /** Called with an error that does not answer a request of this client. */
+    /** Called with an error message that does not answer a request of this client. */
     onError?(error: ErrorMessage): void;
     /**
-     * Called if the server refuses the first message `hello` of a connection. The client then sends another `hello`
-     * with the returned size of pictures, where "default" is the server's default size. If undefined is returned, the
-     * client reports the refusal as the `reason` of its status, and connects again later.
+     * Called if the server refuses the first message `hello` of a connection. If a size of pictures is returned, the
+     * client sends another `hello` with this size; "default" means the server's default size. If undefined is returned,
+     * the client reports the refusal as the `reason` of its status, and connects again later.
      */
     onRefused?(error: RequestError): Viewport | "default" | undefined;
     /** Called if the session no longer exists or its token is wrong. The client then opens a new session. */
     onLost?(reason: string): void;
 }
 
-/** The reason why a request failed: `code` is the code in the server's error message, or "not_connected". */
+/** The error of a failed request. `code` is the code in the server's error message, or "not_connected". */
 export class RequestError extends Error {
     constructor(
         readonly code: string,
@@ -73,8 +73,8 @@ export class RequestError extends Error {
 }
 
 /**
- * The answer to a request of type "get": the message of the type `What` or, for a frame or a file, the contents of a
- * binary message.
+ * The answer to a request of type "get". For a frame or a file, it is the contents of a binary message; otherwise, the
+ * message of the type `What`.
  */
 type GetAnswer<What> = What extends "frame"
     ? Uint8Array
@@ -84,11 +84,11 @@ type GetAnswer<What> = What extends "frame"
 
 interface PendingRequest {
     /**
-     * What answers the request. A frame or a file arrives as a binary message without an id; the message `done` with
-     * the id of the request follows.
+     * What answers the request. A frame or a file comes as a binary message without an id, followed by the message
+     * `done` with the request's id.
      */
     wants: "frame" | "file" | "slices" | "message";
-    /** Whether the answer may take long. The server answers later requests only after this one. */
+    /** Whether the answer may take long. The server answers later requests only after it. */
     mayTakeLong: boolean;
     resolve(answer: unknown): void;
     reject(error: RequestError): void;
@@ -96,17 +96,17 @@ interface PendingRequest {
 
 const kProtocol = 1;
 const kSubprotocol = `oval4d.v${kProtocol}`;
-const kReconnectDelay = 0.1; // seconds after an open connection ended: short, as another server may have taken over
-const kFirstRetryDelay = 0.5; // seconds from the first failed attempt to the next, doubled after each further failure
-const kMaxRetryDelay = 15; // seconds: the longest delay between two attempts
+const kReconnectDelay = 0.1; // seconds after a connection has ended; short, as another server may have taken over
+const kFirstRetryDelay = 0.5; // seconds after the first failed attempt; doubled after each further failure
+const kMaxRetryDelay = 15; // seconds: the longest pause between two attempts
 const kOpeningTimeout = 5; // seconds within which a WebSocket must open
 const kWelcomeTimeout = 30; // seconds within which the server, which may have to read a session, answers the first hello
-const kProbeTimeout = 3; // seconds within which the server must answer over HTTP, when no WebSocket opens
+const kProbeTimeout = 3; // seconds within which the server must answer over HTTP if no WebSocket opens
 const kIdleBeforeTest = 20; // seconds without a message after which the connection is tested
 const kTestTimeout = 8; // seconds within which the server must answer a test
-const kLongTestTimeout = 300; // seconds; replaces kTestTimeout while a request that may take long is unanswered
+const kLongTestTimeout = 300; // seconds; replaces kTestTimeout while a slow request is unanswered
 const kOpen = 1; // WebSocket.OPEN
-const kUnauthorized = 401; // the HTTP status if the token is missing or wrong
+const kUnauthorized = 401; // the HTTP status for a missing or wrong token
 const kNoAnswer = "no answer";
 const kTokenRequired = "the server requires its token: open the address that it printed at startup";
 
@@ -136,7 +136,7 @@ export class Client {
         };
     }
 
-    /** Connects at once, without waiting for the reconnection delay. Ends a connection that exists. */
+    /** Connects at once, without the usual delay before reconnecting. Ends an existing connection. */
     connect(): void {
         clearTimeout(this.timer);
         this.drop();
@@ -158,15 +158,15 @@ export class Client {
     }
 
     /**
-     * Says hello on a new connection. If the server refuses and onRefused() returns a size, says hello again with this
-     * size.
+     * Says hello on a new connection. If the server refuses and onRefused() returns a size of pictures, says hello
+     * again with this size.
      */
     private async sayHello(): Promise<void> {
         let refusal = await this.tryHello({});
         if (refusal?.code === "not_connected") return; // the connection has ended
         const size = refusal && this.options.onRefused?.(refusal);
         if (size) refusal = await this.tryHello({ viewport: size === "default" ? undefined : size });
-        // The server closes the connection after not_found and bad_token. After other refusals, the client must close
+        // After not_found and bad_token, the server closes the connection. After other refusals, the client must close
         // it.
         if (!refusal || ["not_connected", "not_found", "bad_token"].includes(refusal.code)) return;
         this.closed(1006, refusal.message, refusal.code);
@@ -174,7 +174,7 @@ export class Client {
 
     /**
      * Says hello. Resolves to the error if the server refuses, otherwise to undefined. If the server does not answer in
-     * time, treats the connection as lost.
+     * time, the connection counts as lost.
      */
     private tryHello(change: { viewport?: Viewport | undefined }): Promise<RequestError | undefined> {
         clearTimeout(this.timer);
@@ -193,8 +193,8 @@ export class Client {
     }
 
     /**
-     * Changes the stream, the encoding, the size or the scheme of pictures, for this connection and for later ones. If
-     * the viewport is undefined, the server chooses the size.
+     * Changes the stream, the encoding, the size or the color scheme of pictures. The change applies to this connection
+     * and all later ones. If the viewport is undefined, the server chooses the size.
      */
     hello(change: {
         stream?: Stream;
@@ -205,13 +205,16 @@ export class Client {
         Object.assign(this.settings, change);
         const { stream, encoding, viewport, scheme } = this.settings;
         const token = this.credentials?.token;
-        // A scheme is sent only if it is "light": servers of earlier versions do not know this member, and draw dark
+        // A scheme is sent only if it is "light". Servers of earlier versions do not know this member, and draw dark
         // pictures.
         const own = { ...viewport, ...(scheme === "light" && { scheme }), ...(token !== undefined && { token }) };
         return this.request({ type: "hello", stream, encoding, ...own });
     }
 
-    /** Sends a request; resolves to its answer. Rejects with RequestError if it is refused or cannot be sent. */
+    /**
+     * Sends a request, and resolves to its answer. Rejects with a RequestError if the server refuses it or it cannot be
+     * sent.
+     */
     request<What extends GetRequest["what"]>(message: GetRequest & { what: What }): Promise<GetAnswer<What>>;
     request<Type extends keyof RequestAnswers>(message: Request & { type: Type }): Promise<RequestAnswers[Type]>;
     request(message: Request): Promise<unknown> {
@@ -230,12 +233,12 @@ export class Client {
         return answer;
     }
 
-    /** The number of bytes that wait to be sent to the server. */
+    /** The number of bytes that have not been sent to the server yet. */
     get unsentBytes(): number {
         return this.socket?.bufferedAmount ?? 0;
     }
 
-    /** Tells the server that a picture has been presented, so that the server sends the next one. */
+    /** Tells the server that a picture has been presented. The server then sends the next one. */
     shown(revision: number): void {
         this.send({ type: "shown", revision });
     }
@@ -259,7 +262,7 @@ export class Client {
             this.handle(message);
         } else if (this.isAwaiting("frame")) {
             this.passHeldFrame();
-            this.heldFrame = bytes; // the next message shows whether the frame is an answer or part of the stream
+            this.heldFrame = bytes; // the next message shows whether the frame answers a request
         } else {
             this.options.onFrame?.(bytes);
         }
@@ -296,7 +299,7 @@ export class Client {
         return [...this.pending.values()].some(({ wants }) => wants === what);
     }
 
-    /** Passes the held frame, if any, to `onFrame`: no `done` has followed the frame, so it belongs to the stream. */
+    /** Passes the held frame, if any, to `onFrame`. No `done` has followed the frame, so it belongs to the stream. */
     private passHeldFrame(): void {
         const frame = this.heldFrame;
         this.heldFrame = undefined;
@@ -317,27 +320,27 @@ export class Client {
     }
 
     /**
-     * Schedules a test of the connection after kIdleBeforeTest without messages, because no event reports a broken
+     * Schedules a test of the connection after kIdleBeforeTest seconds without messages. No event reports a broken
      * network.
      */
     private scheduleTest(): void {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => this.test(), kIdleBeforeTest * 1000);
-        (this.timer as { unref?(): void }).unref?.(); // in Node, so that the timer does not keep a script running
+        (this.timer as { unref?(): void }).unref?.(); // in Node, the timer must not keep a script running
     }
 
-    /** Tests the connection with a request. If the server does not answer in time, treats the connection as lost. */
+    /** Tests the connection with a request. If the server does not answer in time, the connection counts as lost. */
     test(): void {
         if (this.status.kind !== "open") return;
-        const { unsentBytes } = this; // without the bytes of the test itself, which may be sent but never arrive
+        const { unsentBytes } = this; // excludes the test's own bytes, which may be sent but never arrive
         this.request({ type: "get", what: "state" }).catch(() => {});
         this.awaitTestAnswer(unsentBytes);
     }
 
     /**
-     * Waits for the answer to a test. `unsentBytes` is the number of bytes that are unsent now. If fewer bytes are
-     * unsent when the time limit expires, the connection is slow but works, and the client waits once more. Otherwise,
-     * the client treats the connection as lost.
+     * Waits for the answer to a test. `unsentBytes` is the number of unsent bytes at the start. If fewer bytes are
+     * unsent when the time is over, the connection is slow but works, and the client waits again. Otherwise the
+     * connection counts as lost.
      */
     private awaitTestAnswer(unsentBytes: number): void {
         const isLong = [...this.pending.values()].some((request) => request.mayTakeLong);
@@ -364,16 +367,17 @@ export class Client {
         const otherwise = opened ? "the connection was lost" : kNoAnswer;
         const reason = closeReason || (code === 1012 ? "the server is stopping" : otherwise);
         const delay = opened ? kReconnectDelay : Math.min(kMaxRetryDelay, kFirstRetryDelay * 2 ** this.failures++);
-        const seconds = delay * (0.5 + Math.random()); // jitter, so that clients do not all reconnect at once
+        const seconds = delay * (0.5 + Math.random()); // random, so that clients do not all reconnect at the same time
         this.timer = setTimeout(() => this.connect(), seconds * 1000);
         this.changeStatus({ kind: "waiting", reason, seconds, ...this.blocked, ...(refusal && { refusal }) });
         if (!opened && closeReason === "") void this.findWhetherBlocked();
     }
 
     /**
-     * Reports whether the server answers over HTTP although no WebSocket opens. The reason may be a proxy that does not
-     * pass on the headers of WebSocket requests. If the server answers kUnauthorized (its token is missing or wrong),
-     * stops connecting: the server would count each attempt, and soon refuse all clients at this IP address.
+     * Finds out whether the server answers over HTTP although no WebSocket opens, and reports this. The reason may be a
+     * proxy that does not pass on the headers of WebSocket requests. If the server answers kUnauthorized (missing or
+     * wrong token), stops connecting, because the server counts each attempt and would soon refuse all clients at this
+     * IP address.
      */
     private async findWhetherBlocked(): Promise<void> {
         const begin = Date.now();
@@ -417,7 +421,7 @@ export class Client {
     }
 }
 
-/** Whether the server may have to read, build, search or draw something before it answers this request. */
+/** Whether the server may have to read, build, search or draw something before it can answer this request. */
 function mayTakeLong(message: Request): boolean {
     switch (message.type) {
         case "load":

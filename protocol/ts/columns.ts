@@ -1,14 +1,14 @@
-// Converts the slices of a binary message to objects. Such a message has one array (a column) per property: the values
-// of the first slice, then those of the second, and so on. The vertices, edges and faces of the projection's parts (see
+// Converts the slices of a binary message to objects. Such a message has one array (a column) per property, with the
+// values of all slices one after another. The vertices, edges and faces of the projection's parts (see
 // ObjectProjection) are in columns, too.
 
 import type { Elements, Fill, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Surface } from "./slices.js";
 import type { Vector } from "./types.js";
 
-/** A value for each kind of element of a slice. */
+/** One value for each kind of element of a slice: vertices, edges and faces. */
 type PerElementKind<T> = Record<"vertices" | "edges" | "faces", T>;
 
-/** The elements of all slices, one slice after the other, or of all parts of the projection. */
+/** The elements of all slices, or of all parts of the projection, one slice or part after another. */
 interface ElementColumns {
     /** The number of elements in each slice or part. */
     counts: PerElementKind<Integers>;
@@ -18,12 +18,9 @@ interface ElementColumns {
     edges: Integers;
     /** The number of corners of each face. */
     sides: Integers;
-    /**
-     * The indices of the vertices of the first face, then of the second, and so on, counted from the first vertex of
-     * the slice or part.
-     */
+    /** The indices of the vertices of all faces, one face after another. Indices start at 0 for each slice or part. */
     corners: Integers;
-    // For the meaning of the following members, see Elements.
+    // The class Elements describes the following members.
 
     of: PerElementKind<Integers>;
     tints?: Integers;
@@ -50,7 +47,7 @@ export interface SliceColumns extends ElementColumns {
     drawn: boolean[];
     surface?: {
         counts: Record<"points" | "triangles", Integers>;
-        /** The color of the surfaces of each slice, 0xRRGGBB. */
+        /** The color of the surfaces in each slice, 0xRRGGBB. */
         color?: Integers;
         points: Float32Array;
         normals: Float32Array;
@@ -76,14 +73,14 @@ export interface PartColumns extends ElementColumns {
     looks: ProjectionLook[];
 }
 
-/** Returns an array of `count` integers, which may be uninitialized. */
+/** A function that returns an array of `count` integers. Its contents may be undefined. */
 export type IntegerAllocator = (count: number) => Uint32Array;
 
 type IndexRange = [begin: number, end: number];
 
 /**
- * Returns consecutive ranges of these sizes, the first of which begins at index 0. Throws RangeError if a size is not a
- * whole number from 0, or if the last range ends beyond `length`.
+ * Returns consecutive index ranges with these sizes, starting at index 0. Throws a RangeError if a size is not a whole
+ * number from 0 on, or if the last range ends beyond `length`.
  */
 function ranges(sizes: Integers, length: number): IndexRange[] {
     let end = 0;
@@ -111,7 +108,8 @@ function widener(allocate: IntegerAllocator): (integers: Integers) => Uint32Arra
 }
 
 /**
- * Returns the elements of each slice or part. The arrays are views of `columns`, or of arrays that `allocate` returned.
+ * Splits columns into the elements of each slice or part. The returned arrays are views of `columns`, or come from
+ * `allocate`.
  */
 function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elements[] {
     const wide = widener(allocate);
@@ -158,8 +156,8 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
 }
 
 /**
- * Converts the columns of the slices to one object per slice, whose arrays are views of `columns` or come from
- * `allocate`.
+ * Converts the columns of slices to one object per slice. The arrays in the objects are views of `columns`, or come
+ * from `allocate`.
  */
 export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
     const elements = elementsOf(columns, allocate);
@@ -183,7 +181,10 @@ export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAlloca
     });
 }
 
-/** Converts the columns of the projection's parts to one object per part. `allocate` is as in slicesFromColumns(). */
+/**
+ * Converts the columns of the projection's parts to one object per part. The arrays are views of `columns`, or come
+ * from `allocate`.
+ */
 export function partsOf(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }

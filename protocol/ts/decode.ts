@@ -1,4 +1,4 @@
-// Decodes the server's text and binary messages. A decoded slices message has the same flat typed arrays in every
+// Decodes the server's text and binary messages. Decoded `slices` messages have the same typed arrays, whatever their
 // encoding.
 
 import * as cborX from "cbor-x/decode-no-eval";
@@ -11,14 +11,14 @@ import type { Message } from "./types.js";
 
 const cbor = new cborX.Decoder({ mapsAsObjects: true, useRecords: false });
 
-/** The function of cbor-x that limits the sizes of arrays and maps. The type declarations of cbor-x lack it. */
+/** A function of cbor-x that limits the sizes of arrays and maps. The type declarations of cbor-x lack it. */
 const { setSizeLimits } = cborX as unknown as {
     setSizeLimits: (limits: { maxArraySize: number; maxMapSize: number }) => void;
 };
 
-let arena: Arena | undefined; // memory for the arrays of the message that is being decoded; see decodeBinary()
+let arena: Arena | undefined; // memory for the arrays of the current message; see decodeBinary()
 
-/** The classes of typed arrays, by their tags of RFC 8746. In MessagePack, the tags are extension types. */
+/** The classes of typed arrays. The keys are CBOR tags (RFC 8746); in MessagePack, they are extension types. */
 const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
     [64, Uint8Array],
     [69, Uint16Array],
@@ -28,7 +28,8 @@ const kArrayTypes = new Map<number, TypedArrayConstructor<unknown>>([
 ]);
 
 /**
- * Returns an array of the numbers in little-endian bytes: a view of the bytes if they are aligned, otherwise a copy.
+ * Returns an array of the numbers in little-endian bytes. The array is a view of the bytes if they are aligned,
+ * otherwise a copy.
  */
 function typedArrayOf<T>(bytes: Uint8Array<ArrayBuffer>, arrayType: TypedArrayConstructor<T>): T {
     const size = arrayType.BYTES_PER_ELEMENT;
@@ -44,15 +45,15 @@ for (const [tag, arrayType] of kArrayTypes) {
 
 /** Decodes CBOR. Throws an Error if the bytes are not CBOR. */
 function readCbor(bytes: Uint8Array): unknown {
-    // Each item takes at least one byte. Without these limits, cbor-x reads beyond the end of a message that announces
-    // more items than it has.
+    // Each item takes at least one byte. Without these limits, cbor-x would read beyond the end of a message that
+    // announces more items than it contains.
     setSizeLimits({ maxArraySize: bytes.length + 1, maxMapSize: bytes.length + 1 });
     return cbor.decode(bytes);
 }
 
 const strictUtf8 = new TextDecoder("utf-8", { fatal: true });
 
-/** Reads a message in a binary encoding. The functions of DataView throw a RangeError beyond the end. */
+/** Reads a message in a binary encoding. At the end of the message, the functions of DataView throw a RangeError. */
 abstract class BinaryReader {
     protected readonly view: DataView;
     private at = 0;
@@ -61,7 +62,7 @@ abstract class BinaryReader {
         this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
     }
 
-    /** Returns the message. Throws an Error if the bytes are not exactly one value. */
+    /** Reads the whole message. Throws an Error if the bytes are not exactly one value. */
     message(): unknown {
         const value = this.value();
         if (this.at < this.bytes.length) throw new Error("there are bytes after the end of a binary message");
@@ -88,11 +89,11 @@ abstract class BinaryReader {
     }
 }
 
-/** Reads MessagePack, whose numbers are big-endian, as the functions of DataView read them. */
+/** Reads MessagePack. Its numbers are big-endian, which is the default of DataView. */
 class MsgpackReader extends BinaryReader {
     /**
-     * Reads the value at the current position. Its first byte states its format, and also contains small values and
-     * sizes.
+     * Reads the value at the current position. The first byte states the format of the value. It also contains small
+     * values and small sizes.
      */
     protected override value(): unknown {
         const format = this.view.getUint8(this.skip(1));
@@ -129,15 +130,15 @@ class MsgpackReader extends BinaryReader {
         return size === 4 ? this.view.getInt32(at) : Number(this.view.getBigInt64(at));
     }
 
-    /** Reads an extension of `size` bytes: returns a typed array if the type is in kArrayTypes, otherwise the bytes. */
+    /** Reads an extension of `size` bytes. Returns a typed array if its type is in kArrayTypes, otherwise the bytes. */
     private extension(size: number): unknown {
         const arrayType = kArrayTypes.get(this.signed(1));
         const bytes = this.take(size);
         return arrayType ? typedArrayOf(bytes, arrayType) : bytes;
     }
 
-    // Items are added one by one, without allocating `count` of them first, because a damaged message may announce more
-    // items than it has.
+    // Adds the items one by one instead of allocating `count` items first: a damaged message may announce more items
+    // than it contains.
 
     private array(count: number): unknown[] {
         const items: unknown[] = [];
@@ -161,7 +162,7 @@ function readMsgpack(bytes: Uint8Array): unknown {
     return new MsgpackReader(bytes as Uint8Array<ArrayBuffer>).message();
 }
 
-/** The classes of typed arrays, by the markers of their numbers in BJData. */
+/** The classes of typed arrays in BJData. The keys are the markers of their numbers. */
 const kBjdataArrayTypes = new Map<string, TypedArrayConstructor<unknown>>([
     ["U", Uint8Array],
     ["u", Uint16Array],
@@ -170,7 +171,7 @@ const kBjdataArrayTypes = new Map<string, TypedArrayConstructor<unknown>>([
     ["D", Float64Array],
 ]);
 
-/** Reads the part of BJData that the server writes (protocol/README.md, "BJData"). */
+/** Reads BJData, but only the part of it that the server writes (see "BJData" in protocol/README.md). */
 class BjdataReader extends BinaryReader {
     protected override value(): unknown {
         return this.valueAfter(this.marker());
@@ -201,7 +202,7 @@ class BjdataReader extends BinaryReader {
         throw new Error(`a message in BJData has a value with the unknown marker ${JSON.stringify(marker)}`);
     }
 
-    /** Returns a length. A negative one would move back, and the message would be read without end. */
+    /** Returns a length. A negative length would move the position back, and reading would never end. */
     private countAfter(marker: string): number {
         const count = this.numberAfter(marker);
         if (!Number.isInteger(count) || count < 0) throw new Error("a length in BJData is not a whole number");
@@ -231,14 +232,14 @@ class BjdataReader extends BinaryReader {
     }
 }
 
-/** Decodes BJData. Throws an Error if the bytes are not BJData as the server writes it. */
+/** Decodes BJData. Throws an Error if the bytes are not BJData in the form that the server writes. */
 function readBjdata(bytes: Uint8Array): unknown {
     return new BjdataReader(bytes as Uint8Array<ArrayBuffer>).message();
 }
 
 /**
- * A kind of binary message. The first byte of such a message is in the range `firstByte`. If `secondByte` is present,
- * the second byte of the message is `secondByte`. `read` decodes a slices message; it is absent for files and frames.
+ * A kind of binary message. Its first byte is in the range `firstByte`; if `secondByte` is present, its second byte
+ * equals it. `read` decodes a `slices` message; it is absent for files and frames.
  */
 interface BinaryMessageKind {
     firstByte: [least: number, greatest: number];
@@ -246,7 +247,7 @@ interface BinaryMessageKind {
     read?: (bytes: Uint8Array) => unknown;
 }
 
-/** The kinds of binary messages, as protocol/README.md lists them (see "Binary messages"). */
+/** The kinds of binary messages (see "Binary messages" in protocol/README.md). */
 export const kBinaryKinds: Record<"file" | "frame" | Exclude<Encoding, "json">, BinaryMessageKind> = {
     file: { firstByte: [0x21, 0x7e] },
     frame: { firstByte: [0x89, 0x89] },
@@ -260,10 +261,9 @@ export function decodeText(text: string): Message {
 }
 
 /**
- * Decodes a binary message. Returns a slices message; for a file or a frame, whose bytes need no decoding, returns
- * "file" or "frame". If `within` is given, arrays of the slices message may be in its memory; they are valid until
- * `within` is used for another message. Throws an Error if no kind of message begins with the first bytes, or if the
- * slices message is damaged.
+ * Decodes a binary message. Returns a `slices` message; for a file or a frame, which need no decoding, returns "file"
+ * or "frame". If `within` is given, arrays of the message may lie in its memory; they are valid until `within` is used
+ * for another message. Throws an Error if the first bytes fit no kind of message, or if a `slices` message is damaged.
  */
 export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file" | "frame" {
     const [first = -1, second] = bytes;
@@ -271,7 +271,7 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
     for (const [name, kind] of Object.entries(kBinaryKinds)) {
         const { firstByte, secondByte = second } = kind;
         if (first < firstByte[0] || first > firstByte[1] || second !== secondByte) continue;
-        // A kind with a `secondByte` takes precedence over a kind without one.
+        // If several kinds match, a kind with a `secondByte` takes precedence.
         if (!found || kind.secondByte !== undefined) found = [name, kind];
     }
     if (found) {
@@ -283,7 +283,7 @@ export function decodeBinary(bytes: Uint8Array, within?: Arena): Message | "file
 }
 
 function decodeSlices(bytes: Uint8Array, read: (bytes: Uint8Array) => unknown, within?: Arena): Message {
-    // Six times the size of the message is enough: arrays are copied, and 1-byte integers become 4-byte integers.
+    // Six times the message's size is enough memory: arrays are copied, and 1-byte integers become 4-byte integers.
     within?.startMessage(6 * bytes.length);
     arena = within;
     try {
@@ -299,7 +299,10 @@ function isPng(bytes: Uint8Array): boolean {
     return kPngSignature.every((byte, i) => bytes[i] === byte);
 }
 
-/** Returns the text of the uncompressed iTXt chunk with this keyword; undefined if the file has none or is cut off. */
+/**
+ * The text of the uncompressed iTXt chunk with this keyword in a PNG file. Undefined if the file has no such chunk or
+ * is cut off.
+ */
 export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined {
     const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
     const utf8 = new TextDecoder();
@@ -323,7 +326,7 @@ export function pngText(png: Uint8Array, keyword = "oval4d"): string | undefined
 
 type FlatOrNested<T> = T | number[] | number[][];
 
-/** The elements of a slice, or of a part of the projection, in the JSON encoding, which has nested arrays. */
+/** The elements of a slice, or of a part of the projection, in the JSON encoding. JSON has nested arrays. */
 interface JsonElements {
     vertices: number[][];
     edges: number[][];
