@@ -1,4 +1,4 @@
-// Accessibility: screen readers, the keyboard, reduced motion, contrast.
+// Accessibility of the page: screen readers, the keyboard, reduced motion, contrast.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -7,10 +7,10 @@ import { openPage, openWithScript, ready, spoken } from "./support/browser.mjs";
 import { eventually } from "./support/hang_limit.mjs";
 import { decode, distance, pixelAt } from "./support/pixels.mjs";
 
-/** The dialogs, with what is typed to open each. */
+/** The dialogs by id, with the keys that open each dialog. */
 const dialogs = { picker: "s", export: "x", help: "?", phone: ":share\n" };
 
-/** Calls `look` with each dialog open. */
+/** Opens each dialog in turn, and calls `look` while it is open. */
 async function withDialogs(page, look) {
     for (const [id, keys] of Object.entries(dialogs)) {
         await page.keyboard.type(keys);
@@ -22,7 +22,7 @@ async function withDialogs(page, look) {
     }
 }
 
-/** What opens over the page without making it inert, and how it is opened. */
+/** What opens over the page but leaves the page usable: panels by name, each with a function that opens it. */
 const panels = {
     async completions(page) {
         await page.keyboard.press(":");
@@ -51,7 +51,7 @@ const panels = {
     },
 };
 
-/** Calls `look` with each panel open. */
+/** Opens each panel in turn, and calls `look` while it is open. */
 async function withPanels(page, look) {
     for (const [name, open] of Object.entries(panels)) {
         await open(page);
@@ -108,7 +108,10 @@ test("accessibility: every control has a name", async () => {
 test("accessibility: the name of a control contains its visible label", async () => {
     const { page, close } = await openWithScript();
     const normalized = (text) => text.toLowerCase().match(/[\p{L}\p{N}]+/gu)?.join(" ") ?? "";
-    /** The texts of the buttons without their keys, which are not part of the names; undefined for what is not seen. */
+    /**
+     * The texts of the buttons without their keys, which are not part of the accessible names. Undefined for an
+     * invisible button.
+     */
     const labelsOf = (buttons) => {
         const keys = [...document.querySelectorAll("button kbd[aria-hidden=true]")];
         for (const key of keys) key.style.display = "none";
@@ -116,7 +119,9 @@ test("accessibility: the name of a control contains its visible label", async ()
         for (const key of keys) key.style.removeProperty("display");
         return labels;
     };
-    /** The buttons whose accessible name does not contain their label, like axe's label-content-name-mismatch. */
+    /**
+     * The buttons whose accessible name does not contain their visible label (axe's rule label-content-name-mismatch).
+     */
     const mismatches = async () => {
         const names = await namesOf(page, "button");
         const labels = await page.locator("button").evaluateAll(labelsOf);
@@ -133,13 +138,13 @@ test("accessibility: the name of a control contains its visible label", async ()
     await close();
 });
 
-/** Presses a key; resolves to a description of the element that has the focus then, or undefined for the page. */
+/** Presses a key. Resolves to a description of the element that then has the focus; undefined for the page itself. */
 async function focusAfter(page, key) {
     await page.keyboard.press(key);
     return page.evaluate(() => {
         const at = document.activeElement;
         if (at === document.body) return undefined;
-        const seen = at.type === "radio" ? at.nextElementSibling : at; // a radio button is shown by its span
+        const seen = at.type === "radio" ? at.nextElementSibling : at; // a radio button is shown by the span after it
         const { outlineStyle, outlineWidth } = getComputedStyle(seen);
         const { borderTopWidth, content } = getComputedStyle(at, "::after");
         const framed = content !== "none" && parseFloat(borderTopWidth) >= 1;
@@ -164,8 +169,8 @@ test("accessibility: Tab and the arrows reach every control, and the focus is al
         seen.add(focus.name);
     };
     const visited = new Set();
-    // From the start of the page to its end, from where Tab goes to what is around the page in some browsers. A browser
-    // may also stop at what can be scrolled.
+    // Tabs from the start of the page to its end. In some browsers, Tab also goes to the browser's own controls, or
+    // stops at scrollable areas.
     await page.evaluate(() => (document.activeElement.blur(), getSelection().collapse(document.body, 0)));
     const stops = new Set();
     for (let i = 0; i < 2 * (toolbars + others); ++i) {
@@ -212,7 +217,7 @@ test("accessibility: in a toolbar, the arrows, Home and End move the focus, and 
     await page.keyboard.press("ArrowRight");
     await page.keyboard.press("Tab");
     await page.keyboard.press("Shift+Tab");
-    await focusIs(at("2")); // the toolbar's tab stop is the button that had the focus last
+    await focusIs(at("2")); // the tab stop is the button that had the focus last
     await page.evaluate((selector) => (document.querySelector(selector).disabled = true), at("Shift+3"));
     await page.keyboard.press("ArrowRight");
     await focusIs(at("3"));
@@ -289,10 +294,10 @@ test("accessibility: with reduced motion, the page has no transitions or animati
     await lively.close();
 });
 
-/** The texts with too little contrast to their background. */
+/** Finds the texts whose contrast to their background is too small. */
 function faintTexts(page) {
     return page.evaluate(() => {
-        // The color on the screen, for any CSS notation.
+        // Converts a CSS color in any notation to the color on the screen.
         const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
         const parse = (color) => {
             pen.clearRect(0, 0, 1, 1);
@@ -355,7 +360,7 @@ async function assertContrast(colorScheme) {
     await close();
 }
 
-/** The texts in what is pressed, chosen or disabled whose colors are not those of the theme for it. */
+/** Finds the texts in pressed, chosen or disabled controls that do not have the theme's colors for such controls. */
 async function otherColors(page) {
     return page.evaluate(() => {
         const probe = document.body.appendChild(document.createElement("span"));
@@ -376,7 +381,7 @@ async function otherColors(page) {
 
 test("accessibility: forced colors show which controls are pressed and which row is active", async () => {
     const { page, close } = await openWithScript({ forcedColors: "active", viewport: { width: 1280, height: 1100 } });
-    /** The color of an element inside its lower left corner. */
+    /** The color of an element near its lower left corner. */
     const groundOf = async (selector) => {
         const picture = decode(await page.locator(selector).first().screenshot({ animations: "disabled" }));
         return pixelAt(picture, 7, picture.height - 4);
@@ -398,7 +403,7 @@ test("accessibility: forced colors show which controls are pressed and which row
         if (id === "export") await differs("#export :checked + span", "#export input:not(:checked) + span");
         if (id === "export") assert.deepEqual(await otherColors(page), []);
     });
-    await page.waitForSelector("[data-action=back][aria-pressed=true]:disabled"); // there is no projection
+    await page.waitForSelector("[data-action=back][aria-pressed=true]:disabled"); // needs a projection
     assert.deepEqual(await otherColors(page), []);
     await close();
 });

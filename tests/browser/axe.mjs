@@ -1,4 +1,4 @@
-// The rules of axe-core: WCAG 2.2, levels A and AA, and best practices.
+// The page obeys the rules of axe-core: WCAG 2.2, levels A and AA, and best practices.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -9,8 +9,8 @@ import { test } from "./support/suite.mjs";
 const source = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
 /**
- * Returns the rules that the page breaks, and those of which axe cannot tell, with the elements. Axe cannot tell the
- * contrast and the name of a button that shows only a symbol; the tests of accessibility.mjs examine these.
+ * Returns the rules that the page breaks, and the rules that axe cannot decide, with the elements. Axe cannot decide
+ * about the contrast and the name of a button that shows only a symbol; accessibility.mjs tests these.
  */
 async function faults(page) {
     await page.evaluate(source);
@@ -33,7 +33,7 @@ for (const [setting, options] of Object.entries(settings)) {
     test(`axe: finds no fault in ${setting}`, async () => {
         const { page, press, close } = await openWithScript(options);
         const examine = async (state) => assert.deepEqual(await faults(page), [], state);
-        /** Waits until an element says something. */
+        /** Waits until an element contains a text. */
         const says = (id) => page.waitForFunction((one) => document.getElementById(one).textContent !== "", id);
 
         await examine("at the start");
@@ -93,7 +93,7 @@ test("axe: finds faults", async () => {
         const unnamed = document.createElement("button");
         const misnamed = Object.assign(document.createElement("button"), { ariaLabel: "Send", textContent: "Start" });
         const faint = Object.assign(document.createElement("p"), { textContent: "Hardly readable" });
-        Object.assign(faint.style, { color: "gray", background: "dimgray" }); // the page allows no style in HTML
+        Object.assign(faint.style, { color: "gray", background: "dimgray" }); // the page forbids styles in HTML
         document.getElementById("tools").prepend(unnamed, misnamed, faint);
     });
     const found = await faults(page);

@@ -11,7 +11,7 @@ import { pngText } from "./node_modules/.oval4d/client.mjs";
 
 const kGrounds = { dark: [16, 20, 28], light: [244, 246, 249], white: [255, 255, 255] };
 
-/** The ground of the picture on the page, at a place without slices. */
+/** The color of the picture's background on the page, at a place without slices. */
 const groundOf = async (page) => pixelAt(await picture(page), 600, 60);
 
 const checked = (page) => page.locator("#tools [name=background]:checked").inputValue();
@@ -88,7 +88,7 @@ test("scheme: the page and its picture follow the system, and each viewer sees h
     await drawn(page, kGrounds.light);
     assert.equal(await page.getAttribute("[data-page-tool=scheme_light]", "aria-pressed"), "true");
     await script.request({ type: "set", background: "dark" });
-    await drawn(page, kGrounds.dark); // the session's own background counts more
+    await drawn(page, kGrounds.dark); // the background of the session comes first
     await page.reload();
     await ready(page);
     assert.equal(await panel(), "rgb(255, 255, 255)", "the choice is remembered");
@@ -97,7 +97,7 @@ test("scheme: the page and its picture follow the system, and each viewer sees h
     await close();
 });
 
-/** Waits until the picture has this ground. */
+/** Waits until the picture has this background color. */
 function drawn(page, ground) {
     return eventually(async () => distance(await groundOf(page), ground) === 0, `a picture on ${ground}`);
 }

@@ -18,9 +18,12 @@ const kPythonClient = new URL("../../protocol/python", import.meta.url).pathname
 
 const comparable = ({ id, revision, object_serial, ...state }) => state;
 
-/** The state after `act`, starting from the same state for each comparison: the initial one, changed and rotated. */
+/**
+ * The state after `act`. Each comparison starts from the same state: the initial state, with some changes and a
+ * rotation.
+ */
 async function outcome(script, initial, { action, needs }, act) {
-    // What changes the projection can be pressed only while there is one.
+    // Buttons that change the projection can be pressed only while there is a projection.
     const projection = needs === "projection" ? "perspective" : "off";
     await script.request({ type: "reset" });
     await script.request({

@@ -1,4 +1,4 @@
-// The client of protocol/ts, used by a script.
+// The TypeScript client in protocol/ts, used by a script without a page.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -20,7 +20,7 @@ import { joinSession } from "./support/script.mjs";
 import { afterTest, atEnd, test } from "./support/suite.mjs";
 import { within } from "./support/hang_limit.mjs";
 
-/** A client, and a function that returns a promise of its next event. */
+/** Returns a client, and a function that returns a promise of the client's next event. */
 async function listen(options) {
     const { url } = await common();
     const waiting = {};
@@ -194,7 +194,7 @@ test("client: it keeps a session that a server cannot open, and tries again", as
         onLost: (reason) => lost.push(reason),
         onStatus: (status) => {
             statuses.push(status);
-            if (status.kind === "waiting") client.connect(); // without the delay
+            if (status.kind === "waiting") client.connect(); // instead of waiting for the delay
             if (status.kind === "open") opened();
         },
     });
@@ -224,7 +224,7 @@ test("client: the npm package works in a script, and has types", async () => {
     const [library, user] = [join(folder, "protocol/ts"), join(folder, "user")];
     const isSource = (path) => !/\/(node_modules|dist)$/.test(path);
     await cp(join(root, "protocol"), join(folder, "protocol"), { recursive: true, filter: isSource });
-    // These packages are here already, so that npm need not fetch them.
+    // These packages are already on the disk, so npm need not download them.
     await mkdir(join(library, "node_modules"));
     const packages = { esbuild: "tests/browser", "cbor-x": "tests/browser", typescript: "web_client" };
     for (const [name, from] of Object.entries(packages)) {

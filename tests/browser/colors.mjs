@@ -1,4 +1,4 @@
-// Colors, and kinds of cells that are shown, faded or hidden.
+// Colors on the page, and kinds of cells that are shown, faded or hidden.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -7,11 +7,11 @@ import { compare, covered, decode } from "./support/pixels.mjs";
 
 const shot = async (page) => decode(await page.locator("#drawing").screenshot());
 
-/** Clicks a radio button's label, as a user does. */
+/** Clicks the label of a radio button, as a user does. */
 const choose = (page, name, value) => page.locator(`#tools label:has([name="${name}"][value="${value}"])`).click();
 const checked = (page, name) => page.locator(`#tools [name="${name}"]:checked`).inputValue();
 
-/** A page that shows a polytope with several kinds of cells. */
+/** Opens the page with a polytope that has several kinds of cells. */
 async function openKinds() {
     const opened = await openWithScript();
     const { revision } = await opened.script.request({ type: "set", polytope: "truncated 5-cell" });

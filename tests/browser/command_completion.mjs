@@ -5,7 +5,7 @@ import { test } from "./support/suite.mjs";
 import { openWithScript } from "./support/browser.mjs";
 import { commands, listedBy } from "./support/command_line.mjs";
 
-/** Replaces the line, and presses Tab. Returns the line, and the listed completions. */
+/** Replaces the line, presses Tab and then further keys. Returns the line and the listed completions. */
 async function completed(page, line, ...keys) {
     await page.fill("#command", line);
     for (const key of ["Tab", ...keys]) await page.keyboard.press(key);
@@ -30,7 +30,7 @@ test("command line: Tab completes what is unique, or what the possible words hav
     await page.keyboard.press(":");
     await page.waitForSelector("#command:focus");
     await page.keyboard.type("polytope 24");
-    await page.keyboard.press("Tab"); // may have to wait for the names of polytopes
+    await page.keyboard.press("Tab"); // may wait for the names of polytopes
     await page.waitForFunction(() => document.getElementById("command").value === "polytope 24-cell");
     const cases = {
         po: "polytope ",
@@ -73,7 +73,7 @@ test("command line: Tab completes what is unique, or what the possible words hav
     assert.equal((await completed(page, "polytope hexacosichoron", "Tab")).line, "polytope 600-cell");
     await page.fill("#command", "set h=1 end");
     await page.evaluate(() => document.getElementById("command").setSelectionRange(5, 5));
-    await page.keyboard.press("Tab"); // hidden=, highlight=
+    await page.keyboard.press("Tab"); // completes to hidden= or highlight=
     assert.equal(await page.inputValue("#command"), "set hi=1 end", "the text after the caret stays");
     await close();
 });
@@ -106,7 +106,7 @@ test("command line: repeated Tab cycles through the completions, Shift-Tab goes 
     assert.equal(await page.locator("#command-options").isVisible(), false);
     assert.equal(await page.locator("#command-line").isVisible(), true, "Escape closes the list first");
     assert.equal(await active(), undefined);
-    await page.keyboard.type("y"); // the input has kept the focus, so that this is no key of the drawing
+    await page.keyboard.type("y"); // the input still has the focus, so the drawing does not get this key
     assert.equal(await page.inputValue("#command"), "color valuey");
 
     await completed(page, "color ");
@@ -119,7 +119,7 @@ test("command line: repeated Tab cycles through the completions, Shift-Tab goes 
 
     await page.keyboard.press(":");
     await page.keyboard.type("dance");
-    await page.keyboard.press("Tab"); // nothing to complete
+    await page.keyboard.press("Tab"); // has nothing to complete
     assert.notEqual(await page.evaluate(() => document.activeElement.id), "command", "Tab leaves the field");
     assert.deepEqual(errors, []);
     await close();

@@ -1,4 +1,4 @@
-// The command line.
+// The command line of the page, and what its commands do.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "./support/suite.mjs";
@@ -13,10 +13,10 @@ const { formats } = JSON.parse(readFileSync(new URL("../../protocol/export_forma
 
 const error = (page) => page.locator("#command-error").textContent();
 
-/** Types a line, and waits until it has been executed. */
+/** Types a line into the command line, and waits until it has been executed or refused. */
 async function executed(page, line) {
     await type(page, line);
-    // The line closes, or explains why it could not be executed.
+    // Afterward, the command line closes, or shows why the line was refused.
     await page.waitForFunction(() => {
         return document.getElementById("command-line").hidden || document.getElementById("command-error").textContent !== "";
     });
@@ -28,7 +28,7 @@ test("command line: executes the typed command, and returns the focus", async ()
     await type(page, "polytope 24-cell");
     await script.until((one) => one.polytope.name === "24-cell", "the 24-cell");
     await page.waitForSelector("#drawing:focus");
-    await type(page, ":rotate xw,yz pi/8 pi/sqrt(3)-pi/8"); // the colon may be typed again
+    await type(page, ":rotate xw,yz pi/8 pi/sqrt(3)-pi/8"); // a further colon is allowed
     const { last } = await script.until((one) => one.last !== null, "the rotation");
     assert.deepEqual(last.planes, ["xw", "yz"]);
     assert.ok(Math.abs(last.angles[1] - (Math.PI / Math.sqrt(3) - Math.PI / 8)) < 1e-12);
@@ -113,7 +113,7 @@ test("command line: a line that is being typed is not closed by the answer to th
     });
     for (const [line, holds] of [
         ["set slices=31", (state) => state.slices.count === 31],
-        ["polytope 25-cell", () => true], // which is refused
+        ["polytope 25-cell", () => true], // the server refuses this
     ]) {
         await type(page, line);
         await page.waitForFunction(() => window.held.length === 1);
@@ -174,9 +174,9 @@ test("command line: every example of a command is valid", async () => {
     await close();
 });
 
-/** Executes a line that saves a file; returns the download. */
+/** Executes a line that saves a file. Resolves to the download. */
 async function save(page, line) {
-    const saving = page.waitForEvent("download", { timeout: 0 }); // a wait that begins later explains more
+    const saving = page.waitForEvent("download", { timeout: 0 }); // failures of the line explain more
     saving.catch(() => {});
     await executed(page, line);
     await page.waitForSelector("#drawing:focus");

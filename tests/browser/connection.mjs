@@ -1,4 +1,4 @@
-// A session survives the loss of its connection, and the page reports the status.
+// A session survives the loss of its connection, and the page shows the status of the connection.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -11,8 +11,8 @@ import { startServer } from "./support/server.mjs";
 
 const kLate = 1000; // milliseconds without an answer after which the page says that it waits
 const kOpening = 5000; // milliseconds within which a WebSocket must open
-const kWelcome = 30000; // the same, within which the server must answer
-const kLost = 8000; // the same, after which it gives up the connection
+const kWelcome = 30000; // milliseconds within which the server must answer the first message
+const kLost = 8000; // milliseconds without an answer after which the page gives up the connection
 
 const connection = (page) => page.locator("#connection").textContent();
 const isOpen = (page) => page.waitForSelector("#connection[data-kind=open]");
@@ -149,7 +149,7 @@ test("connection: a file that takes long to load is no lost connection", async (
     const data = Buffer.from("1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n");
     await page.setInputFiles("#file", { name: "slow.txt", mimeType: "text/plain", buffer: data });
     await page.waitForSelector("#connection:not([data-unanswered='0'])");
-    await page.evaluate(() => window.dispatchEvent(new Event("offline"))); // the page tests the connection
+    await page.evaluate(() => window.dispatchEvent(new Event("offline"))); // makes the page test the connection
     await passTime(page, 2 * kLost);
     await page.waitForSelector("#connection[data-kind=late]");
     proxy.thaw();
@@ -306,7 +306,7 @@ test("connection: an unreachable server is reported", async () => {
     const { page, close } = await openPage({ url: server.url });
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");
-    // The first reason is the one that the server gave; the next attempt finds another.
+    // The first reason is the server's own; the next attempt finds another reason.
     await page.waitForFunction(() => /No answer/.test(document.getElementById("connection").textContent));
     await close();
 });

@@ -1,4 +1,4 @@
-// The cost of showing a stream and of loading the page, as numbers of operations and bytes.
+// The costs of showing a stream and of loading the page, counted as operations and bytes instead of time.
 import assert from "node:assert/strict";
 import { readdirSync } from "node:fs";
 import { get } from "node:http";
@@ -9,9 +9,12 @@ import { faceIn, labeled, openTurned } from "./support/pointing.mjs";
 import { webRoot } from "./support/server.mjs";
 import { test } from "./support/suite.mjs";
 
-const kMaxSize = 250 * 1024; // bytes: of all files of the page, compressed
+const kMaxSize = 250 * 1024; // the most bytes of all files of the page, compressed
 
-/** Counts in the page's `counts`: arrays with their own memory, graphics buffers, draw calls, decoded images. */
+/**
+ * Runs in the page. Counts in `window.counts` arrays with their own memory, graphics buffers, draw calls and decoded
+ * images.
+ */
 function countAllocations() {
     const counts = (window.counts = { arrays: 0, buffers: 0, drawings: 0, decodings: 0 });
     const kMinSize = 256; // bytes; smaller arrays are vectors and matrices
@@ -25,7 +28,7 @@ function countAllocations() {
                 return array;
             },
         });
-        plain.prototype.constructor = window[name] = counting; // copies use the constructor, too
+        plain.prototype.constructor = window[name] = counting; // copies of an array use the constructor, too
     }
     const watch = (owner, method, what) => {
         const plain = owner[method];
@@ -43,7 +46,7 @@ function countAllocations() {
 const countsOf = (page) => page.evaluate(() => ({ ...window.counts }));
 
 test("costs: geometry is drawn from buffers that are updated in place", async () => {
-    const viewport = { width: 640, height: 400 }; // small enough to be drawn quickly without a graphics card
+    const viewport = { width: 640, height: 400 }; // small, so that it is drawn quickly without a graphics card
     const { page, script, errors, close } = await openWithScript({ before: countAllocations, viewport, isStopped: true });
     await script.request({ type: "set", polytope: "24-cell" });
     const turn = async (angle) => {
@@ -58,7 +61,7 @@ test("costs: geometry is drawn from buffers that are updated in place", async ()
     const back = async () => {
         for (let i = 0; i < 30; ++i) await turn(-0.02);
     };
-    await there(); // everything grows to its final size
+    await there(); // all buffers grow to their final sizes
     const before = await countsOf(page);
     await back();
     await there();
@@ -136,7 +139,7 @@ test("costs: frames are decoded off the page's thread, and acknowledged after th
     await close();
 });
 
-/** The size in bytes of the body that the server sends to a client that accepts only gzip. */
+/** The size in bytes of the answer's body for a client that accepts only gzip. */
 function sizeWithGzip(url) {
     return new Promise((resolve, reject) => {
         const request = get(url, { headers: { "accept-encoding": "gzip" } }, (response) => {
@@ -157,7 +160,8 @@ test("costs: the page is compressed, and loads nothing but its files, which toge
     const { url } = await common();
     const answers = new Map();
     const { page, errors, close } = await openPage({ seen: (response) => answers.set(response.url(), response) });
-    // All files: also the worker that decodes frames, which the page loads when it shows the server's pictures.
+    // Counts all files, including the worker that decodes frames. The page loads this worker only for the server's
+    // pictures.
     const files = readdirSync(webRoot).filter((name) => !/^\.|\.(br|gz)$/.test(name));
     for (const name of ["index.html", "app.js", "decode_worker.js", "style.css", "favicon.svg"]) {
         assert.ok(files.includes(name), name);
@@ -179,7 +183,7 @@ test("costs: the page is compressed, and loads nothing but its files, which toge
     });
     assert.ok(loaded > 10_000 && loaded <= total, `${loaded} bytes`);
     assert.deepEqual(errors, []);
-    // Inline scripts are not executed.
+    // The browser must not execute inline scripts.
     const violated = page.evaluate(async () => {
         const violation = new Promise((resolve) => {
             document.addEventListener("securitypolicyviolation", resolve, { once: true });

@@ -1,4 +1,5 @@
-// The density strip, which replaces the parallel coordinates of many vertices: what is named and lit in it.
+// The density strip, which replaces the parallel coordinates of many vertices: what the page names and highlights in
+// it.
 import assert from "node:assert/strict";
 
 import { presented } from "./support/browser.mjs";
@@ -19,7 +20,7 @@ test("density strip: the vertex with the nearest line is named, as by the server
     await leave();
     const before = await shot(page);
 
-    // Beyond the ends of the lines, and above or below all of them, the nearest line is the outermost one.
+    // Beyond the ends of all lines, and above or below them, the outermost line is the nearest.
     for (const axis of [0, 3]) {
         for (const side of [-1, 1]) {
             const values = seen.coordinates.filter((_, i) => i % 4 === axis).map((value) => side * value);
@@ -34,7 +35,7 @@ test("density strip: the vertex with the nearest line is named, as by the server
         }
     }
 
-    // Elsewhere there are several lines in each pixel.
+    // Elsewhere, several lines pass through each pixel.
     for (const [vertex, along] of [[0, 0.2], [137, 1.5], [421, 2.7]]) {
         const [x, y] = stripPoint(seen, vertex, along, height).map(Math.round);
         const served = await askServer(x, y);
@@ -59,7 +60,7 @@ test("density strip: the vertex with the nearest line is named, as by the server
         assert.equal(await label(page), "");
     }
 
-    // A line that is drawn is found although others are nearer.
+    // A line that is drawn over the strip is found, even if other lines are nearer.
     const { revision } = await script.request({ type: "set", highlight: { element: "vertex", number: 137 } });
     await presented(page, revision);
     for (const along of [0.4, 1.2, 2.6]) {

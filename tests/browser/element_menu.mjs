@@ -1,4 +1,4 @@
-// The menu of the element under the pointer.
+// The menu of the element under the pointer: what it offers, and what its items do.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -21,7 +21,7 @@ test("element menu: a right click or a long press opens it, and its items act on
     await script.until(({ highlight }) => highlight?.number === cell && highlight.element === "cell", "its light");
     const items = await menu.locator("button").allTextContents();
     assert.deepEqual(items.length, 6, items.join());
-    await page.keyboard.press("ArrowUp"); // the last item
+    await page.keyboard.press("ArrowUp"); // moves to the last item
     await page.keyboard.press("Enter");
     await script.until(({ highlight }) => highlight === null, "the end of the light");
     assert.equal(await menu.isVisible(), false);
@@ -38,7 +38,7 @@ test("element menu: a right click or a long press opens it, and its items act on
     await page.evaluate(() => {
         document.getElementById("export").close();
         const key = new KeyboardEvent("keydown", { key: "x", code: "KeyX", bubbles: true, cancelable: true });
-        document.activeElement.dispatchEvent(key); // in the same task, and thus before the event of the closing
+        document.activeElement.dispatchEvent(key); // in the same task, and therefore before the closing's event
     });
     await page.waitForSelector("#export[open]");
     assert.equal(await page.locator("#export [name=of]:checked").inputValue(), "focus", "the usual choice is back");

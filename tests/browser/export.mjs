@@ -13,7 +13,7 @@ const table = JSON.parse(readFileSync(new URL("../../protocol/export_formats.jso
 
 const text = (bytes, length = bytes.length) => Buffer.from(bytes.subarray(0, length)).toString();
 
-/** The width, height and depth of the bounding box of a binary STL file. */
+/** The width, height and depth of the bounding box of the object in a binary STL file. */
 function boxOf(stl) {
     const [least, most] = [
         [Infinity, Infinity, Infinity],
@@ -53,7 +53,10 @@ async function exported(page, choices = {}, numbers = {}) {
     return { name: download.suggestedFilename(), bytes: await bytesOf(download) };
 }
 
-/** Runs in the page before its scripts: holds the answer to the first request for a file until `window.release()`. */
+/**
+ * Runs in the page before its scripts. Holds back the answer to the first request for a file until `window.release()`
+ * is called.
+ */
 function holdFile() {
     let id;
     const { send } = WebSocket.prototype;
@@ -131,11 +134,11 @@ test("export: size, body and slices are as chosen", async () => {
     const { page, script, close } = await openWithScript();
     await script.request({ type: "set", polytope: "8-cell" });
     await named(page, "8-cell");
-    // The tesseract's slice at w = 0 is a cube whose side is half the diameter of the tesseract's circumscribed sphere.
+    // The slice of the tesseract at w = 0 is a cube. Its side is half the diameter of the sphere around the tesseract.
     const solid = await exported(page, { format: "stl" }, { size: 80 });
     boxOf(solid.bytes).forEach((side) => assert.ok(Math.abs(side - 40) < 0.01, `a side of ${side} mm`));
     assert.equal(solid.name, "8-cell-w-0.stl");
-    const skeleton = await exported(page, { body: "skeleton" }); // the other choices are remembered
+    const skeleton = await exported(page, { body: "skeleton" }); // the page remembers the other choices
     assert.equal(skeleton.name, "8-cell-w-0-skeleton.stl");
     assert.ok(
         boxOf(skeleton.bytes).every((side) => side > 40.5 && side < 50),
@@ -151,7 +154,7 @@ test("export: size, body and slices are as chosen", async () => {
     await close();
 });
 
-/** The number of triangles of a binary STL file of cubes, each of which has twelve. */
+/** The number of cubes in a binary STL file. Each cube has twelve triangles. */
 const cubesIn = (stl) => stl.readUInt32LE(80) / 12;
 
 test("export: slices are those that are chosen, and what the file lacks is told", async () => {
@@ -282,7 +285,7 @@ test("export: of a field, only what each format can contain is offered, and is s
     for (const [format, expected] of Object.entries(small)) {
         await openExport(page);
         await choose(page, "format", "stl");
-        await choose(page, "of", "focus"); // which drawings of fields do not have
+        await choose(page, "of", "focus"); // drawings of fields do not offer this
         await choose(page, "format", format);
         const offered = await page
             .locator("#export label:visible:has([name=of])")

@@ -1,4 +1,4 @@
-// URLs that open a field, and the panel of fields that copies them.
+// URLs that open a field, and the field panel, which copies such URLs.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 

@@ -1,4 +1,4 @@
-// The panel in which the formula of a field is written.
+// The panel in which the user writes the formula of a field.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -10,7 +10,7 @@ import { distance } from "./support/pixels.mjs";
 import { rgb } from "./support/scene.mjs";
 import { startReplaceableServer } from "./support/proxy.mjs";
 
-const kTyping = 150; // milliseconds after the last change by typing, until it is sent
+const kTyping = 150; // milliseconds without further typing before the page sends a change
 
 test("field panel: the button opens the panel and shows a field, and what is typed is shown", async () => {
     const { page, script, errors, close } = await openPanel({ isStopped: true });
@@ -115,7 +115,9 @@ test("field panel: constants that are not typed as numbers have sliders, too, an
     await close();
 });
 
-/** Records the requests of the page, and how many formulas are on their way at once. */
+/**
+ * Runs in the page. Records the requests that load formulas, and the most such requests on their way at the same time.
+ */
 function recordLoads() {
     window.loads = [];
     window.most = 0;
@@ -268,7 +270,7 @@ test("field panel: another formula colors the surfaces, and has the names of the
         const x = surface.points[3 * i];
         if (Math.abs(x) > 0.1) assert.equal(x > 0, r > b, `at x = ${x}: ${r}, ${b}`);
     }
-    // A mistake is shown where it is.
+    // The page shows a mistake at the character where it is.
     const before = (await script.state()).revision;
     await page.fill("#field-values", "a*x + q");
     await passTime(page, kTyping);
@@ -281,7 +283,7 @@ test("field panel: another formula colors the surfaces, and has the names of the
     await passTime(page, kTyping);
     await page.waitForFunction(() => /^Character 5: /.test(document.getElementById("field-error").textContent));
     assert.equal(await page.textContent("#field-values-error"), "", "only the first mistake is known");
-    await script.request({ type: "set", levels: [0, 0.5] }); // so that what follows is another step of undo
+    await script.request({ type: "set", levels: [0, 0.5] }); // so that the next change is another undo step
     await page.waitForFunction(() => document.getElementById("field-levels").value === "0, 0.5");
     await page.fill("#field-values", "a*y");
     await write(page, script, "x^2+y^2+z^2+w^2 < a^2; a=1.2");
@@ -302,7 +304,7 @@ test("field panel: another formula colors the surfaces, and has the names of the
     assert.equal(await second.page.inputValue("#field-values"), "a*y");
     other.leave();
     await second.close();
-    // Undo shows the former formula of the colors.
+    // Undo shows the previous formula of the colors.
     await page.click("#field-close");
     for (let i = 0; i < 2; ++i) await page.keyboard.press("u");
     await page.waitForFunction(() => document.getElementById("field-values").value === "a*x");
@@ -327,7 +329,9 @@ test("field panel: the panel continues with a formula of the command line", asyn
     await close();
 });
 
-/** Runs in the page: while `window.isRefused`, the levels that it sends are not valid. */
+/**
+ * Runs in the page. While `window.isRefused` is true, spoils the levels in messages, so that the server refuses them.
+ */
 function spoilLevels() {
     const { send } = WebSocket.prototype;
     WebSocket.prototype.send = function (text) {

@@ -1,4 +1,4 @@
-// The units of a field's axes, and what its values measure, on the page.
+// The page shows the units of a field's axes, and what its values measure.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -107,7 +107,7 @@ test("field units: the label beside the pointer has the units of the sizes of th
     const { scene, slices } = await drawing.picture();
     const slice = slices.find(({ focus }) => focus);
     const points = worldPoints(scene, slice).map((at) => project(scene, at, size));
-    // An edge of the slice is a 2-face of the box, which also extends along w.
+    // An edge of the slice is cut from a 2-face of the box that also extends along w.
     let middle;
     for (let e = 0; e < slice.edges.length && !middle; e += 2) {
         const [a, b] = [points[slice.edges[e]], points[slice.edges[e + 1]]];

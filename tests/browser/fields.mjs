@@ -1,4 +1,4 @@
-// Fields: the surfaces of their slices in the picture.
+// The surfaces and histograms of fields in the picture.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -87,7 +87,7 @@ for (const { name, settings } of [
         const top = Math.floor((1 - layout.zero - layout.amplitude) * height);
         assertSimilar(below(geometry, top), below(await picture(page), top), { mean: 1.5, far: 0.005 });
 
-        // At the highest density the picture differs from the background; at density 0 it is the background.
+        // The picture differs from the background where the density is highest, and equals it where the density is 0.
         const [panel, rows] = [layout.columns / 4, density.length / layout.columns];
         const at = (k) => {
             const [column, row] = [k % layout.columns, Math.floor(k / layout.columns)];
@@ -187,7 +187,7 @@ test("fields: the colorings are those of a field, and growth is amber and blue",
     assert.equal(await page.locator(".kinds > div").count(), 0, "no kinds of cells");
     await page.locator("#tools label", { hasText: "Growth" }).click();
     await script.until(({ color }) => color === "growth", "growth");
-    // Otherwise the edges of the box would be before some points of the surface.
+    // Otherwise, the edges of the box would cover some points of the surface.
     const { revision } = await script.request({ type: "set", shown: { bars: false, balls: false } });
     await presented(page, revision);
     assert.match(await page.locator(".scale").innerText(), /shrinks\s+grows/);
@@ -198,7 +198,7 @@ test("fields: the colorings are those of a field, and growth is amber and blue",
     let [ahead, behind] = [0, 0];
     for (let i = 0; i < surface.points.length; i += 3) {
         const [x, , z] = surface.normals.slice(i, i + 3);
-        if (z < 0.3 || Math.abs(x) < 0.5) continue; // seen from the front, at the sides
+        if (z < 0.3 || Math.abs(x) < 0.5) continue; // must face the viewer, at the sides
         const world = slice.position.map((at, k) => at + scene.scale * surface.points[i + k]);
         const [r, , b] = pixelAt(shown, ...project(scene, world, size).map(Math.floor));
         if (x > 0 && r > b) ++ahead;

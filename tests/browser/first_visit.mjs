@@ -1,4 +1,4 @@
-// The first visit of a browser: its view, the welcome, and the tour.
+// The first visit of a browser: its view, the welcome line, and the tour.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -181,7 +181,7 @@ test("tour: one step shows a field, and the user's object and view return after 
     for (const leave of ["#tour-next", "#tour-back"]) {
         await goTo("5", leave === "#tour-next" ? "#tour-next" : "#tour-back");
         await script.until((one) => one.polytope.name === "tiger" && one.field, "the field");
-        await press("4"); // the rotation belongs to the field
+        await press("4"); // the rotation applies to the field
         await leaveBy(leave);
     }
     await goTo("5", "#tour-next");
@@ -236,7 +236,7 @@ test("tour: on a phone and zoomed in, its panel and buttons are in the window", 
         for (let i = 0; i < 6; ++i) {
             for (const part of ["#tour", "#tour-end", "#tour-ring"]) {
                 const box = await page.locator(part).boundingBox();
-                const [right, bottom] = [box.x + box.width, box.y + box.height].map((end) => end - 0.01); // rounded
+                const [right, bottom] = [box.x + box.width, box.y + box.height].map((end) => end - 0.01); // for rounding
                 const isWithin = box.x >= 0 && box.y >= 0 && right <= width && bottom <= height;
                 assert.ok(isWithin, `${width} × ${height}, step ${i + 1}: ${part} ${JSON.stringify(box)}`);
             }

@@ -1,4 +1,4 @@
-// The controls of fog, in the panel of fields.
+// The controls of fog in the field panel.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -9,7 +9,7 @@ import { openPanel, write } from "./support/field.mjs";
 test("field panel: fog can be shown, edited by dragging and typing, and taken back", async () => {
     const { page, script, errors, close } = await openPanel({ browser: await accurateBrowser() });
     const fogOf = async () => (await script.state()).fog;
-    await spoken(page, "formula"); // after the first announcement, changes are announced
+    await spoken(page, "formula"); // announcements begin after the first one
     await page.waitForSelector("#fog-show");
     assert.equal(await page.locator("#fog-curve").isVisible(), false);
     await page.click("#fog-show");
@@ -18,7 +18,7 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     assert.deepEqual(first.fog.map(({ opacity }) => opacity), [0.95, 0.5, 0]);
     await spoken(page, ", fog from ");
 
-    // A drag changes one point in many steps, and is undone as one.
+    // A drag moves one point in many steps. Undo takes all of them back at once.
     const handle = page.locator("#fog-curve [data-point='1'] .reach");
     const { x, y, width, height } = await handle.boundingBox();
     const [left, top] = [x + width / 2, y + height / 2];
@@ -27,7 +27,7 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     await page.mouse.down();
     for (let i = 1; i <= 8; ++i) await page.mouse.move(left + 2 * i, top - 3 * i);
     await page.mouse.up();
-    await page.evaluate(async () => void (await window.released)); // the browser may pass the last moves on later
+    await page.evaluate(async () => void (await window.released)); // the browser may deliver the last moves later
     const shown = await page.inputValue("[data-fog='opacity 2']");
     assert.ok(Number(shown) > 0.6);
     const dragged = await script.until(({ fog }) => String(fog[1]?.opacity) === shown, "the last place of the drag");
@@ -37,7 +37,7 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     assert.deepEqual(await fogOf(), first.fog, "one undo takes back the whole drag");
     await page.waitForFunction(() => document.querySelector("[data-fog='opacity 2']").value === "0.5");
 
-    // By keyboard: numbers, an added point, a removed one.
+    // Without a mouse: typing numbers, adding a point, removing a point.
     await page.fill("[data-fog='opacity 1']", "0.25");
     await script.until(({ fog }) => fog[0]?.opacity === 0.25, "a typed opacity");
     const { revision } = await script.state();
@@ -59,7 +59,7 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     assert.equal(label, "Remove point 2", "the focus stays in the list");
     const three = await script.until(({ fog }) => fog.length === 3, "three points");
     await page.locator("[data-fog='color 1']").evaluate((input) => {
-        // Both colors of the drag come before the first is sent.
+        // Both colors of the drag arrive before the page sends the first.
         for (const color of ["#00ff00", "#00ff80"]) {
             input.value = color;
             input.dispatchEvent(new Event("input"));
@@ -72,7 +72,7 @@ test("field panel: fog can be shown, edited by dragging and typing, and taken ba
     await script.request({ type: "redo" });
     const colored = await script.until(({ fog }) => fog[0].color === 0x00ff80, "the color again");
 
-    // The colors of points without one are those of the picture.
+    // Points without a color have the colors of the picture.
     await presented(page, colored.revision);
     const { scene } = await script.request({ type: "get", what: "slices" });
     const last = await page.inputValue("[data-fog='color 3']");
@@ -99,13 +99,13 @@ test("field panel: behind the curve of fog is the distribution of the values of 
     await script.until(({ fog }) => fog.length > 0, "fog");
     const first = await outline();
     assert.match(first, /^M.*Z$/);
-    const { fog } = await write(page, script, "max(-1, min(1, x^3/4))"); // its values have the same range
+    const { fog } = await write(page, script, "max(-1, min(1, x^3/4))"); // the values have the same range as before
     assert.ok(fog.length > 0, "the fog stays");
     const second = await outline();
     assert.match(second, /^M.*Z$/);
     assert.notEqual(second, first);
 
-    // With the server's pictures, the page knows no distribution of the next field.
+    // While the server draws the pictures, the page does not know the value distribution of the next field.
     await drawBy(page, "frames");
     await write(page, script, "max(-1, min(1, x^3/2))");
     assert.equal(await outline(), "");
@@ -118,7 +118,7 @@ test("field panel: behind the curve of fog is the distribution of the values of 
 
 test("field panel: fog is shown and edited where the values differ little from each other", async () => {
     const { page, script, errors, close } = await openPanel();
-    await write(page, script, "1027.5 + x/4"); // such as the density of seawater, in kilograms per cubic meter
+    await write(page, script, "1027.5 + x/4"); // like the density of seawater in kilograms per cubic meter
     await page.click("#fog-show");
     const { fog } = await script.until((state) => state.fog.length === 3, "fog");
     assert.ok(fog[0].value >= 1027 && fog[2].value <= 1028, JSON.stringify(fog));

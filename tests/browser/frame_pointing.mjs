@@ -1,4 +1,4 @@
-// The element under the pointer in the server's pictures: when the page asks for its name, and when it shows it.
+// The element under the pointer in the server's pictures: when the page asks for its name, and when the page shows it.
 import assert from "node:assert/strict";
 
 import { assertSame, columnsOf, faceIn, frames, label, labeled, named } from "./support/pointing.mjs";
@@ -8,16 +8,16 @@ import { passTime } from "./support/page_time.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
 
-const kRest = 200; // milliseconds without a new picture after which the page asks
-const kLong = 1000; // milliseconds after which each request that is due has been sent
+const kRest = 200; // milliseconds without a new picture after which the page asks the server
+const kLong = 1000; // milliseconds after which every due request has been sent
 const kBackground = [4, 4];
 
 /**
- * Runs in the page: logs what the page asks about points, and the elements of the pictures that it requests. Can hold
- * the answers back, or the keys, or the requests for pictures.
+ * Runs in the page. Logs the questions about points, and the elements in the requested pictures. Can hold back the
+ * answers, the keys or the requests for pictures.
  */
 function watchRequests() {
-    /** Moves a pointer of this type over the drawing at once, without the browser's input queue. */
+    /** Moves a pointer of this type over the drawing immediately, without the browser's input queue. */
     window.movePointer = (pointerType, [x, y]) => {
         const drawing = document.getElementById("drawing");
         const { left, top } = drawing.getBoundingClientRect();
@@ -51,13 +51,16 @@ function watchRequests() {
     });
 }
 
-/** Opens the page with a picture of the server's, which rests. */
+/** Opens the page with a picture that the server has drawn and that rests. */
 async function openServed() {
     const opened = await openTurned({}, { before: watchRequests, isStopped: true });
     const { page } = opened;
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
-    /** Lets time pass, and waits for what the page does then, unless it waits for an answer that is held back. */
+    /**
+     * Lets time pass in the page, and waits until the page has reacted. If `isHeld` is true, an answer is held back,
+     * and the function does not wait for it.
+     */
     const pass = async (milliseconds, { isHeld = false } = {}) => {
         await frames(page);
         await passTime(page, milliseconds);
@@ -69,24 +72,24 @@ async function openServed() {
     return {
         ...opened,
         pass,
-        /** Moves the mouse, and lets the page ask and answer. */
+        /** Moves the mouse, then waits until the page has asked and shown the answer. */
         async hoverAt(x, y) {
             await opened.moveTo(x, y);
             await pass(kLong);
         },
         asked: () => page.evaluate(() => window.asked),
         forget: () => page.evaluate(() => void (window.asked.length = 0)),
-        /** Waits until the page has asked this often. */
+        /** Waits until the page has asked at least `times` times. */
         untilAsked: (times) => page.waitForFunction((least) => window.asked.length >= least, times),
-        /** Holds the answers about points back from now on, or the keys, or the requests for pictures. */
+        /** Starts to hold back the answers about points, the keys, or the requests for pictures. */
         hold: (what) => page.evaluate((name) => void (window.isHeld[name] = true), what),
-        /** Passes the first of what is held on, when there is one, and returns what the label then shows. */
+        /** Waits for something to be held back, passes on the first of it, and returns the label's text after that. */
         async passFirst(what) {
             await page.waitForFunction((name) => window.held[name].length > 0, what);
             await page.evaluate((name) => void window.held[name].shift()(), what);
             return label(page);
         },
-        /** Passes everything on. */
+        /** Passes on everything that is held back, and holds back nothing more. */
         release: (what) =>
             page.evaluate((name) => {
                 window.isHeld[name] = false;
@@ -174,7 +177,7 @@ test("frame pointing: the label goes when the mouse leaves, drags or touches, an
     await pass(kLong);
     assert.deepEqual(await asked(), [], "while a button is down");
     await moveTo(...at);
-    await page.mouse.up(); // a click, which highlights the cell in a new picture
+    await page.mouse.up(); // a click: highlights the cell in a new picture
     const { revision } = await script.until(({ highlight }) => highlight !== null, "the highlight");
     await presented(page, revision);
     await pass(kLong);
@@ -207,7 +210,7 @@ test("frame pointing: one request is in flight, and the next one is about the ne
     await pass(kLong);
     assert.equal((await asked()).length, 2);
 
-    // The pointer has moved by a few pixels when the answer arrives.
+    // When the answer arrives, the pointer has moved by a few pixels.
     await moveTo(...at);
     await untilAsked(3);
     await moveTo(at[0] + 3, at[1] + 2);
@@ -215,7 +218,7 @@ test("frame pointing: one request is in flight, and the next one is about the ne
     assert.match(await passFirst("answers"), new RegExp(`^Cell ${source} `));
     await untilAsked(4);
 
-    // The label goes along for some pixels, but not farther, without an answer.
+    // Without an answer, the label follows the pointer for some pixels, but not farther.
     const top = async () => {
         await frames(page);
         return (await page.locator("#pointed").boundingBox()).y;
@@ -256,7 +259,7 @@ test("frame pointing: it follows the pointer without a delay, but asks at most o
     const { at } = faceIn(await picture(), size, 1);
     const kMoves = 20;
     for (let i = 1; i <= kMoves; ++i) {
-        await moveTo(at[0] + i - kMoves, at[1]); // time stands still
+        await moveTo(at[0] + i - kMoves, at[1]); // no time passes
         await idle(page);
     }
     assert.equal((await asked()).length, kMoves);
@@ -333,7 +336,7 @@ test("frame pointing: a new picture ends the label, and the page asks again when
     await labeled(page, /^Cell/);
     for (const { rested } of await asked()) assert.ok(rested >= kRest - 2, `${rested} ms after a picture`);
 
-    // While the polytope turns, there is no label.
+    // While the polytope turns, no label is shown.
     await press("Space");
     await labeled(page, /^$/);
     await forget();
@@ -343,7 +346,7 @@ test("frame pointing: a new picture ends the label, and the page asks again when
     assert.deepEqual(await asked(), []);
     await press("Space");
     const { revision: last } = await script.until(({ turning }) => !turning, "the end of the turning");
-    await presented(page, last); // the page counts its time to rest from the last picture
+    await presented(page, last); // the page counts its rest from the last picture
     await pass(kLong);
     await untilAsked(1);
     await close();
@@ -354,7 +357,7 @@ test("frame pointing: commands go first, and the requests of pointing fail silen
     const { at } = faceIn(await picture(), size, 0);
     await page.focus("#drawing");
     await hold("keys");
-    await page.keyboard.press("0"); // the focus is at 0 already: there will be no new picture
+    await page.keyboard.press("0"); // the focus is already at 0, so no new picture follows
     await page.waitForFunction(() => window.held.keys.length === 1);
     await moveTo(...at);
     await pass(kLong, { isHeld: true });

@@ -1,4 +1,4 @@
-// A gamepad turns the polytope.
+// Gamepads turn the polytope.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -6,7 +6,7 @@ import { openWithScript, stateAfter } from "./support/browser.mjs";
 import { passTime } from "./support/page_time.mjs";
 import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
 
-/** Waits for this many animation frames of the page. */
+/** Waits for `count` animation frames of the page. */
 const animationFrames = (page, count) =>
     page.evaluate(async (all) => {
         for (let i = 0; i < all; ++i) await new Promise((resolve) => requestAnimationFrame(resolve));
@@ -23,7 +23,7 @@ test("gamepad: the sticks and triggers turn the polytope", async () => {
         },
     });
     const polls = () => page.evaluate(() => window.polls);
-    /** Lets time pass, and waits until the gamepad has been polled after it. */
+    /** Lets time pass in the page, then waits until the gamepad has been polled. */
     const poll = async (milliseconds) => {
         await passTime(page, milliseconds);
         const before = await polls();
@@ -54,7 +54,7 @@ test("gamepad: the sticks and triggers turn the polytope", async () => {
         xy: (pad, value) => (pad.buttons[5].value = value),
     };
     for (const [plane, control] of Object.entries(controls)) {
-        await poll(1000); // the gesture before has ended
+        await poll(1000); // ends the previous gesture
         const before = await script.state();
         await page.evaluate(`(${control})(window.gamepad, 1)`);
         for (let i = 0; i < 3; ++i) {

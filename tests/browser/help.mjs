@@ -1,4 +1,4 @@
-// The help sheet: the keys, the commands and the settings, all of them or only those that mention a word.
+// The help dialog lists keys, commands and settings: all of them, or only those that mention a word.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 

@@ -1,4 +1,5 @@
-// The keys of keyboards of many languages. support/make_keyboards.py has made the table of what they type.
+// The page's keys work on keyboards of many languages. support/make_keyboards.py has made the table of what their keys
+// type.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "./support/suite.mjs";
@@ -14,7 +15,10 @@ const kLetters = new Set([...table.filter(({ key, ctrl }) => key.length <= 2 && 
 for (const { key, shift } of table) if (shift === "inverse" && key.length === 1) kLetters.add(key.toUpperCase());
 const isLatin = (character) => /^[a-z]$/i.test(character);
 
-/** The keystroke of a key of a keyboard. */
+/**
+ * The keystroke that the page derives from a key press. `characters` are what the key types without and with Shift;
+ * `code` is its place.
+ */
 function stroke(characters, code, shift, capsLock = false) {
     let key = characters[Number(shift)] || "Dead";
     if (capsLock && isLatin(key)) key = shift ? key.toLowerCase() : key.toUpperCase();
@@ -22,7 +26,7 @@ function stroke(characters, code, shift, capsLock = false) {
     return strokeFromEvent({ key, code, isComposing: false, ...modifiers }, table);
 }
 
-/** Calls `check` with each key of each keyboard, without and with Shift. */
+/** Calls `check` for each key of each keyboard, without Shift and with Shift. */
 function forEachKey(check) {
     for (const [layout, keys] of Object.entries(keyboards)) {
         for (const [code, characters] of Object.entries(keys)) {

@@ -1,4 +1,4 @@
-// Every key of the table has its effect, as seen on the page and by a second client.
+// Every key of the key table has its effect, as the page and a second client see it.
 import assert from "node:assert/strict";
 import { inFirefox, test } from "./support/suite.mjs";
 
@@ -29,7 +29,7 @@ for (const binding of table.filter(({ client }) => !client)) {
         assert.equal(Number(shown.slices), after.slices.count);
         assert.ok(Math.abs(parseFloat(shown.alpha) - (after.alpha * 180) / Math.PI) <= 0.005, shown.alpha);
         assert.ok(Math.abs(parseFloat(shown.beta) - (after.beta * 180) / Math.PI) <= 0.005, shown.beta);
-        // While it plays, the page may show a later w.
+        // During playing, the page may show a later w than the state.
         const w = Number(shown.w.replace("\u2212", "-"));
         assert.ok(after.playing || Math.abs(w - after.section.w) <= 0.005, shown.w);
         if (binding.shift === "inverse") {
@@ -91,7 +91,10 @@ test("keys: elements are highlighted one after another, except hidden ones, and 
     await end();
 });
 
-/** Presses a digit key of a keyboard with another layout: `key` is what it types, and `code` where it is. */
+/**
+ * Presses a digit key of a keyboard with another layout. `key` is what the key types; `code` is its place on the
+ * keyboard.
+ */
 async function dispatch(page, { key, code, shift = false }) {
     if (inFirefox) return page.keyboard.pressOther({ key, code, shift });
     const session = await page.context().newCDPSession(page);
@@ -143,7 +146,7 @@ test("keys: brackets typed with AltGr, and letters typed on keyboards of another
         }, event);
         await script.until(holds, JSON.stringify(event));
     };
-    const altGr = { modifierAltGraph: true, ctrlKey: true, altKey: true }; // as Windows reports it
+    const altGr = { modifierAltGraph: true, ctrlKey: true, altKey: true }; // as Windows reports AltGr
     await type({ key: "{", code: "Digit7", ...altGr }, (one) => one.slices.count === 19); // German
     await type({ key: "}", code: "Digit0", ...altGr }, (one) => one.slices.count === 21);
     await type({ key: "}", code: "Digit9", altKey: true }, (one) => one.slices.count === 23); // German, Mac
@@ -189,14 +192,17 @@ test("keys: other keys are left to the browser", async () => {
         document.getElementById("drawing").dispatchEvent(composing);
     });
     assert.ok((await page.evaluate(() => window.prevented)).every((prevented) => !prevented));
-    // A known key follows on the same connection: when it takes effect, everything before it has been processed.
+    // A known key follows over the same connection. When it takes effect, everything before it has been processed.
     await page.keyboard.press("k");
     const after = await script.until((one) => one.revision > revision, "a change by k");
     assert.equal(after.revision, revision + 1);
     await end();
 });
 
-/** Sends keys that change nothing, then one that acts: when it takes effect, everything before has been processed. */
+/**
+ * Asserts that keys have no effect. Then sends a key that acts: when it takes effect, everything before it has been
+ * processed.
+ */
 async function assertNoEffect(page, script, ...keys) {
     const { revision } = await script.state();
     for (const key of keys) await page.keyboard.press(key);
@@ -332,7 +338,7 @@ test("keys: a held key repeats no faster than pictures arrive, and stops when re
     });
     const sent = () => page.evaluate(() => window.sent);
     for (let times = 1; times <= 3; ++times) {
-        for (let i = 0; i < 20; ++i) await page.keyboard.down("y"); // as the keyboard repeats it
+        for (let i = 0; i < 20; ++i) await page.keyboard.down("y"); // as a held key repeats
         assert.equal(await sent(), times, "a key is sent only after the previous one's picture was presented");
         const { revision } = await script.state();
         await page.evaluate(() => window.held.shift()());
@@ -348,12 +354,12 @@ test("keys: a held key repeats no faster than pictures arrive, and stops when re
 test("keys: a held second key of a sequence repeats the sequence if it may, and does not act by itself", async () => {
     const { page, script, press, close: end } = await openWithScript();
     await press("4");
-    const { shown } = await press("w"); // with a projection, c alone shows or hides its cells
+    const { shown } = await press("w"); // with a projection, only c shows or hides its cells
     const numbers = [];
     await page.keyboard.press("v");
     for (let times = 0; times < 3; ++times) {
         const { revision } = await script.state();
-        await page.keyboard.down("c"); // from the second time on, as the keyboard repeats it
+        await page.keyboard.down("c"); // from the second time on, as a held key repeats
         const after = await script.until((one) => one.revision > revision, "the next cell");
         numbers.push(after.highlight?.number);
         assert.deepEqual(after.shown, shown);
@@ -382,7 +388,7 @@ test("keys: the second key of a sequence is not the key of the page, even if it 
     await page.keyboard.press("g");
     for (let times = 1; times <= 3; ++times) {
         const { revision } = await script.state();
-        await page.keyboard.down("x"); // from the second time on, as the keyboard repeats it
+        await page.keyboard.down("x"); // from the second time on, as a held key repeats
         const after = await script.until((one) => one.revision > revision, "a step of the point");
         assert.ok(isNear(after.point[0], times * slices.spacing), `${after.point}`);
         await presented(page, (await stateAfter(page, script)).revision);

@@ -1,4 +1,4 @@
-// The latencies that the page measures itself: how they are shown and saved.
+// The latencies that the page itself measures: how the page shows and saves them.
 import assert from "node:assert/strict";
 
 import { openWithScript, ready } from "./support/browser.mjs";
@@ -28,7 +28,7 @@ test("latency: the time from key to picture is shown and saved on request", asyn
     for (const key of ["y", "y", "4", "]", "n"]) await press(key);
     await page.waitForFunction(() => /5 measured/.test(document.getElementById("latency").textContent));
     assert.match(await output.textContent(), /Key-to-picture latency [\d.]+ ms · median [\d.]+ ms · 99th percentile [\d.]+ ms/);
-    await press("0", "4"); // the focus is at 0 already: no picture, nothing to measure
+    await press("0", "4"); // the focus is already at 0: no picture follows
     await page.waitForFunction(() => /6 measured/.test(document.getElementById("latency").textContent));
 
     await page.click("[data-page-tool=frames]");
@@ -67,12 +67,12 @@ test("latency: the time from key to picture is shown and saved on request", asyn
 });
 
 test("latency: a measurement ends after the animation frame that drew the picture, whoever draws it", async () => {
-    /** Runs in the page: records the times at which the callbacks that drew a picture have returned. */
+    /** Runs in the page. Records when the callbacks that draw a picture have returned. */
     const watchDrawing = () => {
         window.drawn = [];
         const record = () => {
             const now = performance.now();
-            while (performance.now() === now); // the clock is rounded
+            while (performance.now() === now); // waits for the next tick of the rounded clock
             window.drawn.push(performance.now());
         };
         const watch = (owner, method) => {

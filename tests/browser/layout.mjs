@@ -1,4 +1,5 @@
-// The page, its dialogs and panels at many sizes: nothing sticks out of its box, and nothing is cut off.
+// The layout of the page, its dialogs and panels at many window sizes: nothing sticks out of its box, and nothing is
+// cut off.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -6,12 +7,13 @@ import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
 import { openPanel } from "./support/field.mjs";
 import { kOnScreen, moveToScreen } from "./support/screen.mjs";
 
-// Desktops, a phone upright and lying, and desktops at 200 and 400 %, which leave fewer CSS pixels.
+// Sizes of desktops, of a phone upright and lying, and of desktops at a zoom of 200 and 400 % (which have fewer CSS
+// pixels).
 const kSizes = [[1440, 900], [1280, 800], [1024, 600], [800, 600], [390, 844], [667, 375], [720, 450], [360, 225], [512, 300]];
 
 /**
- * What sticks out of its box within an element: content that is wider than its container, or beyond the container's or
- * the window's edges, and cannot be scrolled to.
+ * Runs in the page. Finds what sticks out of its box within an element: content wider than its container, and content
+ * beyond the edges of the container or the window that cannot be scrolled into view.
  */
 function faultsWithin(selector) {
     const kRounding = 1.5; // pixels
@@ -37,7 +39,7 @@ function faultsWithin(selector) {
             let outer = one;
             while (outer !== root && !scrolls(outer, axis)) outer = outer.parentElement;
             if (outer !== root || scrolls(root, axis)) continue;
-            if (axis === "Y" && root === document.body) continue; // the page scrolls
+            if (axis === "Y" && root === document.body) continue; // the page itself scrolls
             const edges = root.getBoundingClientRect();
             const least = Math.max(0, edges[from]) - kRounding;
             const most = Math.min(axis === "X" ? innerWidth : innerHeight, edges[to]) + kRounding;
@@ -49,7 +51,10 @@ function faultsWithin(selector) {
     return faults;
 }
 
-/** Asserts that nothing sticks out within the element at any size; `each` is called at each size before. */
+/**
+ * Asserts that nothing sticks out of its box within the element, at any size. Calls `each` at each size before the
+ * check.
+ */
 async function assertFits(page, selector, each = async () => {}) {
     for (const [width, height] of kSizes) {
         await page.setViewportSize({ width, height });
@@ -119,7 +124,7 @@ test("layout: a long name leaves room for the last rotation", async () => {
     await close();
 });
 
-/** By how much a short drag orbits. */
+/** The angle by which a short drag orbits the camera. */
 async function angleOfDrag(page, script) {
     const { camera } = await script.state();
     await page.mouse.move(300, 300);

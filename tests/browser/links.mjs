@@ -22,7 +22,7 @@ test("links: a query opens its view", async () => {
     await presented(page, state.revision);
     assert.deepEqual(errors, []);
 
-    // A reload does not repeat the rotation; another query opens another view.
+    // A reload does not repeat the rotation. Another query opens another view.
     await page.reload();
     await ready(page);
     assert.equal((await script.state()).revision, state.revision);

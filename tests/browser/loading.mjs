@@ -1,4 +1,4 @@
-// Loading files from the user's disk, chosen or dropped on the page.
+// Loading files from the user's disk. The user chooses them or drops them on the page.
 import assert from "node:assert/strict";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -17,7 +17,7 @@ const simplex = `# a simplex\n4OFF\n5 10 10 5\n${kVertices}${kFaces}4 0 1 3 6\n4
 
 const report = (page) => page.locator("#loading .report").innerText();
 
-/** Drops files on the drawing; returns whether the page showed the drop target. */
+/** Drops files on the drawing. Returns whether the page has shown the drop target. */
 async function drop(page, ...files) {
     const transfer = await page.evaluateHandle(
         (all) => {
@@ -56,7 +56,7 @@ test("loading: a file that begins with CLOUD is shown as points", async () => {
     await close();
 });
 
-// The server recognizes these as 4OFF files, too; see tests/wild/glued.txt.
+// The server recognizes the same texts as 4OFF files; see tests/wild/glued.txt.
 test("loading: a 4OFF file needs no extension, whatever follows its keyword or ends its lines", async () => {
     const { page, script, errors, close } = await openWithScript();
     const texts = { "glued.txt": simplex.replace("4OFF\n5", "4OFF5"), "returns.txt": simplex.replaceAll("\n", "\r") };
@@ -138,7 +138,7 @@ test("loading: the error of a faulty file names the line, and the line is shown"
     await close();
 });
 
-/** A NumPy file with 8 × 8 × 8 × 8 samples of 1 − x² − y² − z² − w² from −1 to 1. */
+/** A NumPy file with 8 × 8 × 8 × 8 samples of 1 − x² − y² − z² − w². Coordinates are from −1 to 1. */
 function ballFile(name) {
     const header = "{'descr': '<f4', 'fortran_order': False, 'shape': (8, 8, 8, 8), }".padEnd(117) + "\n";
     const axis = Array.from({ length: 8 }, (_, i) => (2 * i) / 7 - 1);
@@ -225,7 +225,7 @@ test("loading: a picture and a state are shown again, and files without a state 
     await close();
 });
 
-/** Runs in the page: counts the connections that it opens. */
+/** Runs in the page. Counts the connections that the page opens. */
 function countSockets() {
     window.sockets = 0;
     window.WebSocket = class extends WebSocket {
@@ -253,7 +253,7 @@ test("loading: unreadable files are refused before they are sent", async () => {
         );
         await page.click("#loading [data-close]");
     }
-    await page.waitForSelector("#connection[data-kind=open]"); // "waiting" would be a lost connection, "late" a slow one
+    await page.waitForSelector("#connection[data-kind=open]"); // not "waiting" (lost) or "late" (slow)
     assert.equal(await page.evaluate(() => window.sockets), 1, "the connection is still the first one");
     await page.setInputFiles("#file", file("b.off", simplex));
     await script.until((one) => one.polytope.name === "b.off", "a file within the limit");
@@ -302,7 +302,7 @@ test("loading: after a restart of the server, the file is loaded again", async (
 
 test("loading: after a restart of the server, a field of its data folder is opened again", async () => {
     const folder = await mkdtemp(join(tmpdir(), "oval4d-data-"));
-    const path = `${"a long name of a ".repeat(4)}ball.npy`; // longer than names of objects may be
+    const path = `${"a long name of a ".repeat(4)}ball.npy`; // longer than the name of an object may be
     await writeFile(join(folder, path), ballFile(path).buffer);
     const server = await startReplaceableServer({ options: ["--data", folder] });
     const { page, script, close } = await openWithScript({ url: server.url });
@@ -348,8 +348,8 @@ test("loading: if a polytope cannot be loaded again, the rest of the view is res
     const { page, script, close } = await openWithScript({ url: server.url });
     const corners = Array.from({ length: 16 }, (_, i) => [1, 2, 4, 8].map((bit) => (i & bit ? 1 : -1)).join(" "));
     const object = { name: "another's", format: "points", data: corners.join("\n") };
-    await script.request({ type: "load", ...object }); // not loaded by this page
-    const highlight = { element: "vertex", number: 15 }; // which the object of a new session does not have
+    await script.request({ type: "load", ...object }); // another client loads it, not this page
+    const highlight = { element: "vertex", number: 15 }; // the object of a new session has no such vertex
     const { revision: turned } = await script.request({ type: "set", alpha: 0.25, highlight });
     await presented(page, turned);
     script.leave();

@@ -1,4 +1,5 @@
-// The matrix of planar sections: the elements under the pointer in its panels, and the focus point that they move.
+// The matrix of planar sections: the elements under the pointer in its panels, and the focus point that the pointer
+// moves.
 import assert from "node:assert/strict";
 
 import { assertSame, columnsOf, faceIn, frames, labeled, litAt, loadTesseract, middle, openTurned, rounded, shot } from "./support/pointing.mjs";
@@ -9,7 +10,7 @@ import { rgb } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
 import { touchOf } from "./support/touch.mjs";
 
-const kEdges = 96; // of the 24-cell
+const kEdges = 96; // the number of edges of the 24-cell
 const kFaces = 96;
 const kPoint = [0.2, 0.1, -0.3, 0.15];
 
@@ -20,7 +21,7 @@ async function drawByServer(page) {
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
 }
 
-/** The middle and the cell of the longest edge in a panel. */
+/** The middle of the longest edge in a panel, and the cell from which this edge was cut. */
 function longestEdge({ section, place }) {
     const edges = section.edges.map((ends, e) => {
         const [from, to] = ends.map((p) => place(section.points[p]));
@@ -29,7 +30,10 @@ function longestEdge({ section, place }) {
     return edges.reduce((best, edge) => (edge.length > best.length ? edge : best));
 }
 
-/** Whether the middles of a cell's edges in a panel have become lit; undefined if the panel does not cut the cell. */
+/**
+ * Whether the middles of a cell's edges in a panel have become highlighted. Undefined if the panel does not cut the
+ * cell.
+ */
 function litIn({ section, place }, cell, before, after) {
     const own = section.edges.filter((_, e) => section.of.edges[e] === cell);
     if (own.length === 0) return undefined;
@@ -37,8 +41,8 @@ function litIn({ section, place }, cell, before, after) {
 }
 
 /**
- * The turned vertices of the 24-cell, more exactly than in messages, so that planes pass through them. Before the
- * rotation, their coordinates are integers.
+ * The vertices of the turned 24-cell. They are more exact than in messages, so that planes pass exactly through them.
+ * Before the rotation, their coordinates are integers.
  */
 async function exactVertices(script, coordinates) {
     const { orientation } = await script.state();
@@ -50,11 +54,11 @@ async function exactVertices(script, coordinates) {
     });
 }
 
-const kPixel = 0.045; // more than the coordinates' difference between neighboring pixels of a panel
+const kPixel = 0.045; // more than the coordinates of neighboring pixels of a panel differ
 
 const isNear = (point, expected) => point.every((value, axis) => Math.abs(value - expected[axis]) < kPixel);
 
-/** Waits until the focus point of the session is near this one. */
+/** Waits until the focus point of the session is near `expected`. */
 const pointAt = (script, expected, what) => script.until(({ point }) => isNear(point, expected), what);
 
 test("matrix: a cell under the mouse in a panel is named, and lit in all panels, slices and coordinates", async () => {
@@ -72,7 +76,7 @@ test("matrix: a cell under the mouse in a panel is named, and lit in all panels,
     assert.ok(panels.filter((isLit) => isLit).length >= 4, "the cell is in several panels");
     assert.ok(!panels.includes(false), String(panels));
 
-    // The server lights the same, and knows the same vertices.
+    // The server highlights the same elements, and knows the same vertices.
     const kept = await script.request({ type: "set", highlight: { element: "cell", number: cell } });
     const { highlight, coordinates } = await picture();
     const w = [...highlight.own_vertices].map((v) => coordinates[4 * v + 3]);
@@ -199,7 +203,7 @@ for (const mode of ["geometry", "frames"]) {
         await page.mouse.down();
         for (let i = 1; i <= 10; ++i) {
             await moveTo(...yw.at(0.3 - 0.08 * i, 0.2 + 0.03 * i));
-            await idle(page); // so that each move is sent
+            await idle(page); // so that the page sends each move
         }
         await pointAt(script, [0.2, 0.5, -0.3, -0.5], "the point under the pointer");
         await moveTo(...yw.at(-9, 0.1));
@@ -211,7 +215,7 @@ for (const mode of ["geometry", "frames"]) {
         assert.deepEqual((await script.state()).camera, camera);
         assert.ok(isNear((await press("u")).point, kPoint), "one step");
 
-        // Outside of the panels, a drag orbits; on the diagonal, too.
+        // Outside the panels and on the diagonal, a drag orbits the camera.
         for (const from of [[yw.at(0, 0)[0], yw.at(0, 0)[1] + 2 * yw.half * 2.13], [200, 200]]) {
             const { camera: start } = await script.state();
             await moveTo(...from);

@@ -1,4 +1,4 @@
-// The controls of the frame of reference, in the panel of fields.
+// The controls of the frame of reference in the field panel.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -75,7 +75,7 @@ test("observer: the slider sets the pace, and a drag is one step of undo", async
     await page.mouse.down();
     for (let i = 1; i <= 8; ++i) {
         await page.mouse.move(x + width * (0.5 + 0.04 * i), y + height / 2);
-        await idle(page); // so that each value is sent
+        await idle(page); // so that the page sends each value
     }
     await page.mouse.up();
     const { pace } = await script.until((state) => state.pace > 3, "a faster pace");
@@ -86,7 +86,7 @@ test("observer: the slider sets the pace, and a drag is one step of undo", async
     await script.until((state) => state.pace < pace, "a slower pace");
     await script.request({ type: "undo" });
     assert.equal((await script.state()).pace, pace, "a key is a step of its own");
-    // The thumb follows the undo although the slider has the focus.
+    // The thumb shows the value after an undo, although the slider has the focus.
     const isAtThumb = (value) => Math.abs(document.getElementById("observer-pace").value - Math.log10(value)) < 0.02;
     await page.waitForFunction(isAtThumb, pace);
     await script.request({ type: "set", pace: 0.25 });

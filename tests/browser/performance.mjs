@@ -1,4 +1,4 @@
-// How long a user waits for a picture, compared with what it consists of, measured in the same run.
+// How long a user waits for a picture. The test compares this with the times of the steps, measured in the same run.
 import assert from "node:assert/strict";
 
 import { common, openWithScript, presented, stateAfter } from "./support/browser.mjs";
@@ -9,7 +9,7 @@ const kSamples = 100;
 
 const median = (values) => [...values].sort((a, b) => a - b)[Math.floor(values.length / 2)];
 
-/** Runs in the page: turns the wheel a little, and returns the milliseconds until the moved picture is drawn. */
+/** Runs in the page. Turns the wheel a little, and returns the milliseconds until the moved picture is drawn. */
 async function timeDrawing() {
     const start = performance.now();
     document.getElementById("drawing").dispatchEvent(new WheelEvent("wheel", { deltaY: 1, cancelable: true }));
@@ -26,12 +26,12 @@ for (const polytope of ["8-cell", "600-cell"]) {
             const { clientWidth: width, clientHeight: height } = document.getElementById("drawing");
             return { width, height };
         });
-        const alone = await joinSession((await common()).url); // a session of which no page shows pictures
+        const alone = await joinSession((await common()).url); // a session without a page
         await alone.request({ type: "set", polytope });
         const [answers, drawings] = [[], []];
         for (let i = 0; i < kSamples; ++i) {
             await press("y");
-            // The control: the server makes such a picture, and the page draws one.
+            // The control measurement: the server makes such a picture, and the page draws one.
             const start = performance.now();
             await alone.request({ type: "key", key: "y" });
             await alone.request({ type: "get", what: "slices", ...size });

@@ -1,4 +1,4 @@
-// The page in small windows: on the touch screen of a phone, zoomed in, and on a small desktop.
+// The page in small windows: on a phone's touch screen, zoomed in, and on a small desktop.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -64,7 +64,7 @@ test("phone: the page is usable in landscape orientation", async () => {
 });
 
 test("phone: zoomed to 400%, the picture is as wide as the window, and every control can be reached", async () => {
-    const viewport = { width: 320, height: 256 }; // CSS pixels of a window of 1280 × 1024
+    const viewport = { width: 320, height: 256 }; // CSS pixels of a window of 1280 × 1024 at 400 %
     const { page, script, errors, close } = await openWithScript({ viewport });
     const { width, height } = await page.locator("#drawing").boundingBox();
     assert.ok(width === 320 && height >= 180, `${width} × ${height}`);
@@ -81,7 +81,7 @@ test("phone: zoomed to 400%, the picture is as wide as the window, and every con
 });
 
 test("phone: in small pictures, no name below the parallel coordinates is cut", async () => {
-    /** Records the texts that are drawn. */
+    /** Runs in the page. Records the texts that the page draws. */
     const record = () => {
         const { fillText } = CanvasRenderingContext2D.prototype;
         window.drawn = [];

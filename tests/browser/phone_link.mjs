@@ -1,4 +1,4 @@
-// The dialog that shows the link to the session as a QR code, with which a phone becomes a remote control.
+// The dialog that shows the session's link as a QR code. A phone that scans the code becomes a remote control.
 import assert from "node:assert/strict";
 
 import jsQR from "jsqr";
@@ -10,8 +10,8 @@ import { startServer } from "./support/server.mjs";
 import { test } from "./support/suite.mjs";
 
 /**
- * The text of the QR code that the dialog shows; also checks its ground. Finds only dark modules on a light ground, as
- * some readers do.
+ * Reads the QR code in the dialog. Also checks its background. Like some readers, finds only dark modules on light
+ * ground.
  */
 async function read(page) {
     const code = page.locator("#phone-code");
@@ -109,7 +109,7 @@ test("phone link: a button opens the dialog, which copies the link and says if p
 
 test("phone link: the server's own token is added to the link only if the user wants it", async () => {
     const server = await startServer({ options: ["--token", "let+in"] });
-    const { page, close } = await openPage({ url: server.url, colorScheme: "dark" }); // with cookies of its own
+    const { page, close } = await openPage({ url: server.url, colorScheme: "dark" }); // has cookies of its own
     await ready(page);
     await openDialog(page);
     await page.waitForSelector("#phone-key");
@@ -119,18 +119,18 @@ test("phone link: the server's own token is added to the link only if the user w
     await page.waitForFunction((before) => document.getElementById("phone-link").value !== before, link);
     const open = await read(page);
     assert.equal(new URL(open).searchParams.get("token"), "let+in");
-    const phone = await openPage({ url: open, colorScheme: "light" }); // without the cookies of the other page
+    const phone = await openPage({ url: open, colorScheme: "light" }); // does not have the cookies of the other page
     await ready(phone.page);
     await phone.page.locator("#drawing").focus();
     await phone.page.keyboard.press("n");
     await named(page, "8-cell");
-    await phone.close(); // in Firefox, it has the focus
+    await phone.close(); // in Firefox, this page has the focus
 
     await page.keyboard.press("Escape");
     await page.waitForSelector("#drawing:focus");
     await openDialog(page);
     assert.equal(await page.inputValue("#phone-link"), link, "each time is a choice");
-    // The browser has the token as a cookie, which the page does not know.
+    // The browser has the token as a cookie, which the page cannot read.
     await page.goto(server.url.replace(/\?.*/, ""));
     await ready(page);
     await openDialog(page);
@@ -142,7 +142,7 @@ test("phone link: the server's own token is added to the link only if the user w
 
 test("phone link: a link that is too long for a QR code is shown and copied without one", async () => {
     const server = await startServer({ options: ["--token", "long".repeat(600)] });
-    const { page, close } = await openPage({ url: server.url, colorScheme: "dark" }); // with cookies of its own
+    const { page, close } = await openPage({ url: server.url, colorScheme: "dark" }); // has cookies of its own
     await ready(page);
     await openDialog(page);
     await page.waitForSelector("#phone-key");
@@ -162,7 +162,7 @@ test("phone link: a link that is too long for a QR code is shown and copied with
 });
 
 test("phone link: an address that phones can reach is shown without a warning", async () => {
-    const host = "oval.test"; // stands for the name of the computer in a network
+    const host = "oval.test"; // stands for the computer's name in a network
     const server = await startServer({ options: ["--allow-host", host] });
     const preferences = { "network.dns.localDomains": host, "dom.security.https_first": false };
     const browser = await startBrowser([`--host-resolver-rules=MAP ${host} 127.0.0.1`], preferences);
@@ -173,7 +173,7 @@ test("phone link: an address that phones can reach is shown without a warning", 
     await openDialog(page);
     assert.equal(await page.locator("#phone-loopback").isVisible(), false);
     assert.ok((await read(page)).startsWith(`${url.href}#session=`));
-    await page.click("#phone-copy"); // without HTTPS, the page has no access to the clipboard
+    await page.click("#phone-copy"); // without HTTPS, the page cannot write to the clipboard
     await page.waitForSelector("#phone-link:focus");
     assert.match(await page.locator("#phone-status").textContent(), /Ctrl-C/);
     await close();

@@ -1,4 +1,4 @@
-// The picker: searching for a polytope.
+// The dialog for choosing a polytope: search, choice and errors.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -11,7 +11,7 @@ const listed = (page) =>
 const chosen = (page) => page.locator('#picker-list [aria-selected="true"]').getAttribute("data-name");
 const focused = (page) => page.evaluate(() => document.activeElement.id);
 
-/** Opens the picker and waits for the catalogue. */
+/** Opens the dialog, and waits for the catalogue. */
 async function openPicker(page) {
     await page.keyboard.press("s");
     await page.waitForSelector("#picker-list [role=option]");
@@ -105,7 +105,7 @@ test("picker: works with the mouse alone, and from the button at the top", async
     await script.until((one) => one.polytope.name === "16-cell", "the 16-cell");
     await named(page, "16-cell");
     await page.waitForSelector("#picker:not([open])", { state: "attached" });
-    await press("4"); // the keys act again
+    await press("4"); // keys act on the drawing again
     await page.focus("#polytope");
     await page.keyboard.press("Enter");
     await page.waitForSelector("#picker-list [role=option]");
@@ -159,7 +159,7 @@ test("picker: a name that is not listed is sent as typed; an error is shown and 
     assert.equal((await script.state()).revision, revision);
     await page.keyboard.press("Backspace");
     assert.equal(await page.locator("#picker-error").textContent(), "", "the error disappears with the next key");
-    await page.fill("#picker-search", "Hyper-Cube"); // an alias, with different spelling
+    await page.fill("#picker-search", "Hyper-Cube"); // an alias in another spelling
     await page.keyboard.press("Enter");
     await script.until((one) => one.polytope.name === "8-cell", "the 8-cell");
     assert.deepEqual(errors, []);
@@ -182,7 +182,7 @@ test("picker: an error is shown as a notice if the dialog was closed before the 
 
 test("picker: a choice that is made before the catalogue has arrived closes the dialog, too", async () => {
     const { page, errors, close } = await openWithScript({ before: holdSent });
-    // The server answers the request for the catalogue, then the choice.
+    // The server answers the request for the catalogue first, then the request for the choice.
     await page.evaluate(() => (window.isHeld = ({ what, polytope }) => what === "catalogue" || polytope === "16-cell"));
     await page.keyboard.press("s");
     await page.waitForSelector("#picker[open]");

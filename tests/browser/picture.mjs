@@ -1,4 +1,4 @@
-// The picture: the positions of the slices, and the agreement of both streams.
+// The picture on the page: where the slices are, and that page and server draw the same picture.
 import assert from "node:assert/strict";
 import { inFirefox, test } from "./support/suite.mjs";
 
@@ -60,7 +60,8 @@ for (const [polytope, columns] of [
         const top = Math.floor((1 - layout.zero - layout.amplitude) * height);
         assertSimilar(below(geometry, top), below(await picture(page), top), { mean: 1.5, far: 0.005 });
         if (columns) {
-            // At the highest density the picture differs from the background; at density 0 it is the background.
+            // The picture differs from the background where the density is highest, and equals it where the density is
+            // 0.
             const at = (k) => {
                 const column = k % layout.columns;
                 const row = Math.floor(k / layout.columns);
@@ -119,7 +120,7 @@ const views = [
     },
     { name: "the single view", settings: { polytope: "16-cell", view: "single" } },
     ...toggledViews
-        .filter((view) => view !== "matrix") // which has tests of its own
+        .filter((view) => view !== "matrix") // the matrix has its own tests
         .map((view) => ({ name: `the view ${view}`, settings: { polytope: "24-cell", view } })),
     { name: "101 slices", settings: { polytope: "8-cell", slices: { count: 101, spacing: 0.02 } } },
     { name: "bars alone", settings: { polytope: "120-cell", shown: { faces: false, balls: false } } },
@@ -165,7 +166,7 @@ for (const { name, settings, mean = 1, far = 0.005 } of views) {
     });
 }
 
-/** The part of a picture that shows the matrix. */
+/** The part of a picture that contains the matrix. */
 function matrixOf({ width, height, data }, { left, bottom, step }) {
     const [x, y, side] = [left, 1 - bottom - 4 * step, 4 * step].map((length) => Math.floor(length * height));
     const row = (i) => data.subarray(4 * ((y + i) * width + x), 4 * ((y + i) * width + x + side));
@@ -189,7 +190,7 @@ const matrices = [
     { name: "a tall window", settings: { polytope: "8-cell" }, viewport: { width: 400, height: 1000 }, mean: 0.7 },
     { name: "the focus point beyond the panels", settings: { polytope: "16-cell", point: [5, 0, -5, 0] } },
 ];
-const kEdges = inFirefox ? 2 : 1; // Firefox draws the edges of shapes on 2-D canvases in another way
+const kEdges = inFirefox ? 2 : 1; // Firefox draws the edges of shapes on 2-D canvases differently
 for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of matrices) {
     test(`picture: geometry and frame agree: the matrix: ${name}`, async () => {
         const { page, script, errors, close } = await openWithScript({ browser: await accurateBrowser(), ...(viewport && { viewport }) });
@@ -198,7 +199,7 @@ for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of 
         await script.request({ type: "load", name: "dots", format: "cloud", data: `CLOUD\n${lines.join("\n")}\n` });
         await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.7, 0.3] });
         await script.request({ type: "set", view: "matrix", ...settings });
-        // Without the labels, the only texts in the matrix are the axes' names.
+        // Without the labels, the matrix has no texts but the names of the axes.
         const { revision } = await script.request({ type: "set", highlight: highlight ?? null, shown: { labels: false } });
         await presented(page, revision);
         const geometry = await picture(page);
@@ -213,7 +214,7 @@ for (const { name, settings, highlight, mean = 0.5, far = 0.0015, viewport } of 
     });
 }
 
-/** Records the texts that the page draws on its canvases, and where, in pixels of the canvas. */
+/** Runs in the page. Records the texts that the page draws on its canvases, and their places in canvas pixels. */
 function recordTexts() {
     const { fillText, clearRect } = CanvasRenderingContext2D.prototype;
     CanvasRenderingContext2D.prototype.clearRect = function (...area) {
@@ -301,7 +302,7 @@ test("picture: nothing is drawn unless something changes", async () => {
         let asked = 1;
         const { requestAnimationFrame: ask } = window;
         window.requestAnimationFrame = (callback) => (++asked, ask.call(window, callback));
-        // The work of opening the page takes a moment to finish.
+        // After the page has opened, some work remains for a moment.
         while (asked > 0) {
             asked = 0;
             for (let i = 0; i < 20; ++i) await new Promise((resolve) => ask.call(window, resolve));

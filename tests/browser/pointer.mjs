@@ -1,4 +1,4 @@
-// Gestures on the drawing with the mouse and fingers.
+// Gestures on the drawing with a mouse or with fingers.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -11,7 +11,7 @@ import { touchOf } from "./support/touch.mjs";
 
 const shot = async (page) => decode(await page.locator("#drawing").screenshot());
 
-/** Drags with the mouse while `keys` are held. */
+/** Drags the mouse from one point to another while `keys` are held. */
 async function dragWith(page, keys, from, to) {
     for (const key of keys) await page.keyboard.down(key);
     await page.mouse.move(...from);
@@ -21,11 +21,11 @@ async function dragWith(page, keys, from, to) {
     for (const key of keys) await page.keyboard.up(key);
 }
 
-/** Waits until the polytope has this orientation. */
+/** Waits until the polytope has this orientation, up to a tolerance. */
 const orientationOf = (script, expected, tolerance, what) =>
     script.until(({ orientation }) => isNear(orientation, expected, tolerance), what);
 
-/** Radians by which a drag of one pixel turns. */
+/** The angle in radians by which a drag of one pixel turns the object. */
 const perPixel = (page) => page.evaluate(() => Math.PI / document.getElementById("drawing").clientHeight);
 
 test("pointer: dragging orbits the view, at once and in the session", async () => {
@@ -40,7 +40,7 @@ test("pointer: dragging orbits the view, at once and in the session", async () =
     await presented(page, revision);
     const after = await shot(page);
     assert.ok(compare(before, after).mean > 1);
-    // The server's picture of that state is the same.
+    // The server's picture of this state is the same.
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     await page.locator("#drawing").focus();
@@ -52,7 +52,7 @@ test("pointer: dragging orbits the view, at once and in the session", async () =
 test("pointer: the view follows the mouse before the server has answered", async () => {
     const { page, close } = await openWithScript();
     const before = await shot(page);
-    await page.evaluate(() => (WebSocket.prototype.send = () => {})); // the server receives nothing more
+    await page.evaluate(() => (WebSocket.prototype.send = () => {})); // from now on, the server receives nothing
     await page.mouse.move(500, 300);
     await page.mouse.down();
     await page.mouse.move(380, 300, { steps: 4 });
@@ -85,7 +85,7 @@ test("pointer: one finger orbits, two fingers zoom", async () => {
     const orbited = await script.until((one) => one.camera.azimuth > 0.1, "the orbit by a finger");
     assert.equal(orbited.camera.zoom, 1);
     const { revision } = await script.request({ type: "set", view: "single" });
-    await presented(page, revision); // zooming is limited by the slices in the picture
+    await presented(page, revision); // the slices in this picture limit the zoom
     await send("touchStart", [480, 300], [520, 300]);
     for (const d of [30, 45, 60]) await send("touchMove", [500 - d, 300], [500 + d, 300]);
     await send("touchEnd");
@@ -101,7 +101,7 @@ test("pointer: orbiting and zooming keep half of the slices in the picture, and 
         const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
         const { eye, target } = scene.camera;
         const { zero, amplitude } = scene.coordinates;
-        const lowest = (1 - zero - amplitude) * size.height; // slices below are covered by the parallel coordinates
+        const lowest = (1 - zero - amplitude) * size.height; // the parallel coordinates cover the slices below
         const inFront = ({ position }) => eye.reduce((sum, e, k) => sum + (e - target[k]) * (e - position[k]), 0) > 0;
         const visible = slices.filter((slice) => {
             const [x, y] = project(scene, slice.position, size);
@@ -134,7 +134,7 @@ test("pointer: orbiting and zooming keep half of the slices in the picture, and 
     await page.click("[data-page-tool=geometry]");
     await page.waitForSelector("#drawing[data-drawn-by=geometry]");
     await page.mouse.move(500, 300);
-    // From a position beyond the limit, which a command can choose, the camera can move back.
+    // A command can move the camera beyond the limit. The page can then move it back.
     await script.request({ type: "set", camera: { azimuth: 0, elevation: 0, zoom: 8 } });
     const { revision } = await stateAfter(page, script);
     await presented(page, revision);
@@ -154,7 +154,7 @@ test("pointer: Alt-drag rolls the 4-D ball, Alt-Shift-drag the ball of every sli
     const { page, script, errors, close } = await openWithScript();
     const part = await perPixel(page);
     const { orientation: start, slices, camera } = await script.state();
-    // The object's side that faces the 4-D eye, +w, follows the pointer: +w turns toward +x by a drag to the right.
+    // The side of the object that faces the 4-D eye, +w, follows the pointer. A drag to the right turns +w toward +x.
     await dragWith(page, ["Alt"], [500, 300], [600, 300]);
     let expected = turned(start, ["xw"], [-100 * part]);
     const right = await orientationOf(script, expected, 1e-6, "a drag to the right");
@@ -342,7 +342,7 @@ test("pointer: dragging with the right or the middle button rolls the 4-D ball",
     await close();
 });
 
-/** The point in the page at which a slice's center is drawn. */
+/** The point of the page at which a slice's center is drawn. */
 async function pointOf(page, script, index) {
     const size = await sizeOf(page);
     const { scene, slices } = await script.request({ type: "get", what: "slices", ...size });
@@ -405,7 +405,7 @@ test("pointer: a word is said when zooming stops", async () => {
     await close();
 });
 
-/** Runs in the page: the server refuses the cameras that it sends, and what it asks for to find what is clicked. */
+/** Runs in the page. Makes the server refuse the page's cameras and its questions about clicks. */
 function spoilRequests() {
     const { send } = WebSocket.prototype;
     WebSocket.prototype.send = function (text) {

@@ -1,4 +1,4 @@
-// The element under the pointer: its name, its light in the picture, and the click that keeps it.
+// The element under the pointer: its name, its highlight in the picture, and the click that keeps the highlight.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -7,7 +7,7 @@ import { assertSame, columnsOf, faceIn, frames, label, labeled, litAt, loadTesse
 import { rounded, shot } from "./support/pointing.mjs";
 import { project, rgb, worldPoints } from "./support/scene.mjs";
 
-/** The middles on the screen of the slices' edges around a cell, by slice. */
+/** For each slice, the middles of the edges around a cell's face, on the screen. */
 function edgesAround({ scene, slices }, size, cell) {
     return slices.flatMap((slice) => {
         const f = [...slice.of.faces].indexOf(cell);
@@ -19,7 +19,7 @@ function edgesAround({ scene, slices }, size, cell) {
     });
 }
 
-/** The range of w in which these vertices lie. */
+/** The range of w of these points, as a text in a label. */
 function rangeOf(points) {
     const w = points.map((point) => point[3]);
     return `w ${rounded(Math.min(...w))} … ${rounded(Math.max(...w))}`;
@@ -39,7 +39,7 @@ test("pointing: a cell under the mouse is named, and lit in its slices, the proj
     const lit = await shot(page);
     assert.equal((await script.state()).revision, revision, "pointing changes nothing");
 
-    // The server lights the same.
+    // The server highlights the same parts.
     const kept = await script.request({ type: "set", highlight: { element: "cell", number: cell } });
     const { highlight, projection, scene } = await picture();
     assert.equal(highlight.own_vertices.length, 6, "an octahedron");
@@ -49,7 +49,7 @@ test("pointing: a cell under the mouse is named, and lit in its slices, the proj
     const places = edgesAround(seen, size, cell);
     assert.ok(places.length >= 4, "the cell is in several slices");
     for (const { index, at: points } of places) {
-        if (Math.abs(index) > 4) continue; // others are small, and partly hidden
+        if (Math.abs(index) > 4) continue; // the others are small, and partly hidden
         assert.ok(points.some((point) => litAt(before, lit, point)), `slice ${index}`);
     }
     const [whole] = projection.parts;
@@ -86,7 +86,7 @@ test("pointing: the light ends when the mouse leaves the element or the drawing,
     await moveTo(...at);
     await labeled(page, /^Cell/);
     await moveTo(4, 4);
-    await assertEnded(); // on the background
+    await assertEnded(); // over the background
     await moveTo(...at);
     await labeled(page, /^Cell/);
     await page.hover("#help-button");
@@ -159,7 +159,7 @@ test("pointing: edges and vertices have their lengths and coordinates", async ()
     await moveTo(...project(scene, from.map((x, k) => x + 0.25 * (to[k] - x)), size));
     assert.match(await labeled(page, /^Edge/), /^Edge \d+ · length 2 · w /);
 
-    // The parallel coordinates of that vertex light the same balls.
+    // Pointing at the parallel coordinates of this vertex highlights the same balls.
     await moveTo(4, 4);
     const before = await shot(page);
     await moveTo(...columnsOf(scene, size)(vertex));
@@ -237,7 +237,7 @@ test("pointing: a face is named for its polygon, in both modes", async () => {
     const names = new Set();
     const bars = [...slice.of.edges].map((_, e) => {
         const ends = [...slice.edges.slice(2 * e, 2 * e + 2)].map((v) => project(scene, points[v], size));
-        // Points on the bar, by which other bars can be told to be far away.
+        // Points on the bar. They show whether other bars are far away.
         return Array.from({ length: 101 }, (_, i) => ends[0].map((from, k) => from + (i / 100) * (ends[1][k] - from)));
     });
     const isNear = ([x, y]) => ([left, top]) => Math.hypot(x - left, y - top) < 12;
@@ -276,7 +276,7 @@ test("pointing: the volume follows another object of the same name and with as m
 
 test("pointing: a click keeps the element and moves the focus in one step; the background and Escape end it", async () => {
     const { page, script, press, errors, size, picture, click, close } = await openTurned();
-    await spoken(page, "24-cell"); // from now on, changes are announced
+    await spoken(page, "24-cell"); // from now on, the page announces changes
     const { at, source } = faceIn(await picture(), size, 2);
     await click(...at);
     const kept = await script.until(({ highlight }) => highlight !== null, "the highlight");
@@ -295,7 +295,7 @@ test("pointing: a click keeps the element and moves the focus in one step; the b
     await page.focus("#drawing");
     assert.equal((await press("Escape")).highlight, null);
 
-    // A column of the parallel coordinates
+    // Clicks a column of the parallel coordinates.
     await click(...columnsOf((await picture()).scene, size)(7));
     const { highlight } = await script.until((state) => state.highlight !== null, "a vertex");
     assert.deepEqual(highlight, { element: "vertex", number: 7 });
@@ -350,7 +350,7 @@ test("pointing: the label stays within a narrow drawing, and stars and point clo
     await close();
 });
 
-/** A 4OFF file of the product of a hexagon like the letter L in xy and a square in zw. */
+/** A 4OFF file of the product of an L-shaped hexagon in xy and a square in zw. */
 function productOfLAndSquare() {
     const l = [[-1, -1], [1, -1], [1, 0], [0, 0], [0, 1], [-1, 1]];
     const square = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
@@ -359,8 +359,8 @@ function productOfLAndSquare() {
     const next = (i) => (i + 1) % 6;
     const over = (j) => (j + 1) % 4;
     const faces = [
-        ...square.map((_, j) => around.map((i) => 6 * j + i)), // 0 to 3: L at a vertex of the square
-        ...around.map((i) => square.map((_, j) => 6 * j + i)), // 4 to 9: squares at a vertex of L
+        ...square.map((_, j) => around.map((i) => 6 * j + i)), // 0 to 3: an L at each vertex of the square
+        ...around.map((i) => square.map((_, j) => 6 * j + i)), // 4 to 9: a square at each vertex of the L
         ...square.flatMap((_, j) => around.map((i) => [6 * j + i, 6 * j + next(i), 6 * over(j) + next(i), 6 * over(j) + i])),
     ];
     const cells = [
@@ -428,7 +428,7 @@ test("pointing: elements are found far from the middle of the projection and of 
     await moveTo(...places.reduce((best, at) => (fromMiddle(at) > fromMiddle(best) ? at : best)));
     await labeled(page, /^Vertex \d+ /);
 
-    const data = "CLOUD\n0 0 0 0 5\n1 0 0 0 0.001\n"; // the ball of the first point is larger than the cloud
+    const data = "CLOUD\n0 0 0 0 5\n1 0 0 0 0.001\n"; // the first point's ball is larger than the cloud
     await script.request({ type: "load", name: "large point", format: "cloud", data });
     const shown = await script.request({ type: "set", polytope: "large point", view: "oval", projection: "off" });
     await presented(page, shown.revision);

@@ -1,4 +1,4 @@
-// The label of a field's surfaces, caps and contours: the level, the place in the box and the values there.
+// The label of a field's surfaces, caps and contours: it shows the level, the place in the box and the values.
 import assert from "node:assert/strict";
 
 import { openWithScript, presented, stateAfter } from "./support/browser.mjs";
@@ -13,7 +13,7 @@ const kBox = [[-1, 1], [-1, 1], [-1, 1], [-1, 1]];
 const kBall = { format: "formula", data: "x^2 + y^2 + z^2 + w^2", box: kBox };
 const kBare = { balls: false, bars: false, coordinates: false };
 
-/** Opens the page with a field in one of the modes. */
+/** Opens the page with a field, drawn by the page ("geometry") or by the server ("frames"). */
 async function openField(mode, load, settings, options) {
     const opened = await openWithScript(options);
     const { page, script } = opened;
@@ -25,7 +25,7 @@ async function openField(mode, load, settings, options) {
     return { ...opened, ...(await drawingOf(opened)) };
 }
 
-/** The pixel of the point of a slice that is in the direction of the eye from the center, at this distance from it. */
+/** The pixel of a point of a slice. The point lies from the slice's center toward the eye, at this distance. */
 function facing({ scene }, slice, radius, size) {
     const toEye = scene.camera.eye.map((value, k) => value - slice.position[k]);
     const length = Math.hypot(...toEye);
@@ -73,7 +73,7 @@ for (const mode of kModes) {
         const valueAt = (x, y, z, t) => 20 + 2 * x - y + 3 * z + t;
         const file = { side: 3, valueAt, quantity: "temperature", unit: "K", units: ["s", "m", "m", "km"] };
         const load = { format: "netcdf", data: netcdfWithUnits(file) };
-        const settings = { view: "single", levels: [18], inside: "above" }; // the front of the box is inside
+        const settings = { view: "single", levels: [18], inside: "above" }; // the box's front is inside the body
         const { page, errors, size, picture, moveTo, close } = await openField(mode, load, settings);
         const seen = await picture();
         const slice = seen.slices.find(({ focus }) => focus);
@@ -102,7 +102,7 @@ for (const mode of kModes) {
                 assert.ok(Math.abs(is - expected) < 0.04, text);
             }
         }
-        // A click on a contour moves the focus point there, as a click beside it does.
+        // A click on a contour moves the focus point there, like a click beside the contour.
         await click(...panel.at(0.24, 0.32));
         const { point } = await script.until(({ point: [x] }) => Math.abs(x - 0.24) < 0.02, "the focus point");
         assert.ok(Math.abs(point[1] - 0.32) < 0.02, String(point));
@@ -152,7 +152,7 @@ test("pointing at fields: the values follow the pointer over the surface, and a 
     const secondAt = async (left) => {
         await moveTo(x + left, y);
         const { second_value: expected } = await script.request({ type: "get", what: "at", x: x + left, y, ...size });
-        // The triangles of the page's own picture differ a little from the surface.
+        // The triangles of the page's own picture differ a little from the exact surface.
         await page.waitForFunction((wanted) => {
             const [, text] = / second value (\S+) /.exec(document.getElementById("pointed").textContent) ?? [];
             return text !== undefined && Math.abs(Number(text.replace("−", "-")) - wanted) < 0.01;

@@ -1,4 +1,4 @@
-// Everything that shows the element under the pointer is lit, as if the element were kept.
+// All parts of the picture that show the element under the pointer are highlighted, as if the element were kept.
 import assert from "node:assert/strict";
 
 import { presented } from "./support/browser.mjs";
@@ -8,8 +8,8 @@ import { project, worldPoints } from "./support/scene.mjs";
 import { test } from "./support/suite.mjs";
 
 /**
- * The first of these places around which the server's picture shows one element, of this kind, and what the server says
- * about the place.
+ * Finds the first place around which the server's picture shows one element of this kind. Resolves to the place and to
+ * the server's description of it.
  */
 async function firstWith({ script, size }, element, places) {
     for (const place of places) {
@@ -27,9 +27,8 @@ async function firstWith({ script, size }, element, places) {
 }
 
 /**
- * Points at a place, and asserts that the page lights what is lit when this element is kept. Resolves to the pictures
- * without and with the light, which ends with the pointing, the label, and the message of the picture with the kept
- * element.
+ * Points at a place, and asserts that the page highlights the same as when the element is kept. Resolves to the picture
+ * before, the picture with the highlight, the label, and the message of the picture with the kept element.
  */
 async function pointLikeKept({ page, script, picture, moveTo }, at, pattern) {
     await moveTo(4, 4);
@@ -50,7 +49,7 @@ async function pointLikeKept({ page, script, picture, moveTo }, at, pattern) {
     return { before, lit, text, kept };
 }
 
-/** Asserts that the parallel coordinates of all vertices of the kept element are lit. */
+/** Asserts that the parallel coordinates of all vertices of the kept element are highlighted. */
 function assertColumnsLit({ before, lit, kept }, size, count) {
     const own = [...kept.highlight.own_vertices];
     assert.equal(own.length, count);
@@ -66,13 +65,13 @@ test("pointing light: cells and vertices of a star are lit like kept ones, in sl
     const middles = [...focus.of.faces].map((_, f) => middle(loopOf(focus, f).map((v) => points[v])));
     const { at } = await firstWith(opened, "cell", middles);
     const cell = await pointLikeKept(opened, at, /^Cell .* · w .* … .* · slice w 0$/);
-    assertColumnsLit(cell, size, 12); // of a small stellated dodecahedron
+    assertColumnsLit(cell, size, 12); // the vertices of a small stellated dodecahedron
     assertColumnsLit(await pointLikeKept(opened, columnsOf(scene, size)(7), /^Vertex 7 /), size, 1);
     assert.deepEqual(errors, []);
     await close();
 });
 
-/** A 4OFF file of a Clifford torus. */
+/** A 4OFF file of a Clifford torus with `columns` × `rows` faces. */
 function cliffordTorus(columns, rows) {
     const angles = (count) => Array.from({ length: count }, (_, i) => (2 * Math.PI * i) / count);
     const vertices = angles(columns).flatMap((a) =>
@@ -125,7 +124,7 @@ test("pointing light: without parallel coordinates, elements are lit like kept o
     const name = `Vertex ${vertex.shown.highlight.number} · w ${rounded(vertex.shown.least_w)}`;
     assert.equal((await pointLikeKept(opened, vertex.at, /^Vertex/)).text, name);
 
-    // The range follows a turn.
+    // The range of w follows a rotation.
     await moveTo(...at);
     await labeled(page, /^Cell/);
     const { revision } = await script.request({ type: "rotate", planes: ["xw"], angles: [0.02] });

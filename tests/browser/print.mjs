@@ -1,4 +1,4 @@
-// Printing, and full screen.
+// Printing the picture, and full screen.
 import assert from "node:assert/strict";
 
 import { openWithScript, presented, ready } from "./support/browser.mjs";
@@ -81,7 +81,7 @@ test("print: faces are as opaque as in a picture of the server on white", async 
     await close();
 });
 
-/** Records the sizes of the texts that the page draws on its canvases, in pixels. */
+/** Runs in the page. Records the font sizes, in pixels, of the texts that the page draws on its canvases. */
 function recordSizes() {
     const { fillText, clearRect } = CanvasRenderingContext2D.prototype;
     CanvasRenderingContext2D.prototype.clearRect = function (...area) {

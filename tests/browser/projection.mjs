@@ -8,19 +8,19 @@ import { labeled, openTurned } from "./support/pointing.mjs";
 import { project, worldPoints } from "./support/scene.mjs";
 
 async function picture(page) {
-    await page.evaluate(() => document.activeElement.blur()); // removes the focus frame around the drawing
+    await page.evaluate(() => document.activeElement.blur()); // removes the line around the focused drawing
     const shown = decode(await page.locator("#drawing").screenshot());
     await page.focus("#drawing");
     return shown;
 }
 
-/** Left, top, right and bottom of these points. */
+/** The bounding box of points on the screen: left, top, right and bottom. */
 function boundsOf(points) {
     const [x, y] = [0, 1].map((axis) => points.map((point) => point[axis]));
     return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
 }
 
-/** The points within `box` at which the pictures differ. */
+/** The points within `box` at which two pictures differ. */
 function changedPoints(before, after, [left, top, right, bottom]) {
     const points = [];
     for (let y = Math.ceil(top); y <= bottom; ++y) {
@@ -40,7 +40,7 @@ test("projection: w shows the whole object in the middle of the oval, in the sam
     const { page, script, press, errors, close } = await openWithScript();
     await script.request({ type: "set", polytope: "24-cell" });
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.4, 1.1] });
-    await press("k"); // its picture also shows the changes before
+    await press("k"); // the picture after it also shows the earlier changes
     const without = { geometry: await picture(page) };
     const kinds = ["perspective", "orthogonal"];
     const shown = {};
@@ -74,7 +74,7 @@ test("projection: w shows the whole object in the middle of the oval, in the sam
 });
 
 test("projection: it covers no slice in either stream when the view is moved, and pointing finds the slice", async () => {
-    // From here, the projection is nearer than the focus slice, and about in front of it.
+    // From this camera, the projection is nearer than the focus slice and nearly in front of it.
     const camera = { azimuth: 1.4, elevation: 0.1, zoom: 1 };
     const opened = await openTurned({ view: "single", camera });
     const { page, press, size, moveTo, errors, close } = opened;

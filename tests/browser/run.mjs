@@ -1,10 +1,10 @@
-// Runs the browser tests: `node run.mjs [options] [FILE.mjs …]`. Without files, all but those of the options:
-//   --latencies    instead, the tests that measure speed
+// Runs the browser tests: `node run.mjs [options] [FILE.mjs …]`. Without files, runs all files that the options allow:
+//   --latencies    runs only the tests that measure speed
 //   --firefox      runs the tests in Firefox instead of Chromium
-//   --only FILE    of these tests, only those whose names are the lines of FILE, one after the other in one process
+//   --only FILE    runs only the tests whose names are the lines of FILE, one after another in one process
 //   --junit FILE   writes the results as JUnit XML
-//   --processes N  runs N files at once
-//   --slowdown N   slows the pages N times, to find tests that depend on speed
+//   --processes N  runs N files at the same time
+//   --slowdown N   slows the pages down N times, to find tests that depend on speed
 // OVAL4D names the server's binary, OVAL4D_WEB_ROOT the built page, OVAL4D_CHROMIUM and OVAL4D_FIREFOX the browsers.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname } from "node:path";
@@ -62,7 +62,7 @@ for (const signal of ["SIGINT", "SIGTERM"]) {
     process.on(signal, () => {
         const names = [...runningTests, "the run is completed"];
         for (const name of names) finished({ name, seconds: 0, failure: `interrupted by ${signal}` });
-        finish(); // the processes of the tests end with this one
+        finish(); // the test processes end with this process
     });
 }
 
@@ -77,7 +77,7 @@ if (options.only) {
         finished({ name, seconds: 0, failure: "no test has this name" });
     }
 } else {
-    // Several files at once would disturb the tests that measure speed.
+    // Several files at the same time would disturb the tests that measure speed.
     const processes = options.latencies ? 1 : Number(options.processes);
     await runJobs(files.map((file) => ({ files: [file] })), { processes, finished });
 }

@@ -1,4 +1,4 @@
-// The slider of the focus slice, its marks, and playing.
+// The slider of the focus slice, its marks, and the playing of the focus.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -8,17 +8,17 @@ import { type } from "./support/command_line.mjs";
 const kSlider = "#focus-w";
 const kGolden = (1 + Math.sqrt(5)) / 2;
 
-/** The distinct w of the 600-cell's vertices with a vertex toward +w, in circumradii (Coxeter, table V(iii)). */
+/** The different w of the vertices of a 600-cell with a vertex toward +w, in circumradii (Coxeter, table V(iii)). */
 const k600CellLevels = [-1, -kGolden / 2, -1 / 2, (1 - kGolden) / 2, 0, (kGolden - 1) / 2, 1 / 2, kGolden / 2, 1];
-const kRadius = 2 * kGolden; // the 600-cell's edges have length 2
+const kRadius = 2 * kGolden; // the circumradius of a 600-cell whose edges have length 2
 
-/** Opens the page and shows the 600-cell with a vertex toward +w. */
+/** Opens the page with the 600-cell and a vertex toward +w. */
 async function openSlider(options) {
     const opened = await openWithScript(options);
     await opened.script.request({ type: "set", polytope: "600-cell" });
     const { revision } = await opened.script.request({ type: "toward", element: "vertex", immediately: true });
     await presented(opened.page, revision);
-    // The exact values replace the rounded ones.
+    // Waits until exact values have replaced the rounded ones.
     await opened.page.waitForFunction(
         (most) => Math.abs(document.getElementById("focus-w").max - most) < 1e-12,
         kRadius,
@@ -26,21 +26,21 @@ async function openSlider(options) {
     return opened;
 }
 
-/** Where the marks are, from 0 at the slider's lowest w to 1 at the highest. */
+/** The places of the marks, from 0 at the slider's lowest w to 1 at its highest. */
 const marks = (page) =>
     page.evaluate(() => {
         const outline = document.querySelector("#focus-marks path").getAttribute("d");
         return [...outline.matchAll(/M(\S+) 0V1/g)].map(([, x]) => Number(x));
     });
 
-/** Waits until there are this many marks. */
+/** Waits until the slider has `count` marks. */
 const marked = (page, count) =>
     page.waitForFunction((wanted) => {
         const outline = document.querySelector("#focus-marks path").getAttribute("d") ?? "";
         return outline.split("M").length - 1 === wanted;
     }, count);
 
-/** The point on the slider at a part of the way from its lowest to its highest w. */
+/** The point of the page at the fraction `part` of the slider, from its lowest to its highest w. */
 async function pointAt(page, part) {
     const { x, y, width, height } = await page.locator(kSlider).boundingBox();
     const thumb = await page.evaluate(() =>
@@ -55,7 +55,7 @@ const valueOf = (page) => page.locator(kSlider).evaluate((one) => one.valueAsNum
 const untilAt = (script, w, tolerance, what) => script.until(({ section }) => near(section.w, w, tolerance), what);
 const untilPlaying = (page, isOn = true) => page.waitForSelector(`#focus-play[aria-pressed=${isOn}]`);
 
-/** Waits until the slider stands at this w. */
+/** Waits until the slider is at this w. */
 const untilSliderAt = (page, w) =>
     page.waitForFunction((wanted) => Math.abs(document.getElementById("focus-w").valueAsNumber - wanted) < 1e-6, w);
 
@@ -71,7 +71,7 @@ test("slider: the marks are where vertices lie, and the thumb stands on them", a
     const [left, , width] = await pointAt(page, 0);
     const box = await page.locator("#focus-marks").boundingBox();
     assert.ok(near(box.x, left, 0.5) && near(box.width, width, 0.5), "an end of the marks is the thumb's center there");
-    // A turned 600-cell has a mark for each of its 120 vertices: too many, so that their density is shown.
+    // A turned 600-cell would need a mark for each of its 120 vertices. These are too many, so their density is shown.
     await script.request({ type: "rotate", planes: ["xw", "yz"], angles: [0.123, 0.456] });
     await script.request({ type: "rotate", planes: ["zw"], angles: [0.789] });
     await page.waitForSelector("#focus-marks [data-density][d^='M0 1V']", { state: "attached" });
@@ -94,7 +94,7 @@ test("slider: the marks follow a turn before the exact values are there, and the
         };
     });
     await script.request({ type: "toward", element: "cell", immediately: true });
-    await marked(page, 15); // the sections of the 600-cell that begin with a cell: Coxeter, table V(iii)
+    await marked(page, 15); // sections of the 600-cell that begin with a cell: Coxeter, table V(iii)
     await page.evaluate(() => window.letSearchesPass());
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
@@ -105,7 +105,7 @@ test("slider: the marks follow a turn before the exact values are there, and the
 
 test("slider: the marks follow another object of the same name and with as many elements", async () => {
     const { page, script, errors, close } = await openWithScript();
-    // 0.7 only if the values are exact: the picture has float32 numbers.
+    // The value is 0.7 only if it is exact: the picture has float32 numbers.
     const untilMost = (most) =>
         page.waitForFunction((w) => Math.abs(document.getElementById("focus-w").max - w) < 1e-12, most);
     const load = async (...lengths) => {
@@ -118,7 +118,7 @@ test("slider: the marks follow another object of the same name and with as many 
     await script.request({ type: "set", slices: { focus: 1 } });
     await load(0.7, 0.7, 0.7, 2);
     assert.equal((await marks(page)).length, 3);
-    await script.request({ type: "undo" }); // the first object, with its focus
+    await script.request({ type: "undo" }); // restores the first object with its focus
     await untilMost(0.7);
     assert.deepEqual(errors, []);
     await close();
@@ -270,7 +270,7 @@ test("slider: Play moves the focus to and fro until it is pressed again, at the 
     await page.click("#focus-play");
     await untilPlaying(page);
     assert.equal((await page.locator("#focus-play").innerText()).trim(), "Pause");
-    await page.waitForSelector("#drawing:focus"); // a click leaves the focus
+    await page.waitForSelector("#drawing:focus"); // a click does not move the focus
     await page.selectOption("#focus-speed", "4");
     await script.until(({ playing, speed }) => playing && speed === 4, "the speed");
     await script.until(({ section }) => section.w < 0.9 * kRadius, "the way back from the top");
@@ -313,15 +313,15 @@ test("slider: in the list of speeds, letters are the keys of the page, and arrow
     await page.keyboard.press("Shift+F");
     await script.until(({ speed }) => speed === 2, "the key of the speed");
     const before = await script.state();
-    await page.keyboard.press("2"); // the list's: it may choose a speed that begins with 2, and turns nothing
-    await page.keyboard.press("0"); // likewise: it does not move the focus
+    await page.keyboard.press("2"); // the list gets this key: it may choose a speed, but turns nothing
+    await page.keyboard.press("0"); // the list gets this key, too: the focus does not move
     const { orientation, slices } = await stateAfter(page, script);
     assert.deepEqual([orientation, slices], [before.orientation, before.slices]);
     assert.deepEqual(errors, []);
     await close();
 });
 
-/** The w of the focus slice, with the decimals that the page shows. */
+/** The w of the focus slice as a text, with as many decimals as the page shows. */
 function shownW({ section, slices }) {
     return section.w.toFixed(Math.max(2, Math.ceil(-Math.log10(slices.spacing)) + 1));
 }
@@ -407,7 +407,7 @@ test("slider: the marks of a field are where its body changes its topology, and 
     const data = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09";
     await script.request({ type: "load", name: "tiger", format: "formula", data });
     await marked(page, 4);
-    const expected = [-1, -0.4, 0.4, 1].map((w) => (w + 2) / 4); // ±b ± r, of the box from −2 to 2
+    const expected = [-1, -0.4, 0.4, 1].map((w) => (w + 2) / 4); // ±b ± r, in the box from −2 to 2
     (await marks(page)).forEach((at, i) => assert.ok(near(at, expected[i], 1e-3), `${at}`));
     const { sections } = await script.request({ type: "get", what: "critical" });
     await press("Shift+Digit0"); // )

@@ -1,4 +1,4 @@
-// The values in the header: fields in which they can be changed.
+// The values in the header of the page, and the text fields that change them.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -7,13 +7,13 @@ import { openWithScript, stateAfter } from "./support/browser.mjs";
 const close = (a, b) => Math.abs(a - b) < 1e-9;
 const kRadian = Math.PI / 180;
 
-/** Opens a field with the mouse. */
+/** Opens the text field of a value with the mouse. */
 async function openField(page, name) {
     await page.click(`button:has([data-state-field=${name}])`);
     await page.waitForSelector(`[data-field=${name}]:focus`);
 }
 
-/** Types a value into a field, and waits until the field is closed. */
+/** Types a value into its text field, and waits until the field is closed. */
 async function enter(page, name, text) {
     await openField(page, name);
     await page.keyboard.type(text);
@@ -31,7 +31,7 @@ test("state fields: an angle is typed in degrees or as an expression, and is sho
         "-30": -30 * kRadian,
         "10°": 10 * kRadian,
         "10 deg": 10 * kRadian,
-        "10º": 10 * kRadian, // the ordinal indicator, as Spanish keyboards type it
+        "10º": 10 * kRadian, // the ordinal indicator, which Spanish keyboards type
         "pi/8": Math.PI / 8,
         "pi / sqrt(3) - pi / 8": Math.PI / Math.sqrt(3) - Math.PI / 8,
         "90/4": 22.5 * kRadian,
@@ -64,7 +64,7 @@ test("state fields: a rotation is applied once, even if the field is left before
     await openField(page, "last");
     await page.keyboard.type("xw 10°");
     await page.evaluate(() => {
-        // At once, so that no answer comes between.
+        // All at once, so that no answer arrives in between.
         const input = document.querySelector("[data-field=last]");
         for (let i = 0; i < 2; ++i) input.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
         input.blur();
@@ -196,7 +196,7 @@ test("state fields: works with the keyboard alone; leaving a field applies its t
     await script.request({ type: "set", beta: 1 });
     await page.waitForFunction(() => document.querySelector("[data-state-field=beta]").textContent === "57.3°");
     await page.keyboard.press("Tab");
-    await page.waitForSelector("#state-fields:not(:focus-within)"); // they are one tab stop, also if a value changes
+    await page.waitForSelector("#state-fields:not(:focus-within)"); // the values are one tab stop
     await script.until((one) => close(one.alpha, 25 * kRadian), "the angle of the field that was left");
     await page.focus("button:has([data-state-field=beta])");
     await page.keyboard.press("Space");
@@ -258,7 +258,7 @@ test("state fields: Tab leaves a field that the mouse has opened for what is bes
     await page.keyboard.press("Escape");
     await field("alpha").click();
     await page.waitForSelector("[data-field=alpha]:focus");
-    await field("w").click(); // another one, while the first is open
+    await field("w").click(); // opens another field while the first is open
     await page.waitForSelector("[data-field=w]:focus");
     await page.keyboard.press("Tab");
     assert.equal(await focused(), "export-button", "forward");

@@ -1,4 +1,4 @@
-// A phone turns the polytope as it is turned itself.
+// A phone turns the polytope when the user turns the phone.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -8,7 +8,10 @@ import { assertMatrix, isNear, turned } from "./support/rotation.mjs";
 const phone = { viewport: { width: 375, height: 667 }, deviceScaleFactor: 2, hasTouch: true, isMobile: true };
 const kDegree = Math.PI / 180;
 
-/** Runs in the page: how the device is held, the angle of the screen, and the permission are what the test says. */
+/**
+ * Runs in the page. Replaces the sensors: the test sets the device's orientation, the screen's angle and the
+ * permission.
+ */
 function simulateSensors() {
     const ignoreTrue = (event) => event.isTrusted && event.stopImmediatePropagation();
     window.addEventListener("deviceorientation", ignoreTrue, true);
@@ -23,14 +26,14 @@ async function openPhone() {
     return {
         ...opened,
         simulate: (values) => page.evaluate((given) => void Object.assign(window.simulated, given), values),
-        /** Holds the phone at these angles in degrees; resolves to the state after that. */
+        /** Holds the phone at these angles in degrees. Resolves to the state afterward. */
         async hold(alpha, beta, gamma) {
             const angles = { alpha, beta, gamma };
             const report = (given) => void window.dispatchEvent(new DeviceOrientationEvent("deviceorientation", given));
             await page.evaluate(report, angles);
             return stateAfter(page, script);
         },
-        /** Taps the button for a ball, and waits until it is pressed, or not. */
+        /** Taps the button for a kind of ball, and waits until the button is pressed or no longer pressed. */
         async toggle(ball, isPressed) {
             await page.locator(`[data-page-tool="tilt_${ball}"]`).tap();
             await page.waitForSelector(`[data-page-tool="tilt_${ball}"][aria-pressed=${isPressed}]`);
@@ -49,7 +52,7 @@ test("tilt: each slice turns as the phone does, in one undo step", async () => {
     for (const [alpha, beta] of [[350, 0], [350, 0.1], [349.9, 0], [350, 0]]) {
         assert.equal((await hold(alpha, beta, 0)).revision, revision, "a phone that is not held quite still");
     }
-    assertTurned(await hold(350, 20, 0), start, "yz", 20); // y turns toward z, as the phone's own axes do
+    assertTurned(await hold(350, 20, 0), start, "yz", 20); // like the phone's own axes, y turns toward z
     assertTurned(await hold(350, 0, 0), start, "yz", 0);
     assertTurned(await hold(350, 0, 30), start, "xz", -30);
     assertTurned(await hold(350, 0, 0), start, "xz", 0);
@@ -59,7 +62,7 @@ test("tilt: each slice turns as the phone does, in one undo step", async () => {
     assertTurned(await hold(50, 0, 0), start, "xy", 20);
     assertMatrix((await press("u")).orientation, start);
 
-    // Another command ends the step.
+    // Another command ends the undo step.
     await toggle("3-D", true);
     await hold(0, 0, 0);
     await hold(0, 20, 0);
@@ -78,7 +81,7 @@ test("tilt: each slice turns as the phone does, in one undo step", async () => {
 test("tilt: in 4-D, the side toward +w follows the phone, also on its side", async () => {
     const { page, script, simulate, hold, toggle, errors, close } = await openPhone();
     const { orientation: start } = await script.state();
-    await simulate({ angle: 90 }); // the right side of the phone is at the top
+    await simulate({ angle: 90 }); // the phone's right side is at the top
     await toggle("4-D", true);
     await hold(0, 0, 0);
     const right = await hold(0, 20, 0);
@@ -101,7 +104,7 @@ test("tilt: the page says why it cannot be used, and offers it only on touch scr
     await says("This browser does not tell the page how the device is held.");
     await simulate({ permission: "granted" });
     await toggle("4-D", true);
-    await hold(null, null, null); // as a device without sensors
+    await hold(null, null, null); // like a device without sensors
     await says("This device does not tell how it is held.");
     await page.waitForSelector('[data-page-tool="tilt_4-D"][aria-pressed=false]');
     assert.deepEqual(errors, []);

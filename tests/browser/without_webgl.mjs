@@ -1,4 +1,4 @@
-// Browsers without WebGL.
+// The page in browsers without WebGL, or after the loss of WebGL.
 import assert from "node:assert/strict";
 import { test } from "./support/suite.mjs";
 
@@ -23,7 +23,7 @@ test("without WebGL: the server renders, and the page says why", async () => {
     await browser.close();
 });
 
-/** Loses the WebGL context; the returned function restores it. */
+/** Makes the page lose its WebGL context. The returned function restores the context. */
 async function loseContext(page) {
     const extension = await page.evaluateHandle(() =>
         document.querySelector("#drawing .solids").getContext("webgl2").getExtension("WEBGL_lose_context"),
@@ -63,7 +63,7 @@ test("without WebGL: a restored context does not change the renderer that the us
     await page.click("[data-page-tool=frames]");
     await page.waitForSelector("#drawing[data-drawn-by=frames]");
     const changes = await page.evaluateHandle(() =>
-        // After the listeners of the page, because they are older.
+        // The listeners of the page run before these listeners, because they were added earlier.
         ["lost", "restored"].map((change) => {
             const canvas = document.querySelector("#drawing .solids");
             return new Promise((resolve) => canvas.addEventListener(`webglcontext${change}`, resolve, { once: true }));

@@ -3,7 +3,7 @@ import { inFirefox } from "./suite.mjs";
 
 const kControls = "button, input, select, option, textarea, dialog, [role]";
 
-/** The controls with these roles that assistive technology can reach, {role, name}. */
+/** The controls with these roles that assistive technology can reach, as objects {role, name}. */
 export async function controlsOf(page, roles) {
     if (inFirefox) return (await page.accessible(kControls)).filter((one) => roles.includes(one?.role));
     const session = await page.context().newCDPSession(page);
@@ -13,7 +13,10 @@ export async function controlsOf(page, roles) {
     return controls.map(({ role, name }) => ({ role: role.value, name: name?.value ?? "" }));
 }
 
-/** The names of all elements that match, in the order of the document; undefined for one that cannot be reached. */
+/**
+ * The accessible names of all matching elements, in document order. Undefined for an element that assistive technology
+ * cannot reach.
+ */
 export async function namesOf(page, selector) {
     if (inFirefox) return (await page.accessible(selector)).map((one) => one?.name);
     const session = await page.context().newCDPSession(page);

@@ -1,4 +1,4 @@
-// Starts the browser, which is Chromium or Firefox; helpers for tests of the page.
+// Starts the browser (Chromium or Firefox), and has helpers for tests of the page.
 import { existsSync } from "node:fs";
 
 import { chromium } from "playwright-core";
@@ -10,14 +10,17 @@ import { joinSession } from "./script.mjs";
 import { startServer } from "./server.mjs";
 import { afterTest, atEnd, inFirefox, setBroken } from "./suite.mjs";
 
-// One renderer process for all pages, because starting one takes a quarter of the time of opening a page.
+// All pages share one renderer process, because starting a process takes a quarter of the time that opening a page
+// takes.
 const kArguments = ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--renderer-process-limit=1"];
 
-// The first browser is preferred: it draws no windows, and so needs less processor time.
+// The first browser is preferred. It draws no windows, so it needs less processor time.
 const kBrowsers = ["/usr/bin/chromium-headless-shell", "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
 const executablePath = process.env.OVAL4D_CHROMIUM ?? kBrowsers.find((path) => existsSync(path));
 
-/** Starts a browser; it is closed after all tests. `args` are arguments of Chromium, `preferences` those of Firefox. */
+/**
+ * Starts a browser, which is closed after all tests. `args` are arguments for Chromium; `preferences` are for Firefox.
+ */
 export async function startBrowser(args = [], preferences = {}) {
     const browser = inFirefox
         ? await startFirefox(preferences)
@@ -33,13 +36,14 @@ export async function startBrowser(args = [], preferences = {}) {
 const kOpening = 1000; // milliseconds after which a page has adapted to its size
 const kContextOptions = { viewport: { width: 1280, height: 720 }, colorScheme: "dark" };
 
-// Without a graphics card, pages are composed faster without the emulation of OpenGL, which only WebGL needs then. But 2-D
-// canvases are drawn with other edges, and large WebGL canvases that change all the time are copied.
+// Without a graphics card, pages are composed faster if OpenGL is not emulated for it; then only WebGL uses the
+// emulation. However, 2-D canvases then have slightly different edges, and large WebGL canvases that change all the
+// time are copied.
 const kFaster = "--disable-gpu-compositing";
 
 let accurate;
 
-/** A browser that composes pages as one with a graphics card does. */
+/** A browser that composes pages exactly like a browser with a graphics card. */
 export function accurateBrowser() {
     accurate ??= inFirefox ? common().then(({ browser }) => browser) : startBrowser();
     return accurate;
@@ -48,8 +52,8 @@ export function accurateBrowser() {
 let shared;
 
 /**
- * The server and the browser that most tests share, and a browser context with the usual options. In this context, the
- * page starts faster, because the browser has its files.
+ * The server and the browser that most tests share, with a browser context that has the usual options. The page starts
+ * faster in this context, because the browser already has its files.
  */
 export function common() {
     shared ??= (async () => {
@@ -57,17 +61,17 @@ export function common() {
         void server.ended.then(() => setBroken("the server has ended"));
         const browser = await startBrowser([kFaster]);
         const context = await browser.newContext(kContextOptions);
-        await context.newPage(); // so that closing a test's page does not leave the context without pages
+        await context.newPage(); // keeps the context when the page of a test is closed
         return { server, url: server.url, browser, context };
     })();
     return shared;
 }
 
 /**
- * Opens the page and waits for its first picture. `before` runs in the page before its scripts; `seen` is called with
- * each response; `errors` collects the console's errors and uncaught exceptions. The browser has opened the page
- * before, unless this is the `firstVisit`. If `isStopped` is true, the page's time passes only by passTime(). The page
- * is closed at the end of the test, or if it is `lasting`, after all tests.
+ * Opens the page, and waits for its first picture. `before` runs in the page before its scripts. `seen` is called with
+ * each response. `errors` in the result collects the console's errors and uncaught exceptions. Unless `firstVisit` is
+ * true, the browser has visited the page before. If `isStopped` is true, time passes in the page only by passTime().
+ * The page is closed at the end of the test; a `lasting` page is closed after all tests.
  */
 export async function openPage(given = {}) {
     const { url, browser, picture = true, before, seen, firstVisit = false, isStopped, lasting, ...options } = given;
@@ -95,20 +99,20 @@ export async function openPage(given = {}) {
     return { page, context, errors, close };
 }
 
-/** Lets the page's scripts take this many times as long. */
+/** Slows the page's scripts down `rate` times. */
 async function slowDown(page, rate) {
     const session = await page.context().newCDPSession(page);
     await session.send("Emulation.setCPUThrottlingRate", { rate });
 }
 
 /**
- * Waits until the page has done what previous input asks for: it has nothing to send any more, and all its requests have
- * been answered.
+ * Waits until the page has finished all work that earlier input has caused: it has nothing more to send, and all its
+ * requests are answered.
  */
 export async function idle(page) {
     const quiet = page.evaluate(async () => {
         const { dataset } = document.getElementById("connection");
-        // A request may be sent in the next animation frame, or in one after a timer.
+        // The page may still send a request in the next animation frame, or in a frame after a timer.
         for (let frames = 0; frames < 3; frames = dataset.unanswered === "0" ? frames + 1 : 0) {
             await new Promise((resolve) => setTimeout(resolve));
             await new Promise((resolve) => requestAnimationFrame(resolve));
@@ -117,13 +121,13 @@ export async function idle(page) {
     await within(quiet, "the answers to all requests of the page");
 }
 
-/** The state of the session after everything that the page was asked to do. */
+/** The state of the session after the page has done everything that it was asked to do. */
 export async function stateAfter(page, script) {
     await idle(page);
     return script.state();
 }
 
-/** Waits until the page's texts and controls show this revision or a newer one, or the page has no connection. */
+/** Waits until the page's texts and controls show this revision or a newer one, or until the page has no connection. */
 async function shown(page, revision) {
     await page.waitForFunction((least) => {
         const { kind, revision } = document.getElementById("connection").dataset;
@@ -131,7 +135,7 @@ async function shown(page, revision) {
     }, revision);
 }
 
-/** Waits until the page has presented the picture of this revision or a newer one. */
+/** Waits until the page has presented the picture of this revision or of a newer one. */
 export async function presented(page, revision) {
     await page.waitForFunction(
         (least) => {
@@ -142,12 +146,12 @@ export async function presented(page, revision) {
     );
 }
 
-/** Waits until the key table has arrived and the tools are shown. */
+/** Waits until the key table has arrived and the tools are visible. */
 export async function ready(page) {
     await page.waitForSelector("[data-action=help]", { state: "attached" });
 }
 
-/** Joins the page's session with a script. */
+/** Joins the session of the page with a script, as a second client. */
 export async function scriptFor(page, url) {
     const credentials = await page.evaluate(() => {
         return JSON.parse(sessionStorage.getItem(`oval4d.session ${location.pathname}`)).credentials;
@@ -155,7 +159,7 @@ export async function scriptFor(page, url) {
     return joinSession(url ?? (await common()).url, credentials);
 }
 
-/** Replaces the server of a page by another one; waits until the page says that its session is new. */
+/** Replaces the server of a page by another server. Waits until the page says that its session is new. */
 export async function restart(server, page) {
     await server.stop();
     await page.waitForSelector("#connection[data-kind=waiting]");
@@ -169,12 +173,12 @@ export async function named(page, polytope) {
     await page.waitForFunction((name) => document.querySelector("#polytope b")?.textContent === name, polytope);
 }
 
-/** Waits until the page announces a change of the session by a text that contains `text`. */
+/** Waits until the page announces to screen readers a text that contains `text`. */
 export async function spoken(page, text) {
     await page.waitForFunction((wanted) => document.getElementById("spoken").textContent.includes(wanted), text);
 }
 
-/** The values of the state that the page displays. */
+/** The values of the state that the page displays, by name. */
 export async function shownValues(page) {
     return page.evaluate(() => {
         const outputs = [...document.querySelectorAll("[data-state-field]")];
@@ -183,14 +187,14 @@ export async function shownValues(page) {
     });
 }
 
-/** Opens the page, and joins its session with a script. */
+/** Opens the page, and joins its session with a script as a second client. */
 export async function openWithScript(options) {
     const opened = await openPage(options);
     await ready(opened.page);
     const joined = await scriptFor(opened.page, options?.url);
     const script = {
         ...joined,
-        /** Waits for a state for which `holds` is true, and until the page shows it or has no connection. */
+        /** Waits for a state for which `holds` returns true, and until the page shows it or has no connection. */
         async until(holds, what) {
             const state = await joined.until(holds, what);
             await shown(opened.page, state.revision);
@@ -200,7 +204,7 @@ export async function openWithScript(options) {
     return {
         ...opened,
         script,
-        /** Presses keys; resolves to the changed state once its picture has been presented. */
+        /** Presses keys. Resolves to the changed state after the page has presented its picture. */
         async press(...keys) {
             const { revision } = await script.state();
             for (const key of keys) await opened.page.keyboard.press(key);

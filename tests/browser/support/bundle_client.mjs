@@ -1,4 +1,4 @@
-// Bundles what the tests import of the TypeScript sources. It must be bundled before script.mjs is imported.
+// Bundles the TypeScript sources that the tests import. This must be done before script.mjs is imported.
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 
@@ -7,7 +7,7 @@ import { buildSync } from "esbuild";
 const browserTests = join(dirname(fileURLToPath(import.meta.url)), "..");
 const top = join(browserTests, "../..");
 
-/** Bundles the TypeScript client, its decoder, the reader of keys and the colors for printing for the tests. */
+/** Bundles the TypeScript client, its decoder, the code that reads keys, and the colors for printing. */
 export function bundleClient() {
     buildSync({
         entryPoints: {

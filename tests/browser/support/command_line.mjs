@@ -1,4 +1,4 @@
-// The command line: typing into it, and what the server says of its commands.
+// The command line: typing into it, and the names that the server lists.
 import { readFileSync } from "node:fs";
 
 export const { commands } = JSON.parse(readFileSync(new URL("../../../protocol/commands.json", import.meta.url), "utf8"));
@@ -11,7 +11,7 @@ export async function type(page, line) {
     await page.keyboard.press("Enter");
 }
 
-/** The names that the server lists in its answer to this line. */
+/** The names of commands or settings that the server lists when it refuses this line. */
 export async function listedBy(script, line) {
     const answer = await script.request({ type: "command", line }).catch(({ message }) => message);
     const [, list] = /; the (?:commands|settings) are (.*)$/.exec(answer);

@@ -1,4 +1,4 @@
-// The encodings of slices.
+// The names of the encodings of `slices` messages.
 import { readFileSync } from "node:fs";
 
 const schema = JSON.parse(readFileSync(new URL("../../../protocol/schema/hello.schema.json", import.meta.url), "utf8"));

@@ -1,17 +1,17 @@
-// The panel of a field, and the surfaces of its slices.
+// The field panel, and the surfaces of a field's slices.
 import { named, openWithScript, presented } from "./browser.mjs";
 import { passTime } from "./page_time.mjs";
 import { pixelAt } from "./pixels.mjs";
 import { project } from "./scene.mjs";
 
-const kLong = 1000; // milliseconds after which what was typed has been sent
+const kLong = 1000; // milliseconds after which the page has sent what was typed
 const stoppedPages = new WeakSet();
 
-/** Opens the panel, and waits for its field. */
+/** Opens the page and the field panel, and waits for the field. */
 export async function openPanel(options) {
     const opened = await openWithScript(options);
     if (options?.isStopped) stoppedPages.add(opened.page);
-    await opened.page.locator("[data-page-tool=field]").dispatchEvent("click"); // on a phone it may be in a closed tab
+    await opened.page.locator("[data-page-tool=field]").dispatchEvent("click"); // may be in a closed tab
     const { revision } = await opened.script.until((state) => state.levels !== undefined, "a field");
     await loaded(opened.page);
     await presented(opened.page, revision);
@@ -21,7 +21,7 @@ export async function openPanel(options) {
 
 export const formula = (page) => page.inputValue("#field-formula");
 
-/** Waits until the panel has no answer to wait for: a field is loaded by several requests. */
+/** Waits until the panel waits for no answer. Loading a field takes several requests. */
 const loaded = (page) => page.waitForSelector("#field[aria-busy=false]", { state: "attached" });
 
 /** Writes a formula, and waits until its picture is presented. */
@@ -29,7 +29,7 @@ export function write(page, script, text) {
     return change(page, script, "#field-formula", text);
 }
 
-/** Fills a control of a field, and waits until the field with its settings is loaded and presented. */
+/** Fills a control of the field panel. Waits until the field with its settings is loaded and presented. */
 export async function change(page, script, selector, text) {
     const before = (await script.state()).revision;
     await page.fill(selector, text);
@@ -41,7 +41,7 @@ export async function change(page, script, selector, text) {
     return state;
 }
 
-/** The surfaces of the focus slice. */
+/** The surface of the focus slice, with the scene and the size of the picture. */
 export async function focusSurface(page, script) {
     const { width, height } = await page.locator("#drawing").boundingBox();
     const { scene, slices } = await script.request({ type: "get", what: "slices", width, height });
@@ -49,11 +49,11 @@ export async function focusSurface(page, script) {
     return { scene, slice, surface: slice.surface, size: { width, height } };
 }
 
-/** The pixels at the points of the focus slice's surface that lie nearest to the eye. */
+/** The pixels at the points of the focus slice's surface that are nearest to the eye. */
 export function surfacePixels(shown, { scene, slice, surface, size }) {
     const pixels = [];
     for (let i = 0; i < surface.points.length; i += 3) {
-        if (surface.normals[i + 2] < 0.7) continue; // not toward the eye
+        if (surface.normals[i + 2] < 0.7) continue; // does not face the eye
         const world = slice.position.map((at, k) => at + scene.scale * surface.points[i + k]);
         const [x, y] = project(scene, world, size);
         pixels.push(pixelAt(shown, Math.floor(x), Math.floor(y)));

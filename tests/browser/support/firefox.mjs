@@ -1,5 +1,5 @@
-// Starts Firefox, which Puppeteer drives over WebDriver BiDi, and gives it the part of Playwright's interface that the
-// tests use, so that they are the same in both browsers.
+// Starts Firefox. Puppeteer drives it over WebDriver BiDi. This module offers the part of Playwright's interface that
+// the tests use, so that the tests are the same in both browsers.
 import { spawn } from "node:child_process";
 import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -14,7 +14,7 @@ import { atEnd } from "./suite.mjs";
 const kBrowsers = ["/usr/bin/firefox-esr", "/usr/bin/firefox"];
 const executablePath = process.env.OVAL4D_FIREFOX ?? kBrowsers.find((path) => existsSync(path));
 
-/** Starts an X server without a screen: headless Firefox has no WebGL. Returns the number of the display. */
+/** Starts an X server without a screen, because headless Firefox has no WebGL. Returns the number of the display. */
 async function startDisplay() {
     const server = spawn("Xvfb", ["-displayfd", "3", "-screen", "0", "1600x1200x24", "-nolisten", "tcp"], {
         stdio: ["ignore", "ignore", "ignore", "pipe"],
@@ -38,17 +38,17 @@ export async function startFirefox(preferences = {}) {
     const browser = await puppeteer.launch({
         ...{ timeout: kHangLimit, protocolTimeout: kHangLimit },
         ...{ browser: "firefox", executablePath, headless: false, env: { ...process.env, DISPLAY: `:${display}` } },
-        args: ["--remote-allow-system-access"], // to set what the user prefers, and whether there is a touch screen
+        args: ["--remote-allow-system-access"], // to set the user's preferences and the touch screen
         defaultViewport: null,
         extraPrefsFirefox: {
             "browser.download.folderList": 2,
             "browser.download.dir": downloads,
             "browser.download.alwaysOpenPanel": false,
-            "browser.download.viewableInternally.enabledTypes": "", // downloads are not shown in tabs
+            "browser.download.viewableInternally.enabledTypes": "", // so that downloads are not shown in tabs
             "pdfjs.disabled": true,
-            "dom.events.testing.asyncClipboard": true, // pages may read the clipboard without asking the user
+            "dom.events.testing.asyncClipboard": true, // pages may read the clipboard without asking
             "dom.w3c_touch_events.enabled": 1,
-            "ui.key.menuAccessKeyFocuses": false, // Alt alone does not open the menu of the browser
+            "ui.key.menuAccessKeyFocuses": false, // Alt alone does not open the browser's menu
             ...preferences,
         },
     });
@@ -57,7 +57,7 @@ export async function startFirefox(preferences = {}) {
     return started;
 }
 
-/** The properties of Firefox's BrowsingContext that what emulateMedia() of Playwright calls by these names sets. */
+/** Maps options of Playwright's emulateMedia() to the properties of Firefox's BrowsingContext that they set. */
 const kMedia = {
     media: ["mediumOverride", (value) => (value === "print" ? "print" : "")],
     colorScheme: ["prefersColorSchemeOverride", (value) => value],
@@ -66,7 +66,7 @@ const kMedia = {
 
 const kFingers = 1; // a coarse pointer that cannot hover
 
-/** Preferences that the options of a context set for all pages, while it is open. */
+/** The preferences that the options of an open context set for all pages. */
 const kPreferences = {
     colorScheme: (value) => ({ "layout.css.prefers-color-scheme.content-override": value === "light" ? 1 : 0 }),
     hasTouch: (has) => has && { "ui.primaryPointerCapabilities": kFingers, "ui.allPointerCapabilities": kFingers },
@@ -77,7 +77,7 @@ class FirefoxBrowser {
     #browser;
     #chrome; // the window of the browser's own user interface
     #folder; // for temporary files
-    #contexts = new Set(); // the open ones
+    #contexts = new Set(); // the open contexts
     #pages = new Map(); // by the identifiers of their browsing contexts
 
     constructor(browser, folder) {
@@ -85,7 +85,7 @@ class FirefoxBrowser {
         this.#folder = folder;
     }
 
-    /** Finds the browser's own window, and listens to what Puppeteer does not report. */
+    /** Finds the window of the browser's own user interface, and listens to events that Puppeteer does not report. */
     async begin() {
         const { contexts } = await this.send("browsingContext.getTree", { "moz:scope": "chrome" });
         this.#chrome = contexts[0].context;
@@ -95,7 +95,7 @@ class FirefoxBrowser {
         connection.on("browsingContext.downloadWillBegin", ({ context, suggestedFilename, url }) => {
             const ended = new Promise((resolve, reject) => {
                 const listen = (end) => {
-                    if (end.url !== url) return; // each file has a URL of its own
+                    if (end.url !== url) return; // each file has its own URL
                     connection.off("browsingContext.downloadEnd", listen);
                     if (end.status === "complete") resolve(end.filepath);
                     else reject(new Error(`the download was ${end.status}`));
@@ -112,7 +112,10 @@ class FirefoxBrowser {
         return result;
     }
 
-    /** Evaluates an expression in the browser's own window; resolves to the value if it is a text. */
+    /**
+     * Evaluates an expression in the window of the browser's own user interface. Resolves to the value, which must be a
+     * text.
+     */
     async evaluateInBrowser(expression) {
         const target = { context: this.#chrome };
         const answer = await this.send("script.evaluate", { expression, target, awaitPromise: true });
@@ -121,8 +124,8 @@ class FirefoxBrowser {
     }
 
     /**
-     * What assistive technology gets of each element that matches, {role, name}; undefined if it gets nothing. `isDrawn`
-     * says which of them are drawn. WebDriver BiDi only finds elements by role and name, but Firefox's older driver tells
+     * What assistive technology is told about each matching element, as {role, name}; undefined if nothing. `isDrawn`
+     * tells which elements are drawn. WebDriver BiDi can only search by role and name; Firefox's older driver tells
      * both.
      */
     async accessible(page, selector, isDrawn) {
@@ -147,13 +150,13 @@ class FirefoxBrowser {
         return JSON.parse(found).map((one) => one ?? undefined);
     }
 
-    /** Sets preferences, [name, number]. */
+    /** Sets preferences of Firefox, given as pairs [name, number]. */
     async prefer(preferences) {
         const set = ([name, number]) => `Services.prefs.setIntPref(${JSON.stringify(name)}, ${number});`;
         if (preferences.length > 0) await this.evaluateInBrowser(preferences.map(set).join(" "));
     }
 
-    /** Adds a key to WebDriver's keyboard, which is American: `value` names it, its events have `key` and `code`. */
+    /** Adds a key to WebDriver's American keyboard. `value` names the key; its events have `key` and `code`. */
     async defineKey(value, { key, code }) {
         const path = "chrome://remote/content/shared/webdriver/KeyData.sys.mjs";
         const added = { key, code, location: 0, printable: true, shifted: false };
@@ -164,7 +167,7 @@ class FirefoxBrowser {
         }`);
     }
 
-    /** Takes the preferences of a context back, and sets those of the other contexts again. */
+    /** Removes the preferences of a closed context, and sets those of the other contexts again. */
     async closedContext(context) {
         this.#contexts.delete(context);
         const reset = ([name]) => `Services.prefs.clearUserPref(${JSON.stringify(name)});`;
@@ -190,12 +193,12 @@ class FirefoxBrowser {
         this.#pages.delete(page.id);
     }
 
-    /** Whether a new page needs a window of its own to be drawn: in a window, only the tab in front is. */
+    /** Whether a new page needs its own window to be drawn. In a window, only the front tab is drawn. */
     get isShowing() {
         return this.#pages.size > 1;
     }
 
-    /** Writes files, {name, buffer}, and returns their paths. */
+    /** Writes files, given as {name, buffer}, to a temporary folder. Returns their paths. */
     async written(files) {
         const folder = mkdtempSync(join(this.#folder, "chosen-"));
         return files.map(({ name, buffer }) => {
@@ -211,8 +214,9 @@ class FirefoxBrowser {
 }
 
 /**
- * Pages with the same options and storage. Of Playwright's options, `permissions` need nothing here, because all pages may
- * use the clipboard; `isMobile` has no meaning in a browser for computers, which is only as narrow as a phone then.
+ * Pages with the same options and storage. Two of Playwright's options do nothing here. `permissions` is not needed,
+ * because all pages may use the clipboard. `isMobile` is meaningless in a desktop browser, which is then only as narrow
+ * as a phone.
  */
 class FirefoxContext {
     #context;
@@ -235,13 +239,13 @@ class FirefoxContext {
         return page;
     }
 
-    /** The preferences that the options set, [name, number]. */
+    /** The preferences that the options set, as pairs [name, number]. */
     get preferences() {
         const given = Object.entries(kPreferences).filter(([option]) => this.options[option] !== undefined);
         return given.flatMap(([option, of]) => Object.entries(of(this.options[option]) || {}));
     }
 
-    /** Sets what the page's media features say. Firefox forgets it when a page replaces one from another site. */
+    /** Sets the page's media features. Firefox forgets them when a page from another site follows. */
     async emulateMedia(page, media) {
         const path = "chrome://remote/content/shared/NavigableManager.sys.mjs";
         for (const [name, value] of Object.entries(media)) {

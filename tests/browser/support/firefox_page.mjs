@@ -8,13 +8,13 @@ import { Readable } from "node:stream";
 import { within } from "./hang_limit.mjs";
 import { ofElements } from "./in_page.mjs";
 
-/** Options of Playwright that this file does not know must not be ignored. */
+/** Throws an Error for options of Playwright that this file does not know, because they must not be ignored. */
 function assertNone(options) {
     const [unknown] = Object.keys(options);
     if (unknown !== undefined) throw new Error(`support/firefox_page.mjs does not know the option ${unknown}`);
 }
 
-/** Reports events by name; a listener is called with each. */
+/** Reports events by name to listeners. */
 class Events {
     #listeners = new Map();
 
@@ -30,7 +30,7 @@ class Events {
         for (const listener of this.#listeners.get(event) ?? []) listener(value);
     }
 
-    /** The value of the next such event. */
+    /** A promise of the value of the next event with this name. */
     next(event) {
         return new Promise((resolve) => {
             const listener = (value) => (this.off(event, listener), resolve(value));
@@ -43,7 +43,7 @@ export class FirefoxPage {
     #page;
     #context;
     #events = new Events();
-    #routes = new Map(); // handlers by patterns of URLs
+    #routes = new Map(); // handlers by URL patterns
     #viewport;
 
     /** `page` is a page of Puppeteer. */
@@ -87,7 +87,7 @@ export class FirefoxPage {
         return { setFiles: async (files) => chooser.accept(await this.#context.browser.written(files)) };
     }
 
-    // Puppeteer's functions with the same meaning.
+    // Functions that Puppeteer has with the same meaning.
 
     setDefaultTimeout(limit) {
         this.#page.setDefaultTimeout(limit);
@@ -116,7 +116,10 @@ export class FirefoxPage {
         return this.#traverseHistory(1);
     }
 
-    /** Puppeteer waits for an event "load", which a document that Firefox has kept does not have. */
+    /**
+     * Moves in the browser's history. Puppeteer would wait for the event "load", which a document kept by Firefox does
+     * not have.
+     */
     async #traverseHistory(delta) {
         await this.evaluate(() => {
             window.isLeaving = true;
@@ -148,7 +151,7 @@ export class FirefoxPage {
         return Buffer.from(await this.#page.pdf());
     }
 
-    /** Runs a function in the page before its scripts, but not in the blank page from which the browser starts. */
+    /** Runs a function in the page before its scripts. Does not run it in the browser's initial blank page. */
     addInitScript(run, given) {
         const argument = given === undefined ? "" : JSON.stringify(given);
         const call = typeof run === "string" ? `{ ${run} }` : `(${run})(${argument})`;
@@ -178,7 +181,7 @@ export class FirefoxPage {
         await this.waitForFunction(([w, h]) => innerWidth === w && innerHeight === h, [width, height]);
     }
 
-    /** Sets how many pixels a CSS pixel has; Puppeteer would also set the size of the page. */
+    /** Sets the number of device pixels per CSS pixel. Puppeteer's own function would also set the page's size. */
     setPixelRatio(devicePixelRatio) {
         return this.#context.browser.send("browsingContext.setViewport", { context: this.id, devicePixelRatio });
     }
@@ -195,7 +198,7 @@ export class FirefoxPage {
         return Buffer.from(await handle.screenshot());
     }
 
-    /** Answers requests whose URLs match a pattern with * by `handle`. */
+    /** Lets `handle` answer the requests whose URLs match a pattern; ** in it stands for any text. */
     async route(pattern, handle) {
         const parts = pattern.split("**").map((part) => part.replace(/[.?+^$()[\]{}|\\]/g, "\\$&"));
         this.#routes.set(pattern, { matches: new RegExp(`^${parts.join(".*")}$`), handle });
@@ -213,7 +216,7 @@ export class FirefoxPage {
         return route.handle({ fulfill: (answer) => request.respond(answer) });
     }
 
-    // Elements.
+    // Methods about elements.
 
     locator(selector, options) {
         return new Locator(this, []).locator(selector, options);
@@ -283,7 +286,7 @@ export class FirefoxPage {
         return this.locator(selector).setInputFiles(files);
     }
 
-    /** Calls ofElements() once. */
+    /** Calls ofElements() once in the page. */
     find(...given) {
         return this.#page.evaluate(ofElements, ...given);
     }
@@ -292,36 +295,38 @@ export class FirefoxPage {
         return this.#page.evaluateHandle(ofElements, ...given);
     }
 
-    /** Calls ofElements() until it returns something true. */
+    /** Calls ofElements() in the page repeatedly, until it returns something true. */
     async until(...given) {
         const handle = await this.#page.waitForFunction(ofElements, {}, ...given);
         return handle.jsonValue();
     }
 
-    /** What assistive technology gets of each element that matches, {role, name}; undefined if it gets nothing. */
+    /** What assistive technology is told about each matching element, as {role, name}; undefined if nothing. */
     async accessible(selector) {
         const isDrawn = await this.evaluate(async (wanted) => {
-            // Firefox tells assistive technology what has changed when it draws the page.
+            // Firefox tells assistive technology about changes when it draws the page.
             for (let frames = 0; frames < 2; ++frames) await new Promise((resolve) => requestAnimationFrame(resolve));
             return [...document.querySelectorAll(wanted)].map((one) => one.checkVisibility());
         }, selector);
         return this.#context.browser.accessible(this, selector, isDrawn);
     }
 
-    // Input.
+    // Methods for input.
 
     defineKey(value, events) {
         return this.#context.browser.defineKey(value, events);
     }
 
-    /** Performs the actions of input sources, as in the command input.performActions of WebDriver BiDi. */
+    /** Performs actions of input devices, given as for WebDriver BiDi's command input.performActions. */
     perform(actions) {
         return this.#context.browser.send("input.performActions", { context: this.id, actions });
     }
 
     #fingers = 0;
 
-    /** Sends a touch event with a finger at each of the points, like the command Input.dispatchTouchEvent of DevTools. */
+    /**
+     * Sends a touch event with one finger at each of the points, like the DevTools command Input.dispatchTouchEvent.
+     */
     async touch(type, ...points) {
         const sources = (actionsOf) =>
             Array.from({ length: points.length || this.#fingers }, (_, id) => ({
@@ -341,7 +346,10 @@ export class FirefoxPage {
     }
 }
 
-/** Elements of a page, which are looked for at each use. All functions but count(), all(), isVisible() wait for one. */
+/**
+ * A description of elements in a page, which are searched anew at each use. All methods except count(), all() and
+ * isVisible() wait until an element exists.
+ */
 class Locator {
     #page;
     #steps;
@@ -484,7 +492,7 @@ class Locator {
         return this.#page.screenshotOf(await this.#page.findHandle(this.#steps, "first"));
     }
 
-    /** Waits until a user can press the element, and returns where. */
+    /** Waits until a user could press the element. Returns the point to press. */
     #pressablePoint(position = null) {
         return this.#page.until(this.#steps, "pressablePoint", position);
     }
@@ -526,7 +534,7 @@ class Locator {
     }
 }
 
-// Names of keys that have no character, as WebDriver writes them: https://www.w3.org/TR/webdriver2/#keyboard-actions
+// WebDriver's codes for keys without a character: https://www.w3.org/TR/webdriver2/#keyboard-actions
 const kKeys = {
     ...{ Backspace: "\ue003", Tab: "\ue004", Enter: "\ue007", Shift: "\ue008", Control: "\ue009", Alt: "\ue00a" },
     ...{ Escape: "\ue00c", Space: " ", PageUp: "\ue00e", PageDown: "\ue00f", End: "\ue010", Home: "\ue011" },
@@ -536,9 +544,9 @@ const kKeys = {
     ...{ Semicolon: ";", Quote: "'", Backquote: "`", Backslash: "\\" },
 };
 
-const kOtherKey = "\ue100"; // a value that WebDriver does not use
+const kOtherKey = "\ue100"; // a code that WebDriver does not use
 
-/** The value of a key that Playwright calls by this name. */
+/** The WebDriver code of the key with this name in Playwright. */
 function valueOf(name) {
     if (kKeys[name]) return kKeys[name];
     const [, letter, digit, pad, f] = /^(?:Key([A-Z])|Digit(\d)|Numpad(\d)|F(\d+))$/.exec(name) ?? [];
@@ -550,7 +558,7 @@ function valueOf(name) {
     return name;
 }
 
-/** Keys in Playwright's notation, such as "Shift+Digit4". */
+/** A keyboard that takes keys in Playwright's notation, such as "Shift+Digit4". */
 class Keyboard {
     #page;
 
@@ -575,7 +583,10 @@ class Keyboard {
         return this.#pressTogether([...held.split("+").filter(Boolean), key].map(valueOf));
     }
 
-    /** Presses a key of a keyboard with another layout: `key` is what it types, and `code` where it is. */
+    /**
+     * Presses a key of a keyboard with another layout. `key` is what the key types; `code` is its place on the
+     * keyboard.
+     */
     async pressOther({ key, code, shift }) {
         await this.#page.defineKey(kOtherKey, { key, code });
         await this.#pressTogether([...(shift ? [kKeys.Shift] : []), kOtherKey]);
@@ -643,7 +654,7 @@ class Mouse {
     }
 }
 
-/** A file that a page downloads. `ended` resolves to its path. */
+/** A file that a page downloads. `ended` resolves to the file's path. */
 export class Download {
     #name;
     #bytes;
@@ -651,10 +662,10 @@ export class Download {
     constructor(name, ended) {
         this.#name = name;
         this.#bytes = this.#take(ended);
-        this.#bytes.catch(() => {}); // whoever reads the file gets the error
+        this.#bytes.catch(() => {}); // the reader of the file gets the error
     }
 
-    /** Reads the file and removes it: Firefox would give the next file of this name another one. */
+    /** Reads the file, then removes it. Otherwise Firefox would rename the next file with the same name. */
     async #take(ended) {
         const path = await within(ended, `the download of ${this.#name}`);
         const bytes = await readFile(path);

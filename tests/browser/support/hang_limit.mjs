@@ -1,11 +1,12 @@
-// The only time limit of the tests: what has not happened after it counts as hanging. No test depends on how fast the
-// machine is below this limit.
+// The only time limit of the tests. What takes longer counts as hanging. No test depends on how fast the machine is.
 import { readFileSync } from "node:fs";
 
-/** In milliseconds. The tests in every language read the same file. */
+/** The time limit in milliseconds. Tests in all languages read the same file. */
 export const kHangLimit = 1000 * Number(readFileSync(new URL("../../hang_limit_seconds", import.meta.url), "utf8"));
 
-/** Returns the promise's value; throws an error that names `what` if the promise hangs. */
+/**
+ * Resolves to the promise's value. Throws an error that names `what` if the promise takes longer than the time limit.
+ */
 export async function within(promise, what) {
     let timer;
     const late = new Promise((_, reject) => {
@@ -18,7 +19,9 @@ export async function within(promise, what) {
     }
 }
 
-/** Calls `find` again and again until it returns something true, and returns that; `what` names it in the error. */
+/**
+ * Calls `find` repeatedly until it returns something true, and resolves to this. `what` names it in the error message.
+ */
 export async function eventually(find, what) {
     const deadline = Date.now() + kHangLimit;
     for (;;) {

@@ -1,8 +1,8 @@
 // Messages of the page that a test holds back.
 
 /**
- * Runs in the page before its scripts: holds those messages to the server back for which `window.isHeld` returns true,
- * until the test calls `window.release()`.
+ * Runs in the page before its scripts. Holds back the messages to the server for which `window.isHeld` returns true.
+ * `window.release()` sends them.
  */
 export function holdSent() {
     const { send } = WebSocket.prototype;

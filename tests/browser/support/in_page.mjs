@@ -1,10 +1,10 @@
-// What the driver of Firefox does with elements, in the page.
+// Functions that the driver of Firefox runs in the page, to find elements and to act on them.
 
 /**
- * Runs in the page: finds elements, and returns what `operation` makes of them. `steps` lead to the elements, one after
- * the other: {selector} are the elements below those that match, {text} those with this text, {has} those that contain what
- * other steps lead to, {visible} those that are visible or not, {at} the one at this place. In selectors, :visible,
- * :text-is() and :has-text() have the meaning that Playwright gives them.
+ * Runs in the page. Finds elements, and returns the result of `operation` for them. `steps` lead from the document to
+ * the elements, one after another. {selector} finds descendants that match, {text} selects by text, {has} by contained
+ * elements, {visible} by visibility, and {at} by position. In selectors, :visible, :text-is() and :has-text() have
+ * Playwright's meaning.
  */
 export function ofElements(steps, operation, given) {
     const isVisible = (one) => {
@@ -18,7 +18,9 @@ export function ofElements(steps, operation, given) {
         "has-text": (text) => (one) => textOf(one).toLowerCase().includes(text.toLowerCase()),
     };
 
-    /** The elements below the roots that match. Those with Playwright's pseudo-classes have an attribute meanwhile. */
+    /**
+     * The descendants of the roots that match. Elements with Playwright's pseudo-classes get an attribute temporarily.
+     */
     const below = (roots, selector) => {
         const marks = [];
         const special = /:(visible|text-is|has-text)\b(?:\((["'])(.*?)\2\))?/g;
@@ -72,7 +74,10 @@ export function ofElements(steps, operation, given) {
         box: ([one]) => (isVisible(one) ? boxOf(one) : null),
         focus: ([one]) => one.focus(),
         show: ([one]) => one.scrollIntoView({ block: "center", inline: "center", behavior: "instant" }),
-        /** Where a user can press the element: it must be visible and enabled, stand still, and not be covered. */
+        /**
+         * The point at which a user can press the element. The element must be visible, enabled, at rest and not
+         * covered.
+         */
         pressablePoint: async ([one], position) => {
             if (one === undefined || !isVisible(one) || one.matches(":disabled")) return undefined;
             const pointIn = ({ x, y, width, height }) => {

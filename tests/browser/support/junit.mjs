@@ -1,16 +1,16 @@
-// Results of tests as JUnit XML.
+// Writes test results as JUnit XML.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { dirname } from "node:path";
 
 const kEscapes = { "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": "&#10;" };
 
-/** Text of an attribute or an element, without the characters that XML 1.0 does not allow. */
+/** Escapes a text for XML. Replaces the characters that XML 1.0 does not allow. */
 function escaped(text) {
     // eslint-disable-next-line no-control-regex
     return text.replace(/\u001b\[[\d;]*m/g, "").replace(/[^\t\n\r -\ud7ff\ue000-\ufffd]/gu, "\ufffd").replace(/[&<>"\n]/g, (one) => kEscapes[one]);
 }
 
-/** Writes {name, file, seconds, failure, skipped} of all tests. */
+/** Writes the results of all tests to a file. A result is {name, file, seconds, failure, skipped}. */
 export function writeJunit(path, results) {
     const cases = results.map(({ name, file, seconds, failure, skipped }) => {
         const attributes = `name="${escaped(name)}" classname="browser"${file ? ` file="${file}"` : ""} time="${seconds.toFixed(3)}"`;

@@ -1,4 +1,4 @@
-// The key table, how its keys are pressed, and what they do.
+// The key table: how its keys are pressed, and what they do.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 
@@ -6,17 +6,19 @@ import { assertMatrix, isNear, turned } from "./rotation.mjs";
 
 const read = (file) => JSON.parse(readFileSync(new URL(`../../../protocol/${file}`, import.meta.url), "utf8"));
 
-/** The key table, which the server has, too. */
+/** The key table. The server uses the same file. */
 export const { keys: table } = read("keymap.json");
 
-/** Whether a key has a button among the tools; playing has its controls beside the slider of w. */
+/** Whether a key has a button in the tools panel. The controls of playing are beside the slider of w instead. */
 export const hasTool = ({ group }) => group !== "play";
 
 const parts = Object.keys(read("schema/parts.schema.json").properties);
 const settings = read("schema/settings.schema.json").properties;
 const views = settings.view.enum;
 const elements = settings.highlight.properties.element.enum;
-/** The views that have an action of their name: all but the oval and the single view, whose action is "view". */
+/**
+ * The views that actions of the same name show: all but the oval and the single view, whose action is called "view".
+ */
 export const toggledViews = views.filter((view) => view !== "oval" && view !== "single");
 
 const backgrounds = settings.background.enum;
@@ -39,7 +41,7 @@ const highlights = (element) => (before, after) => {
     assert.equal(after.highlight.element, element);
 };
 
-/** Checks of the state after each action that effectOf() does not know from the tables. */
+/** Checks of the state after an action, for actions that effectOf() cannot derive from the tables. */
 const effects = {
     rotate: (before, after, { planes }) => {
         assertMatrix(after.orientation, turned(before.orientation, planes, [before.alpha, before.beta]));
@@ -88,14 +90,14 @@ const effects = {
     projection: (_, after) => assert.equal(after.projection, "perspective"),
 };
 
-/** The setting with this name: a member of the state, or of an object in it. */
+/** The value of the setting with this name, which is a member of the state or of an object in the state. */
 function settingIn(state, name) {
     return [state, ...Object.values(state)].find((object) => object?.[name] !== undefined)?.[name];
 }
 
 /**
- * Returns a check of the state before and after an action. Parts and views are switched by the actions of their names;
- * an action such as alpha_up, of a key that increases or decreases something, changes the setting before its last "_".
+ * Returns a function that compares the states before and after an action. An action with the name of a part or view
+ * switches it. For keys that increase or decrease something, the action is named after the setting, as in alpha_up.
  */
 export function effectOf({ action, name, increases, decreases }) {
     if (effects[action]) return effects[action];
@@ -108,7 +110,7 @@ export function effectOf({ action, name, increases, decreases }) {
     };
 }
 
-/** The key presses of a binding in Playwright's notation, on a US keyboard. */
+/** The key presses of a binding, in Playwright's notation, on an American keyboard. */
 export function strokes({ key, code, ctrl }, inverse = false) {
     const typed = (character) => (/[A-Z()]/.test(character) ? `Shift+${character}` : character);
     if (key.length > 1) return [...key].map(typed);
@@ -122,7 +124,10 @@ const kShown = {
     ...{ cells: true, back: true, sections: false },
 };
 
-/** Sets the same state before each key: rotated, focus not at w = 0, with something to undo or redo. */
+/**
+ * Puts the session into the same state before each key: rotated, with the focus not at w = 0, and with steps to undo or
+ * redo.
+ */
 export async function prepare(script, { action }) {
     await script.request({ type: "set", polytope: "24-cell", view: "oval", projection: "off", turning: false, playing: false });
     await script.request({ type: "reset" });

@@ -14,7 +14,7 @@ ROWS = {2: [f"Digit{d}" for d in "1234567890"] + ["Minus", "Equal"],
         16: [f"Key{c}" for c in "QWERTYUIOP"] + ["BracketLeft", "BracketRight"],
         30: [f"Key{c}" for c in "ASDFGHJKL"] + ["Semicolon", "Quote", "Backquote"],
         43: ["Backslash"] + [f"Key{c}" for c in "ZXCVBNM"] + ["Comma", "Period", "Slash"]}
-EVDEV = 8  # the offset of X's key codes from those of the kernel
+EVDEV = 8  # the difference between X's key codes and the kernel's
 
 xkb = ctypes.CDLL("libxkbcommon.so.0")
 for name in ("xkb_context_new", "xkb_keymap_new_from_names"):

@@ -1,10 +1,10 @@
-// The panels of the matrix of planar sections, following the specification independently of the page's code.
+// The panels of the matrix of planar sections, computed from the specification, independently of the page's code.
 
 const kPlanes = ["xy", "xz", "yz", "xw", "yw", "zw"];
 
 /**
- * The panel with these axes upward and to the right, such as "yx": its section, and functions from the coordinates to
- * the right and upward to pixels, and from a point of its section to pixels.
+ * The matrix panel with these axes upward and to the right, such as "yx". Has its section, a function from coordinates
+ * (to the right and upward) to pixels, and a function from points of the section to pixels.
  */
 export function panelOf({ left, bottom, panel, step, reach, sections }, [up, right], { height }) {
     const [row, column] = [up, right].map((axis) => "xyzw".indexOf(axis));
@@ -17,5 +17,5 @@ export function panelOf({ left, bottom, panel, step, reach, sections }, [up, rig
     return { section, row, column, at, place, half: (panel / 2) * height };
 }
 
-/** The names of all panels. */
+/** The names of all matrix panels. */
 export const kPanels = kPlanes.flatMap((plane) => [plane, [...plane].reverse().join("")]);

@@ -1,7 +1,7 @@
 // Writes NetCDF files whose variables have units.
 
-const [kDimension, kVariable, kAttribute] = [10, 11, 12]; // tags of the classic format
-const [kText, kFloat, kDouble] = [2, 5, 6]; // types of the classic format
+const [kDimension, kVariable, kAttribute] = [10, 11, 12]; // tags of the classic NetCDF format
+const [kText, kFloat, kDouble] = [2, 5, 6]; // types of the classic NetCDF format
 
 function numbers(...values) {
     const bytes = Buffer.alloc(4 * values.length);
@@ -21,8 +21,8 @@ const attributes = (texts) =>
     ]);
 
 /**
- * A file in Base64 with a variable v of `side`⁴ samples, valueAt(x, y, z, t), at coordinates from −1 to 1. `quantity` is
- * its name, `unit` its unit, and `units` are those of t, z, y and x.
+ * Returns a NetCDF file in Base64. It has a variable v with `side`⁴ samples valueAt(x, y, z, t), at coordinates from −1
+ * to 1. `quantity` is the variable's name, `unit` its unit, and `units` are the units of t, z, y and x.
  */
 export function netcdfWithUnits({ side, valueAt, quantity, unit, units }) {
     const at = Array.from({ length: side }, (_, i) => (2 * i) / (side - 1) - 1);

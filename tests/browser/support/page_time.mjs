@@ -1,14 +1,13 @@
-// The page's time, which a test can stop, and let pass by as many milliseconds as it wants: what the page does after a
-// delay then does not depend on how fast the machine is.
+// The time in the page. A test can stop it and let any number of milliseconds pass. What the page does after a delay
+// then does not depend on how fast the machine is.
 
 /**
- * Runs in the page before its scripts. Stops its timers and clocks; animation frames continue, but report the stopped
- * time.
+ * Runs in the page before its scripts. Stops timers and clocks. Animation frames continue, but report the stopped time.
  */
 export function stopTime() {
     const { setTimeout: later, clearTimeout: forget } = window;
     const ask = window.requestAnimationFrame.bind(window);
-    const timers = new Map(); // by their numbers: when they are due, what they run, and how often
+    const timers = new Map(); // by number: when a timer is due, what it runs, and how often
     let now = performance.now();
     let lastNumber = 2 ** 30; // the browser's own numbers are lower
     const start = (run, delay, interval) => {
@@ -33,11 +32,11 @@ export function stopTime() {
             if (timer.interval === undefined) timers.delete(number);
             else timer.due += timer.interval;
             timer.run();
-            await new Promise((resolve) => later.call(window, resolve)); // what awaits the timer goes on
+            await new Promise((resolve) => later.call(window, resolve)); // what awaits the timer can continue
         }
         now = end;
     };
 }
 
-/** Lets time pass in a page whose time stands still. */
+/** Lets time pass in a page whose time is stopped. */
 export const passTime = (page, milliseconds) => page.evaluate((time) => window.passTime(time), milliseconds);

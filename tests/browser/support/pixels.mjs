@@ -5,20 +5,20 @@ export function decode(png) {
     return pngjs.PNG.sync.read(Buffer.from(png));
 }
 
-/** Red, green and blue at a point, measured from the upper left. */
+/** The red, green and blue values at a point, measured from the upper left corner. */
 export function pixelAt({ width, data }, x, y) {
     const at = 4 * (Math.round(y) * width + Math.round(x));
     return [...data.subarray(at, at + 3)];
 }
 
-/** The largest difference between two colors in any channel. */
+/** The difference of two colors: the largest difference in any channel. */
 export function distance(a, b) {
     return Math.max(...a.map((value, i) => Math.abs(value - b[i])));
 }
 
 /**
- * The mean difference of two pictures of the same size, and the fraction of pixels that differ by more than 64 of 255
- * in a channel.
+ * Compares two pictures of the same size. Returns their mean difference, and the fraction of pixels that differ by more
+ * than 64 of 255 in a channel.
  */
 export function compare(a, b) {
     if (a.width !== b.width || a.height !== b.height) throw new Error("the pictures differ in size");
@@ -37,7 +37,9 @@ export function compare(a, b) {
     return { mean: sum / (3 * pixels), far: far / pixels };
 }
 
-/** The fraction of pixels that differ from the background by more than 24 of 255 in a channel. */
+/**
+ * The fraction of the picture that is not background: pixels that differ from it by more than 24 of 255 in a channel.
+ */
 export function covered(picture, background) {
     let count = 0;
     for (let i = 0; i < picture.data.length; i += 4) {
@@ -46,7 +48,7 @@ export function covered(picture, background) {
     return count / (picture.width * picture.height);
 }
 
-/** The part of a picture from row `top` down. */
+/** The lower part of a picture, from the row `top` on. */
 export function below({ width, height, data }, top) {
     return { width, height: height - top, data: data.subarray(4 * width * top) };
 }

@@ -1,11 +1,11 @@
-// What is under the pointer: where elements are in the picture, their label, and their light.
+// What is under the pointer: where elements are in the picture, their label, and their highlight.
 import assert from "node:assert/strict";
 
 import { idle, openWithScript, presented } from "./browser.mjs";
 import { decode, distance, pixelAt } from "./pixels.mjs";
 import { project, worldPoints } from "./scene.mjs";
 
-/** Opens the page with a turned 24-cell and its projection, whose elements lie in no hyperplane. */
+/** Opens the page with a turned 24-cell and its projection. None of its elements lies in a hyperplane of a slice. */
 export async function openTurned(settings = {}, options = {}) {
     const opened = await openWithScript(options);
     const { page, script } = opened;
@@ -16,21 +16,23 @@ export async function openTurned(settings = {}, options = {}) {
     return { ...opened, ...(await drawingOf(opened)) };
 }
 
-/** The size of the page's drawing in pixels, the server's message of a picture of this size, and the pointer on it. */
+/**
+ * The size of the page's drawing in pixels, the server's `slices` message for this size, and functions for the pointer.
+ */
 export async function drawingOf({ page, script }) {
     const box = await page.locator("#drawing").boundingBox();
     const size = { width: Math.round(box.width), height: Math.round(box.height) };
     return {
         size,
         picture: () => script.request({ type: "get", what: "slices", ...size }),
-        /** Moves the mouse to a point of the drawing, or clicks or taps there. */
+        /** Moves the mouse to a point of the drawing; click() and tap() press there. */
         moveTo: (x, y) => page.mouse.move(box.x + x, box.y + y),
         click: (x, y) => page.mouse.click(box.x + x, box.y + y),
         tap: (x, y) => page.touchscreen.tap(box.x + x, box.y + y),
     };
 }
 
-/** Loads a tesseract with edges of this length, always under the same name; waits for its picture. */
+/** Loads a tesseract with edges of this length, always under the same name, and waits for its picture. */
 export async function loadTesseract(page, script, edge) {
     const ends = [-edge / 2, edge / 2];
     const points = ends.flatMap((x) => ends.flatMap((y) => ends.flatMap((z) => ends.map((w) => [x, y, z, w].join(" ")))));
@@ -44,7 +46,7 @@ export const label = (page) =>
         return hidden ? "" : textContent;
     });
 
-/** Waits until the label matches, even if the page still asks about the element. */
+/** Waits until the label matches the pattern. The page may still be asking about the element. */
 export async function named(page, pattern) {
     await page.waitForFunction(
         ([source, flags]) => {
@@ -57,19 +59,19 @@ export async function named(page, pattern) {
 }
 
 /**
- * Waits until the label matches and, if it names an element, until the server has answered about the element, so that
- * the label and the light are complete.
+ * Waits until the label matches the pattern. If the label is not empty, also waits until the server has answered, so
+ * that the label and the highlight are complete.
  */
 export async function labeled(page, pattern) {
     if ((await named(page, pattern)) !== "") await idle(page);
     return label(page);
 }
 
-/** Waits for two animation frames, after which everything is drawn. */
+/** Waits for two animation frames. By then, everything is drawn. */
 export const frames = (page) =>
     page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
-/** The picture, without the label. */
+/** The picture without the label. */
 export async function shot(page) {
     await frames(page);
     const setVisibility = (visibility) =>
@@ -83,7 +85,7 @@ export async function shot(page) {
 /** Whether a pixel has the hue of the highlight, 0xff4fb8, in some light or faintly. */
 const isLit = ([r, g, b]) => r > 90 && r - g > 45 && b - g > 25 && r > b;
 
-/** Whether the pixels around this point have become lit. */
+/** Whether the pixels around a point have become highlighted. */
 export function litAt(before, after, [x, y]) {
     for (let dx = -3; dx <= 3; ++dx) {
         for (let dy = -3; dy <= 3; ++dy) {
@@ -98,7 +100,9 @@ export const middle = (points) => points[0].map((_, k) => points.reduce((sum, po
 
 export const loopOf = ({ faces }, f) => [...faces.corners.slice(faces.begin[f], faces.begin[f + 1])];
 
-/** The center of the front face with the most room in the slice with this index, and the cell it was cut from. */
+/**
+ * In the slice with this index, the center of the front face with the most room, and the cell from which it was cut.
+ */
 export function faceIn({ scene, slices }, size, index) {
     const slice = slices.find((one) => one.index === index);
     const points = worldPoints(scene, slice);
@@ -115,7 +119,7 @@ export function faceIn({ scene, slices }, size, index) {
 
 export const rounded = (value) => String(Math.round(value * 1000) / 1000).replace("-", "−");
 
-/** Asserts that two pictures agree everywhere but at the label of this point. */
+/** Asserts that two pictures are equal, except around the label at this point. */
 export function assertSame(one, other, [left, top]) {
     let differing = 0;
     for (let y = 0; y < one.height; ++y) {
@@ -127,7 +131,9 @@ export function assertSame(one, other, [left, top]) {
     assert.ok(differing < 20, `${differing} pixels differ`);
 }
 
-/** Returns a function from a vertex to a pixel between the lines of its column in the parallel coordinates. */
+/**
+ * Returns a function. It maps a vertex to a pixel between the lines of the vertex's column in the parallel coordinates.
+ */
 export function columnsOf({ coordinates: layout }, { height }) {
     const x = (v) => layout.left + (v % layout.per_row) * layout.column_step + 1.5 * layout.line_step + layout.line_width;
     const zero = (v) => layout.zero - Math.floor(v / layout.per_row) * layout.row_step;

@@ -1,26 +1,27 @@
-// Runs test files in several processes, each with a server and a browser of its own. A process that has run a file gets
-// the next one. What a process was doing when it crashed or hung counts as failed, and another process does the rest.
+// Runs test files in several processes, each with its own server and browser. A process that has finished a file gets
+// the next one. If a process crashes or hangs, its current test counts as failed, and another process runs the rest.
 import { fork } from "node:child_process";
 import { fileURLToPath } from "node:url";
 
 import { kHangLimit } from "./hang_limit.mjs";
 
 const kWorker = fileURLToPath(new URL("worker.mjs", import.meta.url));
-const kWaitsOfTest = 20; // the most waits that a test chains; each of them ends after kHangLimit
+const kWaitsOfTest = 20; // the most waits in a test; each of them ends after kHangLimit
 
-/** The names of the tests that are running now. */
+/** The names of the tests that are running at present. */
 export const runningTests = new Set();
 
 /**
- * Runs jobs, {files, only}, and resolves when all are done. `finished` is called with {name, file, seconds, failure,
- * skipped} for each test, where `file` is undefined for a job of several files, and `skipped` says why a test was not run.
+ * Runs jobs, given as {files, only}, and resolves when all are done. Calls `finished` with {name, file, seconds,
+ * failure, skipped} for each test. `file` is undefined for a job of several files; `skipped` is the reason why a test
+ * was not run.
  */
 export async function runJobs(jobs, { processes, finished }) {
     const waiting = [...jobs];
     await Promise.all(Array.from({ length: Math.min(processes, jobs.length) }, () => work(waiting, finished)));
 }
 
-/** Runs jobs in one process, and in further ones after crashes, until no job waits. */
+/** Runs jobs in one process, until no job waits. After a crash, starts another process. */
 async function work(waiting, finished) {
     let worker;
     for (let job = waiting.shift(); job; ) {
@@ -32,11 +33,11 @@ async function work(waiting, finished) {
     await worker?.end();
 }
 
-/** Runs a job. Resolves to whether the process has crashed, and what is left of the job then. */
+/** Runs one job. Resolves to whether the process has crashed, and to the rest of the job in that case. */
 function runJob(worker, job, finished) {
     const file = job.files.length === 1 ? job.files[0] : undefined;
     const done = [...(job.skip ?? [])];
-    let running; // the name of a test
+    let running; // the name of the running test
     let hanging;
     return new Promise((resolve) => {
         const watch = () => {
@@ -76,20 +77,20 @@ function runJob(worker, job, finished) {
 }
 
 function startWorker() {
-    const child = fork(kWorker, { detached: true }); // a group of processes, with its servers
+    const child = fork(kWorker, { detached: true }); // leads a process group, which its servers join
     let [received, crashed] = [() => {}, () => {}];
     let killed; // why the process was killed; undefined if it was not
     const kill = () => {
         try {
             process.kill(-child.pid, "SIGKILL");
         } catch {
-            // Nothing of the group is left.
+            // No process of the group is left.
         }
     };
     child.on("message", (message) => received(message));
     const ended = new Promise((resolve) => {
         child.on("exit", (code, signal) => {
-            kill(); // its servers, if it has left any
+            kill(); // also ends the process's servers, if any are left
             crashed(killed ?? `exit status ${code ?? signal}`);
             resolve();
         });

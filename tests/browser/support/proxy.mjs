@@ -1,4 +1,4 @@
-// A reverse proxy that mounts the service under a path, as an operator's web server does.
+// A reverse proxy that serves oval4d under a path, like the web server of an operator.
 import { createHash } from "node:crypto";
 import { createServer, request } from "node:http";
 import { connect } from "node:net";
@@ -6,13 +6,13 @@ import { connect } from "node:net";
 import { startServer } from "./server.mjs";
 import { atEnd } from "./suite.mjs";
 
-/** A server at an address that stays the same when another server takes its place. */
+/** A server at a constant address. Another server can take its place at the same address. */
 export async function startReplaceableServer(how) {
     let server = await startServer(how);
     const proxy = await startProxy(server.url, "");
     return {
         url: proxy.url,
-        /** Stops the server as an operator does; then nothing answers at the address. */
+        /** Stops the server as an operator does. Nothing answers at the address afterward. */
         stop: () => server.stop(),
         async startAnother() {
             server = await startServer(how);
@@ -25,7 +25,7 @@ export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
     let target = new URL(firstTarget);
     const sockets = new Set();
     let broken = false;
-    const outside = []; // requested URLs that are not under the prefix
+    const outside = []; // requested URLs outside the prefix
     const inner = (url) => {
         if (url.startsWith(`${prefix}/`)) return url.slice(prefix.length);
         outside.push(url);
@@ -68,11 +68,11 @@ export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
     return {
         url: `http://127.0.0.1:${server.address().port}${prefix}/`,
         outside,
-        /** The server of later connections. */
+        /** Sets the server for later connections. */
         set target(url) {
             target = new URL(url);
         },
-        /** Breaks all WebSockets, like a network failure, and refuses new ones until restore(). */
+        /** Breaks all WebSockets, like a network failure. Refuses new ones until restore() is called. */
         cut() {
             broken = true;
             sockets.forEach((socket) => socket.destroy());
@@ -80,11 +80,11 @@ export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
         restore() {
             broken = false;
         },
-        /** Answers requests for WebSockets as other requests, like a proxy that does not pass the header Upgrade on. */
+        /** Answers requests for WebSockets like other requests, as a proxy that does not pass on the header Upgrade. */
         dropUpgrades() {
             server.removeAllListeners("upgrade");
         },
-        /** Opens WebSockets, and answers nothing there. */
+        /** Opens WebSockets, but never answers a message. */
         swallow() {
             server.removeAllListeners("upgrade");
             server.on("upgrade", (incoming, socket) => {
@@ -97,12 +97,15 @@ export async function startProxy(firstTarget, prefix, extraHeaders = {}) {
                 socket.write(`${lines.join("\r\n")}\r\n\r\n`);
             });
         },
-        /** Does not answer requests for WebSockets. */
+        /** Never answers requests for WebSockets. */
         holdUpgrades() {
             server.removeAllListeners("upgrade");
             server.on("upgrade", (_, socket) => sockets.add(socket));
         },
-        /** Stops forwarding without closing a connection, as when a cable is pulled; refuses new ones until thaw(). */
+        /**
+         * Stops forwarding data without closing a connection, as after a pulled cable. Refuses new connections until
+         * thaw() is called.
+         */
         freeze() {
             broken = true;
             sockets.forEach((socket) => socket.pause());

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 
 const kAxes = "xyzw";
 
-/** The product R · M for rotations R by these angles in these planes. */
+/** The product R · M of a matrix M with rotations R by these angles in these planes. */
 export function turned(matrix, planes, angles) {
     const out = matrix.map((row) => [...row]);
     planes.forEach((plane, i) => {
@@ -16,7 +16,7 @@ export function turned(matrix, planes, angles) {
     return out;
 }
 
-/** Whether two matrices differ in no element by more than this. */
+/** Whether no elements of two matrices differ by more than the tolerance. */
 export function isNear(actual, expected, tolerance = 1e-9) {
     return actual.flat().every((value, i) => Math.abs(value - expected.flat()[i]) <= tolerance);
 }

@@ -1,4 +1,4 @@
-// Projects the points of a `slices` message, following the specification independently of the page's code.
+// Projects points of a `slices` message to pixels, as the specification says, independently of the page's code.
 
 const minus = (a, b) => a.map((x, i) => x - b[i]);
 const dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
@@ -28,8 +28,8 @@ export function worldPoints(scene, slice) {
 }
 
 /**
- * A point of a vertex's line in the density strip, in pixels from the upper left corner. `along` is 0 on the axis x, 1 on
- * y, 2 on z and 3 on w; in between, the line is straight.
+ * A point on a vertex's line in the density strip, in pixels from the upper left corner. `along` is 0 on the axis x, 1
+ * on y, 2 on z and 3 on w. Between two axes, the line is straight.
  */
 export function stripPoint({ coordinates, scene }, vertex, along, height) {
     const { left, zero, line_step: step, line_width: width, amplitude } = scene.coordinates;

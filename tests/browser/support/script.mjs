@@ -1,11 +1,11 @@
-// A second client of a page's session: a script.
+// A script that joins the session of a page, as a second client.
 import WebSocket from "ws";
 
 import { Client } from "../node_modules/.oval4d/client.mjs";
 import { atEnd } from "./suite.mjs";
 import { within } from "./hang_limit.mjs";
 
-/** Joins a session, or creates one. */
+/** Joins the session with these credentials; without credentials, creates a session. */
 export async function joinSession(url, credentials) {
     const watchers = new Set();
     let state;
@@ -30,7 +30,7 @@ export async function joinSession(url, credentials) {
         client,
         request: (message) => client.request(message),
         state: () => client.request({ type: "get", what: "state" }),
-        /** Waits for a state for which `holds` is true, and returns it. */
+        /** Waits for a state for which `holds` returns true. Resolves to this state. */
         async until(holds, what) {
             let watch;
             const found = new Promise((resolve) => {

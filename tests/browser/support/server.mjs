@@ -1,4 +1,4 @@
-// Starts the real server on its own port.
+// Starts a real server on its own port.
 import { spawn } from "node:child_process";
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -9,10 +9,10 @@ import { atEnd } from "./suite.mjs";
 
 const top = join(dirname(fileURLToPath(import.meta.url)), "../../..");
 const binary = process.env.OVAL4D ?? process.env.OVAL4D_SERVER ?? join(top, "build/release/bin/oval4d");
-/** The folder with the files of the page. */
+/** The folder with the files of the built page. */
 export const webRoot = process.env.OVAL4D_WEB_ROOT ?? join(top, "web_client/dist");
 
-/** Starts a server at any free port. */
+/** Starts a server on any free port. */
 export async function startServer({ options = [] } = {}) {
     if (!existsSync(binary)) throw new Error(`there is no server at ${binary}: build it, or set OVAL4D`);
     if (!existsSync(join(webRoot, "app.js"))) throw new Error(`there is no page in ${webRoot}: build web_client`);

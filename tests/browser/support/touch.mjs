@@ -2,8 +2,8 @@
 import { inFirefox } from "./suite.mjs";
 
 /**
- * Returns a function that sends a touch event, "touchStart", "touchMove" or "touchEnd", with a finger at each of the
- * points. "touchEnd" has no points: all fingers leave the screen.
+ * Returns a function that sends a touch event: "touchStart", "touchMove" or "touchEnd". One finger is at each of the
+ * given points. "touchEnd" has no points, because all fingers leave the screen.
  */
 export async function touchOf(page) {
     if (inFirefox) return (type, ...points) => page.touch(type, ...points);

@@ -1,9 +1,9 @@
-// A process that runs tests one after the other. run.mjs sends which: files, and the names of tests to run or to skip. It
-// receives {started} and {finished} for each test, {finished, skipped} for one that is not run in this browser, and {done}
-// at the end, or {broken} if no further test can pass.
+// A process that runs tests one after another. run.mjs sends it the files, and the names of tests to run or to skip. It
+// answers with {started} and {finished} for each test, with {finished, skipped} for a test that is not run in this
+// browser, and with {done} at the end. If no further test can pass, it answers with {broken}.
 import { broken, closeAll, takeTests } from "./suite.mjs";
 
-let strayErrors = []; // of promises that nothing awaits
+let strayErrors = []; // errors of promises that nothing awaits
 
 for (const event of ["uncaughtException", "unhandledRejection"]) process.on(event, (error) => strayErrors.push(error));
 process.on("disconnect", () => process.exit(1)); // run.mjs has ended
@@ -21,7 +21,7 @@ async function runTest(name, run) {
         errors.push(error);
     }
     await closeAll("test");
-    await new Promise(setImmediate); // by now, Node.js has reported the rejections that nothing awaits
+    await new Promise(setImmediate); // by now, Node.js has reported such errors
     errors.push(...strayErrors.splice(0));
     const failure = errors.map(messageOf).join("\n\n");
     await report({ finished: name, seconds: (performance.now() - start) / 1000, ...(failure && { failure }) });

@@ -90,7 +90,7 @@ TEST_F(ConnectionRegistryTest, EvictsFromTheClientWithTheMostConnectionsWhenFull
     EXPECT_EQ(connections.makeRoomFor(*other), AdmissionDecision::server_full);
 }
 
-// A refused connection stays registered until it has ended. Its eviction makes no room for another one.
+// A refused connection stays registered until it ends. Evicting it makes no room for another connection.
 TEST_F(ConnectionRegistryTest, ARefusedConnectionMakesNoRoom) {
     for (const auto& [most, perClient, full] :
          {std::tuple(3, 100, AdmissionDecision::server_full), {100, 3, AdmissionDecision::client_full}}) {

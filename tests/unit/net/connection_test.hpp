@@ -1,5 +1,5 @@
 #pragma once
-// What the tests of connections share: a server in virtual time, and a client. Their sockets are real.
+// The shared part of connection tests: a server in virtual time, and a client. Their sockets are real.
 
 #include <array>
 #include <boost/asio/awaitable.hpp>
@@ -24,20 +24,20 @@
 
 namespace oval4d::net {
 
-/// A client of one connection. Derived classes start it: connect(), serve() and then, if the client reads, read().
+/// Tests one connection of a client. A derived class calls connect(), serve() and, if its client reads, read().
 class ConnectionTest : public testing::Test {
   protected:
     explicit ConnectionTest(ServerOptions options) : server(std::move(options)) {}
 
-    /// Waits for the end of the connection, which derived classes cause before.
+    /// Waits for the end of the connection, which the test must have caused.
     void TearDown() override {
         EXPECT_TRUE(server.eventually([&] { return ended; }));
         server.settle();
         manager->stop(support::hangLimit());
     }
 
-    /// Connects the client, whose kernel holds about `receiveBuffer` bytes, or as many as it likes. Returns the
-    /// server's socket.
+    /// Connects the client, and returns the server's socket. The client's kernel buffers about `receiveBuffer` received
+    /// bytes; without this argument, the kernel decides.
     boost::asio::ip::tcp::socket connect(std::optional<int> receiveBuffer = {}) {
         boost::asio::ip::tcp::acceptor acceptor(
             server.io, boost::asio::ip::tcp::endpoint(boost::asio::ip::make_address("127.0.0.1"), 0));
@@ -53,7 +53,7 @@ class ConnectionTest : public testing::Test {
         boost::asio::co_spawn(executor, std::move(connection),
                               [this](const std::exception_ptr& /*failure*/) { ended = true; });
     }
-    /// Appends to `received` all that the server sends from now on.
+    /// Starts to append all that the server sends to `received`.
     void read() {
         client.async_read_some(boost::asio::buffer(chunk_), [this](boost::system::error_code fault, std::size_t size) {
             received.append(chunk_.data(), size);

@@ -1,4 +1,4 @@
-// How often the arrays of the data folder are read, and what sessions share.
+// How often the arrays of the data folder are read, and when sessions share an array.
 
 #include "net/data_folder.hpp"
 
@@ -22,7 +22,7 @@
 namespace oval4d::net {
 namespace {
 
-// A field of 16 samples.
+// Returns a field of 16 samples.
 slicing::Object smallField(const std::string& name) {
     fields::FieldArray array;
     array.shape = {2, 2, 2, 2};
@@ -110,7 +110,7 @@ TEST_F(DataFolderTest, ThreadsThatOpenTheSamePartWaitForOneReader) {
     const DataFolder::Reader slow =
         [&](const session::LoadObject& file, const session::Limits& /*limits*/,
             const file_reading::FileAllocator& /*allocate*/) -> Result<session::ObjectWithWarnings> {
-        begun.set_value();  // throws if it is called twice
+        begun.set_value();  // throws an exception if the reader is called twice
         finish.get_future().wait();
         return session::ObjectWithWarnings{smallField(file.name), {}};
     };

@@ -1,4 +1,4 @@
-// What an object store refuses before it makes a request. tests/service/test_object_store.py tests the requests.
+// What the class ObjectStore refuses before it makes a request. tests/service/test_object_store.py tests its requests.
 
 #include "net/object_store.hpp"
 

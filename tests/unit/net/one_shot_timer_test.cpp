@@ -1,4 +1,4 @@
-// Timers of the system's clock and of a virtual one.
+// Timers of the system's clock and of the virtual clock.
 
 #include "net/one_shot_timer.hpp"
 

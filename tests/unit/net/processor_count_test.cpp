@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A temporary root folder in which tests write files of /proc and /sys.
+/// A temporary root folder, in which a test writes its own /proc and /sys.
 class Processors : public testing::Test {
   protected:
     void SetUp() override {

@@ -1,5 +1,5 @@
 #pragma once
-// The services of a server, in virtual time, for tests of sessions and connections.
+// The services of a server in virtual time, for tests of sessions and connections.
 
 #include <boost/asio/io_context.hpp>
 #include <chrono>
@@ -20,10 +20,10 @@
 
 namespace oval4d::net {
 
-/// The services of a server, with one picture worker. The time changes only in advance(), and handlers run only in the
-/// functions of this class, on the thread that calls them.
+/// The services of a server with one picture worker. Virtual time passes only in advance(). Handlers run only within
+/// the functions of this class, on the thread that calls them.
 class VirtualServer {
-    // These members are declared first, because the public ones use them.
+    // These members are declared first, because public members use them.
     parallel::ForkJoin forkJoin_;
     process::ProcessHeap heap_;
 
@@ -58,7 +58,7 @@ class VirtualServer {
     const AddressAccountPtr account =
         std::make_shared<AddressAccount>("192.0.2.1", options.client, budget, clock.now());
 
-    /// Runs the handlers that are ready, and those that become ready meanwhile. Returns their number.
+    /// Runs all handlers that are ready, or become ready meanwhile. Returns how many have run.
     std::size_t runHandlers() {
         std::size_t count = 0;
         for (std::size_t some = 1; some > 0; count += some) {
@@ -68,13 +68,13 @@ class VirtualServer {
         return count;
     }
 
-    /// Runs handlers and picture jobs until there are no more to run at this time.
+    /// Runs handlers and picture jobs until none can run without the passing of time.
     void settle() {
         while (runHandlers() > 0 || !waitForRunningPictureJob() || runHandlers() > 0) {
         }
     }
 
-    /// Lets time pass: advances the clock to the expiry of one timer after another, and settles after each.
+    /// Lets virtual time pass. Advances the clock to the expiry of one timer after another, and settles after each.
     void advance(TimerClock::Clock::duration by) {
         const auto end = clock.now() + by;
         settle();
@@ -86,21 +86,20 @@ class VirtualServer {
         settle();
     }
 
-    /// Settles again and again until `happened` returns true. Returns false if this takes longer than the limit for
-    /// tests.
+    /// Calls settle() repeatedly until `happened` returns true. Returns false if this exceeds the time limit of tests.
     [[nodiscard]] bool eventually(const std::function<bool()>& happened) {
         return support::eventually(happened, [this] { settle(); });
     }
 
   private:
-    /// Waits until the running picture job, if there is one, has ended. Returns false if further jobs were waiting.
+    /// Waits until the running picture job, if any, has ended. Returns false if further jobs were waiting.
     bool waitForRunningPictureJob() {
         if (pictureWorkers.workers().waiting() > 0) {
             std::this_thread::yield();
             return false;
         }
         std::promise<void> ended;
-        // There is one worker, so this job starts after the running one has ended.
+        // There is only one worker, so this job starts after the running job has ended.
         if (!pictureWorkers.workers().post([&ended](std::size_t /*worker*/) { ended.set_value(); }, nullptr, {}))
             return false;
         ended.get_future().wait();

@@ -1,5 +1,5 @@
 #pragma once
-// A clock of connections and sessions for tests, and its timers.
+// A virtual clock for tests of connections and sessions, with its timers.
 
 #include <boost/asio/any_io_executor.hpp>
 #include <boost/asio/post.hpp>
@@ -18,8 +18,8 @@
 
 namespace oval4d::net {
 
-/// A clock whose time changes only when a test advances it. When a timer of this clock expires, its function is posted
-/// to its executor. Thread-safe, but only one thread at a time may advance the time.
+/// A clock whose time passes only when a test advances it. When one of its timers expires, the timer's function is
+/// posted to the timer's executor. Thread-safe, but only one thread at a time may advance the time.
 class VirtualTimerClock final : public TimerClock {
   public:
     Clock::time_point now() const override { return time_.now<Clock>()(); }
@@ -31,7 +31,8 @@ class VirtualTimerClock final : public TimerClock {
     /// Returns the time of the first scheduled call; an empty optional if no call is scheduled.
     std::optional<Clock::time_point> nextCall() const { return calls_->first(); }
 
-    /// Advances the time to `when`, unless it is later already, and posts the functions of the timers that expire.
+    /// Advances the time to `when`, and posts the functions of the timers that expire. Does nothing if the time is
+    /// already later.
     void advanceTo(Clock::time_point when) {
         if (when > now()) time_.advance(when - now());
         calls_->postUntil(now());
@@ -44,8 +45,8 @@ class VirtualTimerClock final : public TimerClock {
         boost::asio::any_io_executor executor;
         std::function<void()> expired;
     };
-    // The scheduled calls of all timers. Their functions are destroyed while the mutex is not locked, because they may
-    // own objects with timers.
+    // The scheduled calls of all timers. Their functions may own objects that have timers, so they are destroyed only
+    // while the mutex is not locked.
     class Calls {
         using Queue = std::multimap<Clock::time_point, Call>;
 
@@ -56,7 +57,7 @@ class VirtualTimerClock final : public TimerClock {
         }
         void cancel(const Timer* timer) {
             std::vector<Queue::node_type> canceled;
-            const std::lock_guard lock(mutex_);  // unlocked before `canceled` is destroyed
+            const std::lock_guard lock(mutex_);  // is unlocked before `canceled` is destroyed
             for (auto call = calls_.begin(); call != calls_.end();) {
                 const auto next = std::next(call);
                 if (call->second.timer == timer) canceled.push_back(calls_.extract(call));

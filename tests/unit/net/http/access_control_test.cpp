@@ -86,15 +86,15 @@ TEST(RequestTarget, ReadsPlusAsBlankUnlessItAdds) {
     const auto value = [](const std::string& query) { return parseRequestTarget("/?" + query)->query.at(0).second; };
     EXPECT_EQ(value("polytope=two+warm+spots"), "two warm spots");
     EXPECT_EQ(value("polytope=x3o3o+*b3o"), "x3o3o *b3o");
-    EXPECT_EQ(value("formula=x%5E2+%2B+y%5E2+%3C+1"), "x^2 + y^2 < 1");  // as standard clients encode it
-    EXPECT_EQ(value("formula=x^2+y^2+(z-1)<w"), "x^2+y^2+(z-1)<w");      // as people type it
+    EXPECT_EQ(value("formula=x%5E2+%2B+y%5E2+%3C+1"), "x^2 + y^2 < 1");  // encoded by standard clients
+    EXPECT_EQ(value("formula=x^2+y^2+(z-1)<w"), "x^2+y^2+(z-1)<w");      // typed by people
     EXPECT_EQ(value("formula=sqrt(x)+%CF%80+.5"), "sqrt(x)+\u03C0+.5");
     EXPECT_EQ(value("formula=x+-+y+"), "x - y ");
     EXPECT_EQ(value("rotate=xw,yz:0.1,+pi/8"), "xw,yz:0.1, pi/8");
-    EXPECT_EQ(value("rotate=xw:30+%C2%B0"), "xw:30 °");  // a unit is no operand
+    EXPECT_EQ(value("rotate=xw:30+%C2%B0"), "xw:30 °");  // a unit is not an operand
     EXPECT_EQ(value("rotate=xw,yz:30+deg,0.5+rad"), "xw,yz:30 deg,0.5 rad");
     EXPECT_EQ(value("alpha=0.5+deg(30)+degree"), "0.5+deg(30)+degree");
-    for (const std::string name : {"variable", "values_variable"}) {  // names in files, not arithmetic
+    for (const std::string name : {"variable", "values_variable"}) {  // names in files are not arithmetic
         EXPECT_EQ(value(name + "=air+temperature"), "air temperature");
         EXPECT_EQ(value(name + "=u%2Bv+%2B+w"), "u+v + w");
     }

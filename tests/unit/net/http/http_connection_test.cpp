@@ -1,4 +1,4 @@
-// The deadlines of HTTP connections, in times that the tests choose. The sockets are real.
+// When HTTP connections end, in virtual time. The sockets are real.
 
 #include "net/http/http_connection.hpp"
 
@@ -38,14 +38,14 @@ class HttpConnectionTest : public ConnectionTest {
         ConnectionTest::TearDown();
     }
 
-    /// Waits for the reply to a request, and forgets it.
+    /// Waits for the reply to a request, checks it, and discards it.
     void waitForReply() {
         EXPECT_TRUE(server.eventually([&] { return received.ends_with("ok\n"); })) << received;
         EXPECT_TRUE(received.starts_with("HTTP/1.1 200 OK\r\n")) << received;
         received.clear();
-        server.settle();  // the server waits for the next request
+        server.settle();  // now the server waits for the next request
     }
-    /// Expects that the server closes the connection after this time, and not before.
+    /// Expects that the server closes the connection when this much virtual time has passed, and not earlier.
     void expectEndAfter(TimerClock::Clock::duration time) {
         server.advance(time - 1ns);
         EXPECT_FALSE(ended);
@@ -78,12 +78,12 @@ TEST_F(HttpConnectionTest, AnIdleConnectionIsClosedInTimeAfterTheLastReply) {
 }
 
 TEST_F(HttpConnectionTest, RequestsAboveTheRateAreDelayed) {
-    // Uses up what the client's address may send in the next hour, so the request is delayed by an hour.
+    // Uses up what the client's address may send in the next hour. The request is therefore delayed by an hour.
     const auto account = server.clients.findOrCreate(boost::asio::ip::make_address("127.0.0.1"), server.clock.now());
     static_cast<void>(account->countMessage(3601 * server.options.client.messageBytesPerSecond, server.clock.now()));
     send(kRequest);
     const auto start = server.clock.now();
-    // The deadline of the header ends when the header has been read; then only the delay is left.
+    // The deadline of the header ends when the header has been read. Then only the delay of an hour is left.
     ASSERT_TRUE(server.eventually([&] {
         const auto next = server.clock.nextCall();
         return next && *next > start + 10s;

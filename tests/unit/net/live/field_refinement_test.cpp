@@ -1,4 +1,4 @@
-// When finer levels of an image are read, and what becomes of them.
+// When a session reads finer levels of an image, and what happens to the levels.
 
 #include "net/live/field_refinement.hpp"
 
@@ -28,7 +28,7 @@ namespace asio = boost::asio;
 class FieldRefinementTest : public testing::Test {
   protected:
     using Answer = std::optional<Result<slicing::Object>>;
-    // A level that is being read. The test answers when it wants.
+    // The reading of a level that is in progress. The test decides when to answer it.
     struct Reading {
         session::LoadObject load;
         std::stop_token stop;
@@ -54,7 +54,7 @@ class FieldRefinementTest : public testing::Test {
         asio::post(strand, [this] { refinement->update(); });
         server.settle();
     }
-    /// Answers the newest reading.
+    /// Answers the reading that began last.
     void answer(Result<slicing::Object> result) {
         const auto whenRead = std::exchange(readings.back().whenRead, {});
         whenRead(Answer(std::move(result)));
@@ -91,7 +91,7 @@ TEST_F(FieldRefinementTest, LevelsFollowOneAfterAnother) {
     EXPECT_EQ(value.current.source, middle);
     ASSERT_EQ(readings.size(), 2U);
     EXPECT_EQ(readings[1].load.finer, (session::FinerLevel{0, 3}));
-    session::press(value, "r");  // changes of other kinds do not matter
+    session::press(value, "r");  // other changes do not matter
     update();
     EXPECT_FALSE(readings[1].stop.stop_requested());
     answer(finest);

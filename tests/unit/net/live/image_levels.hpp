@@ -1,5 +1,5 @@
 #pragma once
-// The levels of an image in the data folder, for tests.
+// Makes levels of a multiscale image, for tests.
 
 #include <cstdint>
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace oval4d::net {
 
-/// Returns a level of an image of three levels, called "run", which is read from the entry "image" of the data folder.
-/// `finer` is ImageLevel::finer. The samples are from 0 to 6.
+/// Returns one of the three levels of an image called "run" from the entry "image" of the data folder. `finer` is
+/// ImageLevel::finer. The samples are from 0 to 6.
 inline slicing::FieldPtr levelOfImage(std::uint32_t level, std::uint32_t finer) {
     fields::FieldArray array;
     array.shape = {2, 2, 2, 2};

@@ -1,4 +1,4 @@
-// What a session does for the images that its clients load, in times that the tests choose.
+// How a session shows multiscale images that its clients load, in virtual time.
 
 #include "net/live/live_session.hpp"
 
@@ -54,7 +54,7 @@ class LiveSessionTest : public testing::Test {
         message.finer = finer;
         return message;
     }
-    /// Puts a level into the cache of the data folder, so that no process must read it.
+    /// Puts a level of the image into the cache of the data folder. No process then needs to read it.
     void cache(const std::optional<session::FinerLevel>& finer, const slicing::FieldPtr& level) {
         const DataFolder::Reader reader =
             [&](const session::LoadObject& /*file*/, const session::Limits& /*limits*/,
@@ -78,7 +78,8 @@ class LiveSessionTest : public testing::Test {
         server.settle();
         return peer;
     }
-    /// Waits until the newest state that the client has satisfies the condition.
+    /// Waits until the newest state that the client has received satisfies the condition. Returns false if this takes
+    /// too long.
     [[nodiscard]] bool eventually(const RecordingPeer& peer, const std::function<bool(const json& state)>& holds) {
         return server.eventually([&] {
             const auto states = peer.messages("state");

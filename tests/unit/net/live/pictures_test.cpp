@@ -63,12 +63,12 @@ TEST(SnapshotPictureCache, ReplacesOlderPicturesByNewerOnes) {
     pictures.addUnlessOlder(snapshotOf(3), pictureOf(kFrames, "3"));
     pictures.addUnlessOlder(snapshotOf(4, Quality::draft), pictureOf(kGeometry, "4"));
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);
-    pictures.addUnlessOlder(snapshotOf(3), pictureOf(kFrames, "3"));  // made by a slower worker
+    pictures.addUnlessOlder(snapshotOf(3), pictureOf(kFrames, "3"));  // the result of a slower worker
     EXPECT_EQ(pictures.find(kFrames, 3, Quality::draft), nullptr);
     EXPECT_NE(pictures.find(kGeometry, 4, Quality::draft), nullptr);
     pictures.addUnlessOlder(snapshotOf(4, Quality::full), {});
     EXPECT_EQ(pictures.find(kGeometry, 4, Quality::draft), nullptr);
-    pictures.addUnlessOlder(nullptr, {});  // a job that made none
+    pictures.addUnlessOlder(nullptr, {});  // the result of a job that made no pictures
     EXPECT_NE(pictures.snapshot(), nullptr);
     pictures.clear();
     EXPECT_EQ(pictures.snapshot(), nullptr);

@@ -1,5 +1,5 @@
 #pragma once
-// A connected client, for tests of sessions.
+// A client for tests of sessions. It records the messages that it receives.
 
 #include <cstdint>
 #include <functional>
@@ -13,8 +13,8 @@
 
 namespace oval4d::net {
 
-/// Records the messages that a session sends to a client. Each message counts as written at once. Use it only on the
-/// thread that runs the handlers of the session.
+/// Records the messages that a session sends to a client. Each message counts as written to the socket at once. Must be
+/// used only on the thread that runs the session's handlers.
 class RecordingPeer final : public Peer {
   public:
     explicit RecordingPeer(AddressAccountPtr client) : client_(std::move(client)) {}
@@ -28,7 +28,7 @@ class RecordingPeer final : public Peer {
     void watchForDisconnect() override {}
     void close(std::uint16_t code, std::string /*reason*/) override { closeCode = code; }
 
-    /// Returns the messages of this type, in the order in which they came.
+    /// Returns the recorded messages of this type, in the order of their arrival.
     std::vector<nlohmann::json> messages(const std::string& type) const {
         std::vector<nlohmann::json> found;
         for (const nlohmann::json& each : messages_) {
@@ -36,13 +36,13 @@ class RecordingPeer final : public Peer {
         }
         return found;
     }
-    /// Returns the revisions of the pictures (`slices` messages), in the order in which they came.
+    /// Returns the revisions of the pictures (`slices` messages), in the order of their arrival.
     std::vector<std::uint64_t> pictures() const {
         std::vector<std::uint64_t> revisions;
         for (const nlohmann::json& each : messages("slices")) revisions.push_back(revisionOf(each));
         return revisions;
     }
-    /// Returns, for each picture of this revision, whether it is a draft.
+    /// Returns one value for each picture of this revision: whether it is a draft.
     std::vector<bool> drafts(std::uint64_t revision) const {
         std::vector<bool> found;
         for (const nlohmann::json& each : messages("slices")) {

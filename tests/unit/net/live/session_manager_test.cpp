@@ -1,4 +1,4 @@
-// When sessions without clients expire, in times that the tests choose.
+// When sessions without clients expire, in virtual time.
 
 #include "net/live/session_manager.hpp"
 
@@ -45,21 +45,21 @@ class SessionManagerTest : public testing::Test {
                       [&joined](JoinResult result) { joined.set_value(std::move(result)); });
         return joined.get_future().get();
     }
-    /// Changes a session, so that it may not be evicted for a new one.
+    /// Changes a session. A changed session is not evicted to make room for a new one.
     void change(const std::shared_ptr<LiveSession>& session) {
         asio::co_spawn(server.io, session->apply(server.account, session::Key{"y", false, false}), asio::detached);
         server.settle();
     }
-    /// Removes the only client of a session, and waits until the session is stored.
+    /// Removes the only client of a session, and waits until the session is in the store.
     void leave(const std::shared_ptr<LiveSession>& session) {
         manager->leave(session, nullptr);
         server.settle();
         EXPECT_TRUE(server.eventually([&] { return manager->writeBehind().unsaved() == 0; }));
     }
-    /// Waits until there are `count` sessions, without letting time pass.
+    /// Waits until there are `count` sessions. No virtual time passes.
     void waitForSessionCount(std::size_t count) {
         EXPECT_TRUE(server.eventually([&] {
-            static_cast<void>(join({"nobody", ""}));  // wakes the thread of the store
+            static_cast<void>(join({"nobody", ""}));  // wakes the store's thread
             return manager->writeBehind().sessionCount() == count;
         })) << count;
     }

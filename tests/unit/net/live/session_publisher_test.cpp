@@ -1,4 +1,4 @@
-// When pictures are made and sent, in times that the tests choose.
+// When a session's pictures are made and sent, in virtual time.
 
 #include "net/live/session_publisher.hpp"
 
@@ -43,7 +43,8 @@ class SessionPublisherTest : public testing::Test {
 
     /// Calls `work` on the session's strand.
     void post(const std::function<void()>& work) { asio::post(strand, work); }
-    /// Posts the addition of a client that receives the geometry of all pictures.
+    /// Adds a client on the strand. The client receives `slices` messages. `acknowledges` tells whether it acknowledges
+    /// pictures.
     std::shared_ptr<RecordingPeer> add(bool acknowledges) {
         auto peer = std::make_shared<RecordingPeer>(server.account);
         if (acknowledges) {
@@ -57,13 +58,13 @@ class SessionPublisherTest : public testing::Test {
         });
         return peer;
     }
-    /// Adds a client as add() does, and settles (see VirtualServer::settle()).
+    /// Adds a client as add() does, then runs all handlers and jobs (see VirtualServer::settle()).
     std::shared_ptr<RecordingPeer> connect(bool acknowledges) {
         auto peer = add(acknowledges);
         server.settle();
         return peer;
     }
-    /// Applies a command, as LiveSession does, and settles.
+    /// Applies a command as LiveSession does, then runs all handlers and jobs.
     void change(const session::Command& command) {
         post([this, command] {
             session::must(value, command);
@@ -72,7 +73,7 @@ class SessionPublisherTest : public testing::Test {
         });
         server.settle();
     }
-    /// Shows a field in one slice. Must be called before clients are added.
+    /// Makes the session show one slice of a field. Must be called before a client is added.
     void showField() {
         session::must(value, session::LoadObject{"ball", "formula", "x^2 + y^2 + z^2 + 0.5*w^2 < 1"});
         session::Set set;
@@ -87,7 +88,7 @@ class SessionPublisherTest : public testing::Test {
     const SessionPublisher::Strand strand = asio::make_strand(server.io);
     const std::shared_ptr<SessionPublisher> publisher =
         std::make_shared<SessionPublisher>(server.services, strand, "test", metered);
-    int steps = 0;  // the steps of the motion
+    int steps = 0;  // how many steps the motion has made
 };
 
 TEST_F(SessionPublisherTest, UnacknowledgedPicturesCountAsShownAfterATime) {
@@ -232,7 +233,7 @@ TEST_F(SessionPublisherTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
     session::must(value, session::CommandLine{"set polytope=600-cell slices=1"});
     ASSERT_FALSE(pipeline::FocusSectionNamer::isFast(value.current.object));
     const auto peer = connect(true);
-    // Applies a command, and returns the state if it is known without a worker.
+    // Applies a command. Returns the state if it is known without work by a worker, else null.
     const auto stateAfter = [this](const session::Command& command) {
         SnapshotPtr state;
         post([&] {

@@ -1,4 +1,4 @@
-// When a session is saved, in times that the tests choose.
+// When a session is saved, in virtual time.
 
 #include "net/live/session_saver.hpp"
 
@@ -25,7 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 using WritePolicy = store::Store::WritePolicy;
 
-/// A session that is saved in a store with this write policy.
+/// A session with its saver, and a store with this write policy.
 struct SavedSession {
     explicit SavedSession(WritePolicy policy)
         : control(std::make_shared<store::StoreControl>(store::kDefaultQuota, policy)) {}
@@ -33,12 +33,12 @@ struct SavedSession {
     std::shared_ptr<SessionSaver> makeSaver(store::Fence fence = store::kFirstFence) {
         return std::make_shared<SessionSaver>(writeBehind, id, fence, value, clock, io.get_executor());
     }
-    /// Changes the session.
+    /// Changes the session, and tells its saver.
     void change() {
         ++value->revision;
         saver->scheduleSave();
     }
-    /// Lets time pass.
+    /// Lets this much virtual time pass.
     void advance(TimerClock::Clock::duration by) {
         clock.advanceTo(clock.now() + by);
         io.restart();
@@ -61,7 +61,7 @@ struct SavedSession {
         const auto noObject = [](const std::string&) { return std::nullopt; };
         return store::decodeSession(whole, head, noObject, support::cache()).revision;
     }
-    /// Waits until everything that was handed to the store before is written.
+    /// Waits until the store has written all that was handed to it before.
     void waitForWrites() {
         const std::string other = writeBehind.create().id;
         std::promise<bool> done;
@@ -69,7 +69,7 @@ struct SavedSession {
                          [&](bool written) { done.set_value(written); });
         EXPECT_TRUE(done.get_future().get());
     }
-    /// Calls `write`, and returns the argument of its callback: whether the session is or will be written.
+    /// Calls `write`, and returns what its callback gets: true if the session has been or will be written.
     static bool resultOf(const SessionSaver::WriteFunction& write) {
         std::promise<bool> done;
         write([&](bool written) { done.set_value(written); });

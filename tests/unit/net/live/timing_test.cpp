@@ -1,4 +1,4 @@
-// Motion and drafts, in times that the tests choose.
+// The timing of motions and of draft pictures, in virtual time.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,8 @@ TEST(MotionTiming, StepsAreAtLeastAnIntervalApart) {
     EXPECT_EQ(timing.step(timing.due()), MotionTiming::kInterval);
 }
 
-// Whatever the times of the steps are, an object turns as far in a second as the second is long.
+// The steps of a motion cover all the time that has passed, whenever the steps are made. An object therefore turns as
+// far in each second.
 TEST(MotionTiming, StepsCoverTheTimeThatHasPassed) {
     MotionTiming timing;
     ASSERT_TRUE(timing.step(kOpened));

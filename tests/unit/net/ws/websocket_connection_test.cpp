@@ -1,4 +1,4 @@
-// The deadlines of connections, in times that the tests choose. The sockets are real.
+// When WebSocket connections end, in virtual time. The sockets are real.
 
 #include "net/ws/websocket_connection.hpp"
 
@@ -22,9 +22,10 @@ namespace {
 namespace beast = boost::beast;
 using namespace std::chrono_literals;
 
-constexpr std::uint8_t kText = 1, kPing = 9;  // opcodes
+constexpr std::uint8_t kText = 1, kPing = 9;  // WebSocket opcodes
 
-/// Returns a WebSocket frame as a client sends it, of less than 126 bytes. Its mask is 0, which changes no byte.
+/// Returns a WebSocket frame in the form that clients send. The content must be shorter than 126 bytes. The mask is 0,
+/// which leaves the content unchanged.
 std::string clientFrame(std::uint8_t opcode, const std::string& content) {
     std::string frame;
     frame += static_cast<char>(0x80U | opcode);
@@ -34,7 +35,7 @@ std::string clientFrame(std::uint8_t opcode, const std::string& content) {
 
 ServerOptions optionsWithRarePings() {
     ServerOptions options;
-    options.pingInterval = 24h;  // Beast measures it with the system's clock
+    options.pingInterval = 24h;  // Beast measures this with the system's clock
     options.helloTimeout = 10s;
     options.writeTimeout = 10s;
     return options;
@@ -48,7 +49,7 @@ class WebSocketConnectionTest : public ConnectionTest {
         ConnectionTest::TearDown();
     }
 
-    /// Opens a connection. The client reads all that the server sends, if `reads` is true.
+    /// Opens a connection. If `reads` is true, the client reads all that the server sends.
     void open(bool reads) {
         boost::asio::ip::tcp::socket accepted = connect(reads ? std::nullopt : std::optional(4096));
         const auto executor = accepted.get_executor();
@@ -83,7 +84,7 @@ TEST_F(WebSocketConnectionTest, AConnectionWithoutHelloIsClosedInTimeWhateverEls
     EXPECT_FALSE(hasReceived("no hello"));
     server.advance(1ns);
     waitFor("no hello arrived in time");
-    waitFor(std::string("\x03\xf0", 2) + "no hello");  // the close frame, with the code 1008
+    waitFor(std::string("\x03\xf0", 2) + "no hello");  // a close frame with the code 1008
 }
 
 TEST_F(WebSocketConnectionTest, AConnectionWithHelloStays) {
@@ -116,7 +117,7 @@ TEST_F(WebSocketConnectionTest, MessagesAboveTheRateAreDelayed) {
     open(true);
     send(clientFrame(kText, R"({"type":"hello"})"));
     waitFor("\"welcome\"");
-    // Uses up what the client's address may send in the next hour, so the next message is delayed by an hour.
+    // Uses up what the client's address may send in the next hour. The next message is therefore delayed by an hour.
     const std::size_t most = server.options.client.messageBytesPerSecond;
     static_cast<void>(server.account->countMessage(3601 * most, server.clock.now()));
     const double before = server.metrics.messagesReceived.Value();
