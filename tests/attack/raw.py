@@ -10,7 +10,7 @@ import time
 
 from harness import DEADLINE
 
-GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # RFC 6455, section 1.3
+GUID = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"  # the GUID of WebSocket handshakes (RFC 6455, section 1.3)
 CONTINUATION, TEXT, BINARY, CLOSE, PING, PONG = 0, 1, 2, 8, 9, 10
 
 
@@ -198,7 +198,7 @@ def fetch(server, target, *fields, method="GET", host="localhost", source=None):
         return raw.read_response(method)
 
 
-# --- WebSocket
+# --- WebSocket frames and a client that can send invalid ones
 
 def xor_with_mask(data, mask):
     if mask == b"\0\0\0\0":
@@ -342,7 +342,7 @@ class WebSocket(Socket):
                     return message["code"] == "too_large"
                 assert message.get("id") is None and message["type"] != "welcome", "the message was executed"
         except ConnectionEnded:
-            return True  # the server reset the connection during the transmission
+            return True  # the server has reset the connection meanwhile
 
 
 class SharedSession:

@@ -24,7 +24,7 @@ def sphere_points(count):
 
 def is_computing(server, subcommand):
     """Returns whether a child process of this kind has used more CPU time than it needs until it waits for work."""
-    with contextlib.suppress(OSError):  # it has just ended
+    with contextlib.suppress(OSError):  # the process may just have ended
         return any(cpu_seconds(pid) > 0.2 for pid, kind in child_processes(server).items() if kind == subcommand)
     return False
 

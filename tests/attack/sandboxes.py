@@ -36,7 +36,7 @@ def child_processes(server):
             if int(fields[1]) == server.process.pid and fields[0] != "Z" and words[0] == b"oval4d":
                 found[int(file.parent.name)] = words[1].decode()
         except (OSError, IndexError):
-            continue  # the process has ended in the meantime, or has not called exec yet
+            continue  # the process has ended meanwhile, or has not called exec yet
     return found
 
 
@@ -84,21 +84,21 @@ class SeccompFilter:
         while True:
             opcode, if_true, if_false, k = self.instructions[position]
             position += 1
-            if opcode == 0x20:  # ld [k]
+            if opcode == 0x20:  # the BPF instruction ld [k]
                 accumulator = struct.unpack_from("=I", data, k)[0]
-            elif opcode == 0x60:  # ld M[k]
+            elif opcode == 0x60:  # the BPF instruction ld M[k]
                 accumulator = memory[k]
-            elif opcode == 0x02:  # st M[k]
+            elif opcode == 0x02:  # the BPF instruction st M[k]
                 memory[k] = accumulator
-            elif opcode == 0x54:  # and
+            elif opcode == 0x54:  # the BPF instruction and
                 accumulator &= k
-            elif opcode == 0x05:  # ja
+            elif opcode == 0x05:  # the BPF instruction ja
                 position += k
             elif opcode in (0x15, 0x25, 0x35, 0x45):
                 holds = {0x15: accumulator == k, 0x25: accumulator > k, 0x35: accumulator >= k,
                          0x45: accumulator & k != 0}[opcode]
                 position += if_true if holds else if_false
-            elif opcode == 0x06:  # ret
+            elif opcode == 0x06:  # the BPF instruction ret
                 return k & 0xFFFF0000, k & 0xFFFF
             else:
                 raise AssertionError(f"unknown BPF instruction: {opcode:#x}")
@@ -106,7 +106,7 @@ class SeccompFilter:
 
 def forbid_seccomp_filters():
     """Called in a child process before exec: forbids further filters, as some container profiles do."""
-    libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS, without which only root may install a filter
+    libc.prctl(38, 1, 0, 0, 0)  # PR_SET_NO_NEW_PRIVS; without it, only root may install a filter
     context = ctypes.c_void_p(seccomp.seccomp_init(ALLOW))
     action = ctypes.c_uint32(ERRNO | 1)
     comparison = (ArgumentComparison * 1)(ArgumentComparison(0, 4, 22, 0))  # SCMP_CMP_EQ, PR_SET_SECCOMP

@@ -66,7 +66,7 @@ def test_stack_protector_and_checked_copies_are_used():
     called = dynamic_symbols(PROGRAM, defined=False)
     assert "__stack_chk_fail" in called
     assert {"__memcpy_chk", "__snprintf_chk"} & called
-    # The compiler keeps calls of these unchecked functions if it does not know the size of the buffer.
+    # The compiler keeps calls of the unchecked functions below if it does not know the size of a buffer.
     assert not {"gets", "strcpy", "strcat", "sprintf", "vsprintf"} & called
 
 

@@ -17,7 +17,7 @@ def assert_body_discarded_or_refused(server, data):
         assert [answer.status for answer in answers[1:]] == [200], answers
 
 
-# --- Request smuggling: where a body ends (RFC 9112, section 6)
+# --- Request smuggling: the server and a proxy must agree where a body ends (RFC 9112, section 6)
 
 INVALID_TRANSFER_ENCODINGS = [
     "chunked, chunked", "gzip, chunked", "chunked, gzip", "gzip", "identity", "x", "", "chunked, identity", "identity, chunked",
@@ -54,7 +54,7 @@ def test_chunked_bodies_are_discarded_or_refused(site_server, coding, version):
     head = request("/", f"Transfer-Encoding: {coding}", version=version)
     body = b"%x\r\n%s\r\n0\r\n\r\n" % (len(SMUGGLED), SMUGGLED)
     if version == "HTTP/1.0":
-        # RFC 9112, 6.1: HTTP/1.0 has no chunked encoding, so the framing is faulty.
+        # HTTP/1.0 has no chunked encoding, so the framing is faulty (RFC 9112, section 6.1).
         assert_refused_and_closed(site_server, head + body)
     else:
         assert_body_discarded_or_refused(site_server, head + body)
@@ -118,7 +118,7 @@ def test_the_token_is_checked_before_the_body_arrives():
                 assert raw.read_until_end() == b""
 
 
-# --- Expect (RFC 9110, 10.1.1)
+# --- The header field Expect (RFC 9110, section 10.1.1)
 
 @pytest.mark.parametrize("expectation", ["100-continue", "100-Continue"])
 @pytest.mark.parametrize("method", ["GET", "POST"])

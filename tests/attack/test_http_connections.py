@@ -10,7 +10,7 @@ from harness import Server, is_sanitizer_build, wait_until
 from http_site import REFUSED, SCRIPT, responses_to
 from raw import Socket, fetch, handshake, request, send_as_far_as_read
 
-# --- Endless requests, which could fill the memory
+# --- Endless requests do not fill the memory
 
 def endless_requests():
     chunked = request("/", "Transfer-Encoding: chunked")
@@ -49,7 +49,7 @@ def test_endless_requests_use_bounded_memory(site_server, kind):
     assert all(future.result() is not None for future in sending), "32 MiB were accepted, and the connection is still open"
 
 
-# --- Many requests on one connection
+# --- One connection may send many requests
 
 def test_pipelined_requests_are_answered_in_order(site_server):
     names = [f"/api/v1/nothing-{number}" for number in range(50)]
@@ -92,7 +92,7 @@ def test_the_server_stops_reading_from_a_client_that_reads_nothing(site_server):
         serve_another()
 
 
-# --- Clients that leave, stop or wait
+# --- Clients may leave, stop or wait at any point of a request
 
 def test_a_half_closed_connection_gets_its_response(site_server):
     assert responses_to(site_server, request("/app.js"))[0].body == SCRIPT

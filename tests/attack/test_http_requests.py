@@ -6,7 +6,7 @@ import pytest
 from http_site import SCRIPT, SMUGGLED, assert_refused_and_closed, responses_to
 from raw import ConnectionEnded, Socket, request
 
-# --- The request line and the header fields (RFC 9112, sections 2, 3 and 5)
+# --- Invalid request lines and header fields are refused (RFC 9112, sections 2, 3 and 5)
 
 @pytest.mark.parametrize("data", [
     b"GET  / HTTP/1.1\r\nHost: localhost\r\n\r\n", b"GET / HTTP/1.1 \r\nHost: localhost\r\n\r\n", b"GET /\tHTTP/1.1\r\nHost: localhost\r\n\r\n",
@@ -99,10 +99,10 @@ def test_too_long_headers_are_refused(site_server, data):
             answers = raw.read_responses()
             assert [answer.status in (400, 414, 431) for answer in answers] == [True]
         except ConnectionEnded:
-            pass  # the server reset the connection during the transmission, so the response is lost
+            pass  # the server has reset the connection, so the response is lost
 
 
-# --- Methods, targets, paths
+# --- Methods, targets and paths that the server accepts or refuses
 
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "PATCH", "OPTIONS", "TRACE", "CONNECT", "PROPFIND", "FOO", "get",
                                     "GETS", "M-SEARCH"])

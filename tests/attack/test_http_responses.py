@@ -15,7 +15,7 @@ def test_responses_state_type_and_forbid_cross_origin_reads(site_server):
         assert answer.get("Access-Control-Allow-Origin") in (None,), "pages of other origins may read it"
 
 
-# --- Conditions (RFC 9110, 13)
+# --- Conditional requests (RFC 9110, section 13)
 
 def etag_of(site_server, path="/app.js", *fields):
     return fetch(site_server, path, *fields).get("ETag")
@@ -43,7 +43,7 @@ def test_other_etags_get_the_file(site_server):
     assert fetch(site_server, "/packed.js", f"If-None-Match: {tag}", "Accept-Encoding: gzip").status == 200
 
 
-# --- Ranges (RFC 9110, 14): a server may ignore them, but must not serve them incorrectly
+# --- Range requests (RFC 9110, section 14): a server may ignore a range, but must not send wrong bytes
 
 def parse_ranges(text, size):
     """Parses a Range field: returns (first, last) of each satisfiable range, None if the field is invalid."""

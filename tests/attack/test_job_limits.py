@@ -18,8 +18,8 @@ async def test_requests_beyond_the_job_limit_are_refused(option):
         async with Client(server, stream="frames", width=64, height=64) as client:
             await client.wait_for_frame(0)
             assert server.get(PICTURE).status == 200
-            # While nothing is drawn, one picture is under way and two wait; the others are refused. It is one picture less
-            # if the third request comes before the worker takes the first one.
+            # While nothing is drawn, one picture is in progress and two wait; the others are refused. There is one
+            # picture less if the third request comes before the worker takes the first.
             server.suspend_drawing_processes()
             answers = [pool.submit(server.get, PICTURE) for _ in range(12)]
             wait_until(lambda: sum(answer.done() for answer in answers) >= 9, "refusals")

@@ -85,7 +85,7 @@ def assert_limited(answers, per_minute, start, refusals=("too_many",)):
     assert answers.count("welcome") <= allowed and set(answers) <= {"welcome", *refusals}, answers
 
 
-# --- Default limits
+# --- The default limits leave room for other addresses
 
 def test_ten_thousand_sessions_of_one_address_leave_room_for_others():
     with Server() as server:
@@ -120,7 +120,8 @@ def test_four_thousand_idle_connections_leave_room_for_others():
         try:
             for _ in range(4200):
                 idle.append(Socket(server, ATTACKER))
-            # Connections are processed in order, so all earlier ones have been processed when this one is served.
+            # Connections are processed in order. When the server serves this client, it has processed all earlier
+            # connections.
             Bystander(server).assert_served()
             Bystander(server).assert_served()
         finally:
@@ -146,7 +147,7 @@ def test_ended_connections_no_longer_count_toward_the_limit():
         Bystander(server, ATTACKER).assert_served()
 
 
-# --- Each limit on its own
+# --- Each limit by itself
 
 def websocket_in_session(server, *fields):
     """Returns a WebSocket that has opened a session, and is therefore not replaced by a new connection."""
@@ -171,7 +172,8 @@ def test_connections_per_address_are_limited():
         held = [websocket_in_session(server) for _ in range(5)]
         assert fetch(server, "/", source=ATTACKER).status in FULL
         _, refused = open_websockets(server, 3, ATTACKER)
-        # One that has not sent its request yet may be closed without an answer, to make room for the next.
+        # The server may close a connection that has not sent its request yet without an answer, to make room for the
+        # next.
         assert len(refused) == 3 and set(refused) <= {*FULL, None}
         Bystander(server).assert_served()
         close_all(held[:1])
@@ -187,7 +189,7 @@ def test_sessions_per_address_are_limited():
             assert peer.request(type="key", key="y")["type"] == "done"
         assert try_open_session(server, ATTACKER) == "too_many"
         Bystander(server).assert_served()
-        # A session counts for the address that opened it, whichever addresses join it.
+        # A session counts for the address that opened it, also if other addresses join it.
         assert held[0].request(type="key", key="y")["type"] == "done"
         close_all(held)
 
@@ -269,7 +271,7 @@ def test_changed_sessions_are_not_evicted():
                 assert peer.request(type="hello", token=welcome["token"])["type"] == "welcome"
 
 
-# --- Who a client is: X-Forwarded-For
+# --- X-Forwarded-For determines which address a client behind a proxy has
 
 def open_sessions_forwarded_for(server, source, *forwarded):
     """Opens a session with each value of X-Forwarded-For; returns the results of opened_session."""
@@ -304,7 +306,7 @@ def test_the_last_forwarded_address_that_is_no_proxy_counts():
         start = time.monotonic()
         answers = open_sessions_forwarded_for(server, ATTACKER, *(f"10.0.0.{number}, 198.51.100.7" for number in range(10)))
         assert_limited(answers, 3, start)
-        # With a chain of proxies, the last address that is not a trusted proxy counts.
+        # If a request passes several proxies, the last address that is not a trusted proxy counts.
         start = time.monotonic()
         lists = [f"10.0.1.{number}, 198.51.100.9, 203.0.113.{number}" for number in range(10)]
         assert_limited(open_sessions_forwarded_for(server, ATTACKER, *lists), 3, start)
@@ -352,7 +354,7 @@ def test_environment_variables_set_the_limits():
         assert open_sessions_forwarded_for(server, ATTACKER, "198.51.100.8") == ["welcome"]
 
 
-# --- Messages: bytes as well as numbers
+# --- Messages are limited by their sizes and by their number
 
 def test_messages_other_than_load_have_their_own_size_limit():
     with Server("--max-request-bytes", "2k") as server, WebSocket(server) as peer:

@@ -17,7 +17,7 @@ pytestmark = pytest.mark.skipif(is_sanitizer_build(), reason="sanitizers keep fr
 ATTACKER, OTHER = "127.0.0.2", "127.0.0.3"
 FILE = "/api/v1/file.stl?polytope=24-cell&of=oval&body=frame&slices=11"
 LEAST_FILE_SIZE = 8 << 20
-NOISE = 24 << 20  # bytes: variation due to allocators and caches
+NOISE = 24 << 20  # bytes by which the memory varies due to allocators and caches
 REFUSED = (413, 429, 503)
 
 
@@ -68,7 +68,7 @@ def duoprism(p, q, seed=0):
     return "\n".join(lines) + "\n"
 
 
-# --- Files
+# --- Downloads that clients do not read use bounded memory
 
 @contextlib.contextmanager
 def unread_downloads(server, count, target=FILE, source=ATTACKER):
@@ -151,12 +151,12 @@ def test_too_slow_readers_are_disconnected(transport):
         with contextlib.suppress(ConnectionError):
             while data := raw.socket.recv(2048):
                 got += len(data)
-                time.sleep(0.02)  # at most 100 KiB a second
+                time.sleep(0.02)  # makes at most 100 KiB per second
         raw.socket.close()
         assert got < LEAST_FILE_SIZE, "the slow reader got the whole file"
 
 
-# --- Loads
+# --- Loaded objects use bounded memory
 
 def test_repeated_loads_use_bounded_memory():
     with Server("--max-undo-bytes", "4M") as server, WebSocket(server) as peer:
@@ -203,7 +203,7 @@ def test_undo_keeps_the_newest_steps():
         assert seen == [20 * (20 - number) for number in range(len(seen))] and 1 <= len(seen) < 11
 
 
-# --- Messages
+# --- Messages use bounded memory
 
 def test_incomplete_messages_before_hello_use_bounded_memory():
     with Server("--max-client-connections", 1000) as server:
@@ -254,7 +254,7 @@ def test_unread_answers_use_bounded_memory():
             peak = Peak(server)
             flood = frame(TEXT, b'{"type":"get","what":"slices"}') * 10_000
             send_as_far_as_read(peers, flood, peak)
-            # A few pictures may be in transit in addition to the queued answers.
+            # In addition to the queued answers, a few pictures may be on their way.
             assert peak.growth < count * (unsent + 4 * answer + (256 << 10)) + NOISE
             with WebSocket(server, source=OTHER) as other:
                 other.request(type="hello")
@@ -264,13 +264,13 @@ def test_unread_answers_use_bounded_memory():
                 peer.socket.close()
 
 
-# --- Drawing processes
+# --- Drawing processes that are killed or that draw much leak no memory
 
 def test_repeatedly_killed_drawing_processes_leak_nothing():
     picture = "/api/v1/frame.png?polytope=24-cell&width=320&height=240"
     with Server() as server:
         first = fetch(server, picture).body
-        for _ in range(3):  # until the number of processes and open files is stable
+        for _ in range(3):  # until the numbers of processes and open files are stable
             server.signal_drawing_processes(signal.SIGKILL)
             assert fetch(server, picture).body == first
         before, files, count = memory_now(server), len(server.open_files()), len(server.drawing_processes())
@@ -292,7 +292,7 @@ def test_changing_picture_sizes_leak_nothing():
 
         before, after = draw(4), draw(60)
         assert before.keys() == after.keys(), "no process was replaced"
-        # There is a process in reserve, which may draw for the first time between the measurements. It needs memory of
-        # its own, but what a process needs does not grow with the number of pictures, 120 of 2 or 4 MB.
+        # A process in reserve may draw for the first time between the measurements, and then needs memory. The memory
+        # of a process does not grow with the number of pictures, here 120 pictures of 2 or 4 MB.
         growth = sum(after.values()) - sum(before.values())
         assert growth < 2 * NOISE + 120 * (960 * 540 * 4) // 4, (before, after)

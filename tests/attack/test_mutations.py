@@ -58,7 +58,7 @@ def value_at(message, path):
     return message
 
 
-DEEP = "nested deeply"  # replaced by nested brackets in the text of the message
+DEEP = "nested deeply"  # stands for nested brackets, which are inserted into the message's text
 
 
 def mutated_request(rng, may_break_json):
@@ -73,7 +73,7 @@ def mutated_request(rng, may_break_json):
         elif kind == 4:
             value = DEEP
         elif kind == 5:
-            value = value_at(message, rng.choice(list(value_paths(message))))  # of another member
+            value = value_at(message, rng.choice(list(value_paths(message))))  # the value of another member
             value = copy.deepcopy(value)
         elif kind == 6 and isinstance(value, str) and value:
             cut = rng.randrange(len(value))
@@ -166,7 +166,7 @@ def test_mutated_requests_do_not_affect_other_clients():
         print(f"errors {codes}, closes {closes}")
         assert "internal" not in codes, codes
         assert closes.keys() <= {1000, 1003, 1007, 1008, 1009, 4401}, closes
-        # All error codes that damage can cause must occur; otherwise the damage is not varied enough.
+        # Damage must cause every possible error code here. Otherwise, the damage is not varied enough.
         assert codes.keys() >= {"bad_json", "bad_message", "unknown_type", "unknown_key", "unknown_polytope", "unknown_command",
                                 "bad_expression", "out_of_range", "not_a_rotation", "bad_polytope", "unsupported_format"}, codes
         with WebSocket(server, f"/ws/{welcome['session']}") as again:

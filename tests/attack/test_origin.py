@@ -29,7 +29,7 @@ def response_status(server, target, *fields, host="localhost"):
     return fetch(server, target, *fields, host=host).status
 
 
-# --- Hosts
+# --- Which Host fields the server accepts
 
 @pytest.mark.parametrize("host", ["localhost", "LOCALHOST", "LocalHost", "localhost:80", "localhost:1", "localhost:65535", "127.0.0.1",
                                   "127.0.0.1:8080", "[::1]", "[::1]:8080"])
@@ -62,7 +62,7 @@ def test_unusual_names_of_this_machine_are_accepted_or_refused(server, host):
     assert response_status(server, "/api/v1/keymap", host=host) in (200, *REFUSED)
 
 
-# --- Origins
+# --- Which Origin fields the server accepts
 
 @pytest.mark.parametrize("origin, host", [
     ("http://localhost:81", "localhost:81"), ("https://localhost:81", "localhost:81"), ("http://LOCALHOST:81", "localhost:81"),
@@ -130,7 +130,7 @@ def test_only_the_allowed_origin_is_accepted(server_with_allowed_origin, origin,
     assert statuses == [101, 200] if allowed else all(status in REFUSED for status in statuses)
 
 
-# --- The site from which a request comes, according to the browser (Fetch Metadata)
+# --- Requests that come from pages of other sites, as the browser says (Fetch Metadata)
 
 CROSS = "Sec-Fetch-Site: cross-site"
 IMAGE = ["Sec-Fetch-Mode: no-cors", "Sec-Fetch-Dest: image"]
@@ -150,7 +150,7 @@ def test_cross_site_requests_for_pictures_and_files_are_refused(server, target, 
 
 def test_refused_cross_site_requests_cause_no_work():
     """The server neither draws pictures nor creates files for it."""
-    with Server() as server:  # of its own, since the counters are those of all clients
+    with Server() as server:  # its own server, because the counters include all clients
         def work_counters():
             return [server.metric('oval4d_picture_step_seconds_count{step="slice"}'), server.metric("oval4d_file_seconds_count")]
 
@@ -160,7 +160,7 @@ def test_refused_cross_site_requests_cause_no_work():
         before = work_counters()
         for target in 3 * COSTLY:
             assert fetch(server, target, CROSS, *IMAGE).status == 403
-        # These are counted after whatever the refused requests have caused, and nothing else is counted.
+        # These requests are counted after everything that the refused requests have caused. Nothing else is counted.
         for target in (PICTURE, FILE):
             fetch(server, target)
         wait_for_counters(before, 1)
@@ -202,7 +202,7 @@ def test_cross_site_websockets_need_an_allowed_origin(server, server_with_allowe
     assert handshake_status(server, "Sec-Fetch-Site: same-origin", *mode, "Origin: http://localhost") == 101
 
 
-# --- Security headers of all responses
+# --- Every response has the security headers
 
 def responses_of_every_kind(server):
     tag = fetch(server, "/").get("ETag")
@@ -234,7 +234,7 @@ def test_every_response_has_cross_origin_headers(server):
     assert seen >= {200, 304, 400, 403, 404, 405, 431}
 
 
-# --- The server's own token
+# --- The token that a server may require
 
 SECRET = "open-sesame"
 
@@ -261,7 +261,7 @@ WRONG_TOKENS = ["", "x", SECRET[:-1], SECRET + "x", "x" + SECRET, SECRET.upper()
 
 @pytest.mark.parametrize("number", range(len(WRONG_TOKENS)), ids=lambda number: WRONG_TOKENS[number][:30])
 def test_wrong_tokens_are_refused(server_with_token, number):
-    # Each test has its own address, because wrong tokens are counted by address.
+    # Each test has its own address, because the server counts wrong tokens by address.
     token, source = WRONG_TOKENS[number], f"127.0.1.{number + 1}"
     for target, lines in ((f"/api/v1/keymap?token={token}", []), ("/api/v1/keymap", [f"Authorization: Bearer {token}"]),
                           ("/api/v1/keymap", [f"Cookie: oval4d_token={token}"])):
@@ -292,7 +292,7 @@ def test_tokens_are_not_logged(server_with_token):
     assert SECRET not in server_with_token.log().split("\n", 1)[1] and "wrong-guess" not in server_with_token.log()
 
 
-# --- Guessing the server's token
+# --- Guessing the server's token is slow
 
 def status_with_token(server, kind, token, source):
     """Returns the HTTP status of a request with this token."""
@@ -321,7 +321,7 @@ def test_an_address_that_guesses_tokens_is_blocked(kind):
         statuses = [status_with_token(server, kind, f"guess-{number}", "127.0.0.2") for number in range(30)]
         assert statuses[:5] == [401] * 5
         assert_limited(statuses, 401, (403, 429, 503), start)
-        # One more guess is allowed from time to time, and then the correct token is one, too.
+        # One more guess is allowed from time to time. While guesses are refused, the correct token is refused, too.
         wait_until(lambda: status_with_token(server, kind, "guess", "127.0.0.2") != 401
                    and status_with_token(server, kind, SECRET, "127.0.0.2") != good, "the refusal of the correct token")
         assert status_with_token(server, kind, SECRET, "127.0.0.3") == good, "another address is blocked"

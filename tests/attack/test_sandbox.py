@@ -124,7 +124,7 @@ async def test_child_processes_have_resource_limits():
         for pid, subcommand in found.items():
             assert soft_limit(pid, "Max core file size") == 0
             assert soft_limit(pid, "Max open files") < 32
-            size = 1024 * status_value(pid, "VmData")  # private memory; a mapped file may be larger than the limit
+            size = 1024 * status_value(pid, "VmData")  # private memory; a mapped file may exceed the limit
             assert soft_limit(pid, "Max data size") < size + {"read": 100 << 20, "draw": 2 << 30}[subcommand] + (1 << 20)
 
 
@@ -134,7 +134,7 @@ async def test_child_processes_cannot_access_the_sessions(tmp_path):
         for pid, subcommand in found.items():
             files = {int(file.name): os.readlink(file) for file in Path(f"/proc/{pid}/fd").iterdir()}
             assert files.pop(0) == files.pop(1) == "/dev/null"
-            files.pop(2)  # the server's log
+            files.pop(2)  # the log of the server
             assert files.pop(3).startswith("socket:")
             assert all("memfd:oval4d-picture" in file for file in files.values()), files
             assert subcommand == "draw" or not files
@@ -150,7 +150,7 @@ async def test_seccomp_filters_allow_only_the_needed_system_calls():
             for name in ["execve", "execveat", "socket", "connect", "bind", "ptrace", "process_vm_readv", "bpf", "fork",
                          "process_vm_writev", "io_uring_setup", "userfaultfd", "unshare", "mount", "pidfd_getfd"]:
                 assert evaluate(name)[0] == KILL, (subcommand, name)
-            assert evaluate("read", arch=0x40000003)[0] == KILL  # as a 32-bit (i386) system call
+            assert evaluate("read", arch=0x40000003)[0] == KILL  # a 32-bit (i386) system call
             for name in ["open", "openat", "openat2", "creat", "unlink", "unlinkat", "rename", "mkdir", "chmod", "link",
                          "symlink", "ftruncate", "truncate", "ioctl", "dup", "dup2", "memfd_create", "pipe2", "getdents64",
                          "setrlimit", "sendto", "recvfrom", "shmget", "msgget", "inotify_init1", "fanotify_init",
@@ -242,7 +242,7 @@ async def test_a_server_stop_ends_the_processes_that_read():
 
 @needs_sandbox
 async def test_a_file_that_needs_too_much_memory_is_refused():
-    faces = 900_000  # eight bytes each in the file, many times as much in memory
+    faces = 900_000  # eight bytes each in the file, much more in memory
     text = f"4OFF\n5 {faces} 0 1\n{simplex_points()}" + "3 0 1 2\n" * faces + "4 0 1 2 3\n"
     with Server("--load-memory", "64M") as server:
         async with Client(server, stream="none") as client:
@@ -264,7 +264,7 @@ async def test_killed_idle_reading_processes_are_replaced():
         async with Client(server, stream="none") as client:
             await load_points(client)
             end = time.monotonic() + DEADLINE
-            while server.metric(DIED) < 3:  # the server may just have been about to replace a process
+            while server.metric(DIED) < 3:  # the server may have been about to replace a process
                 assert time.monotonic() < end, "no loss is noticed"
                 kill_reading_processes(server)
                 await load_points(client, moment_curve_points(10))
@@ -277,15 +277,15 @@ async def test_a_load_survives_one_killed_reading_process_and_fails_after_two():
     server = Server("--max-hull-cells", 10**9, "--load-memory", "16G")
     try:
         async with Client(server, stream="none") as client:
-            while server.metric(DIED) == 0:  # until one was killed while it read
+            while server.metric(DIED) == 0:  # until a process was killed while it read
                 loading = asyncio.ensure_future(load_points(client, moment_curve_points(300)))
                 while not loading.done() and not any(map(is_computing, reading_processes(server))):
                     await asyncio.sleep(0.01)
-                # Only one, because the server may pass the file on to another one at once.
+                # Kills only one process, because the server may pass the file on to another process at once.
                 kill(list(filter(is_computing, reading_processes(server)))[:1])
                 await loading
                 assert await cell_count(client) == 300 * 297 // 2
-            # This takes longer than it takes to kill two processes, even if the test itself is slow.
+            # Reading this file takes longer than killing two processes, even if the test itself is slow.
             loading = asyncio.ensure_future(load_refusal(client, moment_curve_points(8000)))
             while not loading.done():
                 kill_reading_processes(server)
@@ -318,7 +318,7 @@ async def test_sessions_survive_randomly_killed_and_suspended_reading_processes(
                 except Refused as error:
                     assert error.code in ("internal", "too_large")
                 assert shown is None or await cell_count(client) == shown
-            # The server detects waiting readers that were stopped only when it uses them, one by one.
+            # The server notices that idle reader processes are suspended only when it uses them, one after another.
             await load_until_accepted(client)
             assert await cell_count(client) == 5
         assert server.stop()[0] == 0 and not child_processes(server)
@@ -337,8 +337,8 @@ async def test_the_number_of_reading_processes_is_limited_and_returns_to_zero():
                 most = max(most, len(reading_processes(server)))
                 await asyncio.sleep(0.01)
             await loading
-            assert most <= 4, most  # two are reading, and two wait
-            for _ in range(3):  # again if all processes have ended in the meantime, since they have been idle
+            assert most <= 4, most  # two processes read, and two wait
+            for _ in range(3):  # several times, since idle processes may have ended meanwhile
                 for _ in range(20):
                     await asyncio.gather(*(load_points(each) for each in clients))
                 wait_until(lambda: len(reading_processes(server)) <= 2, "the end of those that are too many")

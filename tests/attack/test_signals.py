@@ -41,7 +41,7 @@ def test_a_signal_stops_the_server_gracefully(number):
 def test_answers_that_are_unread_when_the_server_stops_do_not_delay_its_end():
     with Server("--max-unsent", "16k", "--stop-timeout", LONG_TIME) as server, WebSocket(server, receive_buffer=4096) as peer:
         peer.request(type="hello")
-        flood = frame(TEXT, b'{"type":"get","what":"keymap"}') * 500_000  # more than sockets hold
+        flood = frame(TEXT, b'{"type":"get","what":"keymap"}') * 500_000  # more than sockets can hold
         assert send_as_far_as_read([peer], flood, lambda: fetch(server, "/readyz")) < len(flood)
         server.process.send_signal(signal.SIGTERM)
         assert close_code(peer) == 1012
@@ -81,10 +81,10 @@ def test_a_second_signal_ends_the_server_at_once():
         server.wait_for(lambda: "stopping" in server.log())
         server.process.send_signal(signal.SIGTERM)
         server.process.wait(DEADLINE)
-        server.process.returncode = 0  # the second signal killed the server, as intended
+        server.process.returncode = 0  # as intended, the second signal has killed the server
 
 
-# --- Loopback addresses of IPv4 and IPv6
+# --- The server listens on the loopback addresses of IPv4 and IPv6
 
 def has_ipv6():
     with contextlib.suppress(OSError), socket.socket(socket.AF_INET6) as one:

@@ -28,7 +28,7 @@ def start_error(store_path, *options):
     return ended.stderr
 
 
-# --- Permissions of the files
+# --- Only the owner may read the files of the store
 
 
 @pytest.mark.parametrize("mask", [0o000, 0o022, 0o777])
@@ -105,7 +105,7 @@ def test_files_of_a_killed_server_of_a_later_version_are_unchanged(tmp_path):
     assert {file: file.read_bytes() for file in store_files(tmp_path / "later.db")} == before
 
 
-# --- Damaged files
+# --- The server salvages what it can from damaged files
 
 
 async def test_corrupted_and_truncated_files_are_salvaged(store_path):
@@ -156,7 +156,7 @@ async def test_a_file_corrupted_while_the_server_runs_is_salvaged(store_path):
             made.append((credentials_of(client), 1))
             await client.leave()
     mine = made.pop()[0]
-    assert store_path.stat().st_size > 2.2 * MIB  # more than SQLite caches in memory
+    assert store_path.stat().st_size > 2.2 * MIB  # more than SQLite's cache in memory
     server = server_with_store(store_path)
     try:
         async with Client(server, **mine) as client:
@@ -164,7 +164,7 @@ async def test_a_file_corrupted_while_the_server_runs_is_salvaged(store_path):
                 for page in range(2, store_path.stat().st_size // 4096):
                     file.seek(4096 * page)
                     file.write(b"\xa5" * 4096)
-            for credentials, _ in made:  # opening them may fail
+            for credentials, _ in made:  # it may be impossible to open them
                 with contextlib.suppress(Refused):
                     await press_key(server, **credentials)
             await client.request("key", key="k")

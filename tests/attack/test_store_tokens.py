@@ -10,7 +10,7 @@ from stores import (create_sessions, credentials_of, files_containing, press_key
                     sphere_points, store_files, wait_until_saved)
 from wire import Client, hello_refusal
 
-# The tables of version 1 of the file, which stored tokens as plain text.
+# The tables in version 1 of the file, which stored tokens as plain text.
 SCHEMA_VERSION_1 = """
     CREATE TABLE IF NOT EXISTS session (
         id TEXT PRIMARY KEY, token TEXT NOT NULL, fence INTEGER NOT NULL,
@@ -22,7 +22,8 @@ SCHEMA_VERSION_1 = """
         PRIMARY KEY (session, key));
     PRAGMA user_version = 1;"""
 
-# The exact script with which servers of version 0.1.0 save sessions: Redis identifies scripts by their digest.
+# The script with which servers of version 0.1.0 save sessions. Every byte counts, because Redis identifies scripts by
+# their digest.
 SAVE_SCRIPT_0_1_0 = """
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -77,8 +78,8 @@ async def test_version_1_sessions_are_converted_and_their_plain_tokens_erased(st
     tokens = {credentials["session"]: credentials["token"] for credentials, _ in made}
     deleted_tokens = convert_to_version_1(store_path, tokens)
     assert all(files_containing(store_path, token) for token in tokens.values())
-    # If the server is killed during the conversion, the next start repeats it.
-    for log_bytes in (0, 1, 16 << 10):  # it is killed once SQLite's log has this size, or once it has started
+    # If the server is killed during the conversion of the file, the next start repeats the conversion.
+    for log_bytes in (0, 1, 16 << 10):  # kills the server when SQLite's log has this size
         copy = store_path.with_name("killed.sqlite")
         log, output = copy.with_name(copy.name + "-wal"), copy.with_name("output")
         shutil.copy(store_path, copy)
@@ -170,7 +171,7 @@ async def test_redis_keeps_plain_tokens_for_servers_of_version_0_1_0(tmp_path):
             wait_until_saved(server)
             assert {"hash", "token"} <= set(redis.session_fields(other)), "a session of the older server"
         assert int(redis.command("GET", "oval4d:tokens_hashed_since")) > 0
-        redis.command("SET", "oval4d:tokens_hashed_since", "1")  # in January 1970
+        redis.command("SET", "oval4d:tokens_hashed_since", "1")  # a time in January 1970
         with redis.start_server() as server:
             assert await press_key(server, **other) == (other, 3)
             server.wait_for(lambda: "token" not in redis.session_fields(other))

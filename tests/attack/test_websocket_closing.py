@@ -100,7 +100,7 @@ def test_the_server_closes_a_half_closed_connection_that_does_not_read():
             peer.request(type="hello")
             assert peer.request(type="command", line="polytope 600-cell")["type"] == "done"
             answer = len(json.dumps(peer.request(type="get", what="slices")))
-            # Much more than the buffers of the sockets hold.
+            # These answers are much larger than the buffers of the sockets.
             peer.send(frame(TEXT, b'{"type":"get","what":"slices"}') * ((64 << 20) // answer))
             server.wait_for(lambda: server.metric("oval4d_client_bytes") > 32 << 20)
             peer.half_close()

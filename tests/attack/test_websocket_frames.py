@@ -8,7 +8,7 @@ import pytest
 from raw import BINARY, CLOSE, CONTINUATION, PING, PONG, TEXT, frame
 from websocket_messages import INVALID, PROTOCOL_ERROR, TOO_BIG, UNSUPPORTED, assert_answers, padded_request
 
-# --- Framing (Autobahn 1)
+# --- Frames of all sizes, in one piece or in several (Autobahn 1)
 
 @pytest.mark.parametrize("size", [10, 50, 124, 125, 126, 127, 128, 254, 255, 256, 1000, 65534, 65535, 65536])
 @pytest.mark.parametrize("piece", [None, 997])
@@ -60,7 +60,7 @@ def test_many_frames_sent_at_once_are_answered_in_order(peer):
     assert answered == list(range(1, 101))
 
 
-# --- Masks
+# --- Frames of clients must be masked
 
 @pytest.mark.parametrize("opcode, payload", [(TEXT, padded_request(50, 1)), (TEXT, b""), (BINARY, b"x"), (PING, b"x"), (PONG, b""),
                                              (CLOSE, b"\x03\xe8"), (CONTINUATION, b"x")])
@@ -76,7 +76,7 @@ def test_special_masks_are_accepted(peer, mask):
         assert peer.wait_for_answer(size)["type"] == "state"
 
 
-# --- Pings and pongs (Autobahn 2)
+# --- Pings are answered, and pongs are ignored (Autobahn 2)
 
 @pytest.mark.parametrize("payload", [b"", b"x", b"Hello, world!", b"\x00\xff\xfe\xfd\xfc\xfb\x00\xff", b"\xfe" * 124,
                                      b"\xfe" * 125], ids=len)
@@ -110,7 +110,7 @@ def test_pings_are_answered_in_order(peer_without_hello):
     assert [peer_without_hello.next_pong() for _ in range(200)] == [b"%d" % number for number in range(200)]
 
 
-# --- Reserved bits (Autobahn 3)
+# --- Reserved bits are refused (Autobahn 3)
 
 @pytest.mark.parametrize("reserved", range(1, 8))
 @pytest.mark.parametrize("opcode, payload", [(TEXT, padded_request(50, 1)), (PING, b"x"), (PONG, b""), (CLOSE, b"\x03\xe8"),
@@ -127,7 +127,7 @@ def test_reserved_bits_in_a_continuation_are_refused(peer):
     assert peer.wait_for_failure_code() == PROTOCOL_ERROR
 
 
-# --- Reserved opcodes (Autobahn 4)
+# --- Reserved opcodes are refused (Autobahn 4)
 
 @pytest.mark.parametrize("opcode", [3, 4, 5, 6, 7, 11, 12, 13, 14, 15])
 @pytest.mark.parametrize("payload", [b"", b"reserved opcode payload"])

@@ -62,7 +62,7 @@ def test_another_websocket_version_is_refused(server, version):
     assert answer.status in (400, 426)
     if answer.status == 426:
         assert answer.get("Sec-WebSocket-Version") == "13"
-        assert answer.get("Upgrade") == "websocket"  # RFC 9110, 15.5.22
+        assert answer.get("Upgrade") == "websocket"  # required by RFC 9110, section 15.5.22
 
 
 def test_a_missing_websocket_version_is_refused(server):

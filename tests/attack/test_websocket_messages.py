@@ -22,7 +22,7 @@ def command_with_text(text, number):
     return json.dumps({"type": "command", "id": number, "line": "polytope " + text}, ensure_ascii=False).encode()
 
 
-# --- Fragments (Autobahn 5)
+# --- Fragmented messages (Autobahn 5)
 
 @pytest.mark.parametrize("cuts", [[20], [0], [50], [0, 0, 0], [1, 2, 3, 4], [50, 50], list(range(1, 50))])
 @pytest.mark.parametrize("between", [b"", frame(PING, b"between"), frame(PONG, b"unsolicited")], ids=["no control frame", "ping", "pong"])
@@ -73,7 +73,7 @@ def test_a_new_message_within_a_fragmented_message_is_refused(peer, opcode, fina
     assert peer.wait_for_failure_code() == PROTOCOL_ERROR
 
 
-# --- UTF-8 (Autobahn 6)
+# --- Messages must be valid UTF-8 (Autobahn 6)
 
 VALID_TEXTS = ["κόσμε", "Hello-µ@ßöäüàá-UTF-8!!", "\u0080", "\u07ff", "\u0800", "\uffff", "\U00010000", "\U0010ffff", "\ud7ff",
                "\ue000", "\ufffd", "\ufffe", "\ufdd0", "\U0001fffe", "\U0001ffff", "\U0008ffff", "\U000fffff", "\U0010fffe",
@@ -151,7 +151,7 @@ def test_pings_need_not_be_utf8(peer_without_hello):
     assert peer_without_hello.next_pong() == b"\xff\xfe\x80"
 
 
-# --- Limits and many messages (Autobahn 9)
+# --- Limits on messages, and many messages (Autobahn 9)
 
 def test_many_small_messages_are_answered_in_order(peer):
     count = 2000

@@ -4,7 +4,7 @@
 
 namespace oval4d::bench {
 
-/// Returns the number of calls of operator new since the program started, including calls by libraries.
+/// Returns how often operator new has been called since the program started, including calls by libraries.
 std::size_t allocations();
 
 }  // namespace oval4d::bench

@@ -1,8 +1,9 @@
-// Measures how many pictures per second one process produces, from state to PNG file.
+// Measures how many pictures per second one process makes, from a state to a PNG file.
 //   bench_drawing POLYTOPE DRAWERS ENCODERS SECONDS
-// DRAWERS threads draw, each with its own context, and encode their pictures; if ENCODERS is 1, each has another thread
-// that encodes while it draws the next picture. Prints "ready" after the warm-up and waits for a line of input, so that
-// several processes can begin at the same time. LP_NUM_THREADS sets the number of llvmpipe's threads.
+// DRAWERS threads draw, each with its own context. If ENCODERS is 0, they also encode their pictures. If ENCODERS is 1,
+// each has a second thread that encodes a picture while the next one is drawn. Prints "ready" after the warm-up and
+// waits for a line of input, so that several processes can begin at the same time. LP_NUM_THREADS sets the number of
+// threads of llvmpipe (the software renderer).
 
 #include <algorithm>
 #include <atomic>
@@ -41,7 +42,7 @@ session::State stateOf(const std::string& polytope) {
     return made;
 }
 
-/// Passes images from one thread to another; holds at most two.
+/// A queue that passes images from one thread to another. It holds at most two images.
 class Handover {
   public:
     void put(image::Image& image) {
@@ -101,8 +102,8 @@ class Drawer {
     std::vector<std::uint8_t> png_;
 };
 
-/// Warms up, and decrements `cold`, the number of threads that have not warmed up yet. Waits until `begun` is set, then
-/// draws pictures for this many seconds, and appends their latencies in seconds.
+/// Warms up, then decrements `cold`, the number of threads that have not warmed up. Waits until `begun` is true. Then
+/// draws pictures for `seconds` seconds, and appends the time that each takes, in seconds, to `latencies`.
 void draw(const session::State& state, parallel::ForkJoin& forkJoin, bool pipelined, std::atomic<int>& cold,
           const std::atomic<bool>& begun, double seconds, std::vector<double>& latencies) {
     Drawer drawer(state, forkJoin);

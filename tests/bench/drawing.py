@@ -5,7 +5,8 @@ import os
 import statistics
 import subprocess
 
-# By name: number of processes, drawing threads per process, 1 if separate threads encode, LP_NUM_THREADS (None: unset).
+# The ways of drawing, by name: the number of processes, drawing threads per process, 1 if separate threads encode, and
+# LP_NUM_THREADS (None if unset).
 WAYS = {
     "one, threads unset": (1, 1, 0, None), "one, 0 threads": (1, 1, 0, 0), "one, 1 thread": (1, 1, 0, 1),
     "one, 2 threads": (1, 1, 0, 2),
@@ -26,7 +27,7 @@ def run(program, polytope, processes, drawers, encoders, threads):
     running = [subprocess.Popen(words, env=environment, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
                for _ in range(processes)]
     for process in running:
-        process.stdout.readline()  # the process has warmed up
+        process.stdout.readline()  # waits until the process has warmed up
     for process in running:
         process.stdin.write("\n")
         process.stdin.flush()

@@ -1,10 +1,9 @@
-// Measures how long exported files take, or how long it takes to fill the faces of the slices of a star, beside the
-// tessellator of GLU; prints one line of JSON with the milliseconds of each turn. In a turn, everything that is
-// compared runs once.
+// Measures one of two things: how long exported files take, or how long it takes to fill the faces of a star's slices,
+// in comparison with GLU's tessellator. Prints one line of JSON with the milliseconds of each turn. In a turn,
+// everything that is compared runs once.
 //   bench_export files [POLYTOPE] [TURNS]
 //   bench_export faces [POLYTOPE] [TURNS]
-// The slices are those of pictures.cpp: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and a double
-// rotation.
+// The slices are as in pictures.cpp: hyperplanes from w = −1 to 1 for a circumradius of 4/√10, and a double rotation.
 
 #include <GL/glu.h>
 
@@ -56,12 +55,12 @@ session::State stateOf(const std::string& polytope) {
     return state;
 }
 
-/// A file to export: the name of its format, and what it contains.
+/// A kind of file to export: its format, its contents and its body.
 struct FileToExport {
     const char* format;
     exports::ExportContentsKind contents;
     exports::BodyKind body;
-    const char* about;  ///< the contents, for people
+    const char* about;  ///< a description of the contents
 };
 constexpr FileToExport kFiles[] = {
     {"stl", exports::ExportContentsKind::oval, exports::BodyKind::solid, "21 solid slices"},
@@ -97,8 +96,8 @@ json files(const std::string& polytope, int turns) {
     return rows;
 }
 
-/// Fills the faces of slices as slicing::FaceFiller does, by the nonzero winding rule, with GLU's tessellator. Keeps
-/// its memory and the tessellator between calls.
+/// Fills the faces of slices with GLU's tessellator. Uses the nonzero winding rule, like slicing::FaceFiller. Keeps its
+/// memory and the tessellator between calls.
 class GluFiller {
   public:
     GluFiller() : tess_(gluNewTess(), &gluDeleteTess) {
@@ -110,7 +109,7 @@ class GluFiller {
         gluTessCallback(tess_.get(), GLU_TESS_ERROR_DATA, callback(&fail));
     }
 
-    /// Fills all faces of the slices. Overwrites the result of the last call.
+    /// Fills all faces of the slices. Overwrites the result of the previous call.
     void fill(const slicing::SliceSet& slices) {
         groups_.clear();
         out_.clear();
@@ -140,8 +139,8 @@ class GluFiller {
     int failures() const { return failures_; }
 
   private:
-    // Corners of triangles: out_[begin] up to the next group. `kind`: GL_TRIANGLES, GL_TRIANGLE_FAN or
-    // GL_TRIANGLE_STRIP.
+    // A group of triangles of one kind. Its corners are in `out_` from the index `begin` to the start of the next
+    // group. `kind` is GL_TRIANGLES, GL_TRIANGLE_FAN or GL_TRIANGLE_STRIP.
     struct Group {
         GLenum kind;
         std::size_t begin;

@@ -1,4 +1,5 @@
-// Measures arrays: values and gradients at the points of a rotated slice, bounds, and the reading of bricks.
+// Measures fields given by arrays: values and gradients at the points of a rotated slice, bounds, and the reading of
+// bricks (blocks of samples).
 
 #include <benchmark/benchmark.h>
 
@@ -13,9 +14,9 @@
 namespace oval4d::bench {
 namespace {
 
-constexpr std::size_t kBlock = 512;  // points of a block of 8 × 8 × 8
+constexpr std::size_t kBlock = 512;  // points in a block of 8 × 8 × 8
 
-// The points of the lattices of 21 slices, rotated in two planes, block by block.
+// The lattice points of 21 slices, rotated in two planes, in the order of their blocks.
 struct SlicePoints {
     std::vector<float> x, y, z, w;
 

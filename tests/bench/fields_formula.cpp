@@ -1,4 +1,4 @@
-// Measures the evaluation of formulas: values and gradients of a million points, and bounds in boxes.
+// Measures the evaluation of formulas: values and gradients at a million points, and bounds in boxes.
 
 #include <benchmark/benchmark.h>
 
@@ -25,7 +25,7 @@ constexpr Subject kSubjects[] = {
     {"superquadric", "abs(x)^2.5+abs(y)^2.5+abs(z)^2.5+abs(w)^2.5-1"},
 };
 
-/// Random points of [-2, 2]⁴ with room for the results.
+/// Random points of [-2, 2]⁴, with memory for the results.
 struct Points {
     static constexpr std::size_t kCount = 1 << 20;
     std::array<std::vector<float>, 4> coordinates, gradients;

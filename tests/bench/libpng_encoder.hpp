@@ -6,14 +6,14 @@
 
 namespace oval4d::bench {
 
-/// The result of encodeByLibpng().
+/// The result of encoding a picture with libpng.
 struct LibpngFile {
-    double seconds;     ///< the time of the encoding
+    double seconds;     ///< how long the encoding took
     std::size_t bytes;  ///< the size of the encoded file
 };
 
-/// Decodes a PNG file to RGB pixels, encodes the pixels with libpng at compression level 1 with the default filters,
-/// and measures the time of the encoding only. Throws std::runtime_error if `png` is not a valid PNG file.
+/// Decodes a PNG file to RGB pixels, then encodes the pixels with libpng at compression level 1 with the default
+/// filters. Measures only the encoding. Throws std::runtime_error if `png` is not a valid PNG file.
 LibpngFile encodeByLibpng(std::span<const std::uint8_t> png);
 
 }  // namespace oval4d::bench

@@ -1,5 +1,6 @@
-// Measures a running server under load: the latencies from a key to its picture and from a point to the element there,
-// many sessions, a flood of keys, a client that never reads. Prints a line of JSON for each measurement.
+// Measures a running server under load. Measures the time from a key to its picture and from a point to the element
+// there, with many sessions, a flood of keys, and a client that never reads. Prints a line of JSON for each
+// measurement.
 //   oval4d --port 8080 --max-requests 1000000 --session-expiry 2 &  bench_load [port] [seconds]
 
 #include <algorithm>
@@ -28,7 +29,8 @@ using load::Latencies;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Coroutines that run at the same time. run() returns when all have ended; it rethrows their first exception.
+/// A group of coroutines that run at the same time. run() returns when all have ended, and rethrows their first
+/// exception.
 class CoroutineGroup {
   public:
     asio::io_context io;
@@ -74,7 +76,7 @@ void row(const std::string& what, Latencies latencies) {
 std::string helloFor(const std::string& stream) { return R"({"type":"hello","stream":")" + stream + "\"}"; }
 std::string setPolytope(const std::string& name) { return R"({"type":"set","polytope":")" + name + "\"}"; }
 
-/// Opens a session with this polytope. A new session has the 5-cell, so setting it would change nothing.
+/// Opens a session with this polytope. A new session already has the 5-cell, so that one need not be set.
 asio::awaitable<void> openWith(Client& client, std::string hello, std::string polytope) {
     co_await client.open(std::move(hello), true);
     if (polytope == "5-cell") co_return;
@@ -82,7 +84,7 @@ asio::awaitable<void> openWith(Client& client, std::string hello, std::string po
     co_await client.picture(1);
 }
 
-/// A client that presses a key, waits for its picture, and then presses the next key.
+/// Repeatedly presses a key and waits for its picture, for `seconds` seconds.
 asio::awaitable<void> pressing(CoroutineGroup& group, Endpoint server, std::string hello, std::string polytope,
                                double seconds, Latencies& latencies) {
     Client client(group.io, server);
@@ -96,15 +98,16 @@ asio::awaitable<void> pressing(CoroutineGroup& group, Endpoint server, std::stri
     co_await client.close();
 }
 
-/// Returns a number from 0 to `size` − 1. For i = 0, 1, 2, … and an irrational `step`, the numbers are spread evenly.
+/// Returns a number from 0 to `size` − 1. For i = 0, 1, 2, … and an irrational `step`, these numbers are evenly spread.
 int spread(int i, double step, int size) { return static_cast<int>(size * std::fmod(i * step, 1.0)); }
 
-/// A client of a session with frames that asks what its picture shows at many points, one after another. The object
-/// turns before every tenth point, so that the server cannot answer all of them from what it has kept.
+/// A client of a session with frames. It asks what its picture shows at many points, one after another. Before every
+/// tenth point the object turns, so that the server cannot answer all questions from its cache.
 asio::awaitable<void> pointing(CoroutineGroup& group, Endpoint server, std::string polytope, int points,
                                Latencies& latencies) {
     constexpr int kWidth = 1280, kHeight = 720;  // the size of frames unless `hello` states another one
-    // M. Roberts, "The unreasonable effectiveness of quasirandom sequences": these steps spread points in a square.
+    // These steps spread points evenly in a square (M. Roberts, "The unreasonable effectiveness of quasirandom
+    // sequences").
     constexpr double kStepX = 0.7548776662466927, kStepY = 0.5698402909980532;
     Client client(group.io, server);
     co_await openWith(client, helloFor("frames"), polytope);
@@ -117,7 +120,7 @@ asio::awaitable<void> pointing(CoroutineGroup& group, Endpoint server, std::stri
     co_await client.close();
 }
 
-/// One of many clients with ten keys per second. Latencies count from the scheduled time of a key, even if a late
+/// One of many clients that press ten keys per second. Latencies count from the scheduled time of a key, even if a late
 /// picture delays the key.
 asio::awaitable<void> typing(CoroutineGroup& group, Endpoint server, int number, double seconds, Latencies& latencies) {
     Client client(group.io, server);
@@ -147,7 +150,7 @@ asio::awaitable<void> flooding(CoroutineGroup& group, Endpoint server, std::stri
     co_await client.close();
 }
 
-/// Sends many requests and never reads, until the server drops the client.
+/// Sends many requests but never reads, until the server drops the client.
 asio::awaitable<void> neverReading(CoroutineGroup& group, Endpoint server, double seconds) {
     Client client(group.io, server);
     co_await client.open(helloFor("frames"), false);
@@ -211,7 +214,7 @@ void besideOneThatNeverReads(Endpoint server, double seconds) {
     row("slices of the 5-cell, beside a client that never reads", latencies);
 }
 
-/// Runs a session with the 5-cell and other sessions with a large polytope, each as fast as possible.
+/// Measures a session with the 5-cell beside other sessions with a large polytope. All are as fast as possible.
 void besideLargeOnes(Endpoint server, const std::string& stream, int others, double seconds) {
     CoroutineGroup group;
     Latencies latencies;
@@ -226,7 +229,7 @@ void besideLargeOnes(Endpoint server, const std::string& stream, int others, dou
     row("those " + std::to_string(others) + ", " + stream, all);
 }
 
-/// Runs many sessions at the same time, each as fast as possible.
+/// Measures many sessions at the same time, each as fast as possible.
 void allAtOnce(Endpoint server, const std::string& polytope, int count, double seconds) {
     CoroutineGroup group;
     std::vector<Latencies> each(static_cast<std::size_t>(count));
@@ -262,7 +265,7 @@ int main(int argc, char** argv) {
     const Endpoint server(asio::ip::make_address("127.0.0.1"), port);
     const std::string cbor = R"({"type":"hello","stream":"geometry","encoding":"cbor"})";
     try {
-        // Comes first, because it measures the memory of a server that has just started.
+        // This measurement comes first, because it is about the memory of a server that has just started.
         idle(server, 1000);
         for (const char* polytope : {"5-cell", "600-cell"}) {
             const std::string name = polytope;
@@ -282,7 +285,7 @@ int main(int argc, char** argv) {
             group.spawn(flooding(group, server, stream, 1000));
             group.run();
         }
-        // Waits until the sessions of departed clients have expired, and idle workers have freed their memory.
+        // By then, the sessions of departed clients have expired, and idle workers have freed their memory.
         std::this_thread::sleep_for(std::chrono::seconds(6));
         CoroutineGroup group;
         say("memory after all that", text(R"("after":%.1f)", memoryOf(group, server)));

@@ -13,7 +13,7 @@ using asio::use_awaitable;
 
 namespace {
 
-/// Returns the number after `"revision":`, which is near the beginning of the text.
+/// Returns the number after `"revision":`, which must be near the beginning of the text.
 std::uint64_t revisionIn(std::string_view text) {
     constexpr std::string_view kName = "\"revision\":";
     const std::size_t at = text.find(kName);
@@ -33,7 +33,7 @@ asio::awaitable<void> Client::open(std::string hello, bool streams) {
     const std::string host = server_.address().to_string();
     co_await stream_.async_handshake(host, "/ws", use_awaitable);
     co_await send(std::move(hello));
-    co_await read();  // welcome
+    co_await read();  // the message `welcome`
     if (streams) co_await picture(0);
 }
 
@@ -52,7 +52,7 @@ asio::awaitable<void> Client::picture(std::uint64_t wanted) {
     for (std::uint64_t seen = 0;;) {
         const std::string_view message = co_await read();
         if (message.starts_with(R"({"type":"state")")) {
-            seen = revisionIn(message);  // the next message is the picture of this state
+            seen = revisionIn(message);  // the picture of this state is the next message
             continue;
         }
         if (message.starts_with(R"({"type":"error")")) throw std::runtime_error(std::string(message));

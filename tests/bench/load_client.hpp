@@ -1,6 +1,6 @@
 #pragma once
-// A WebSocket client for load tests. It waits for the picture that follows each key press and for the answer to each
-// question, and counts pictures and bytes.
+// A WebSocket client for load tests. It waits for the picture after each key press and for the answer to each question.
+// It counts pictures and bytes.
 
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
@@ -19,24 +19,24 @@ namespace load {
 using Clock = std::chrono::steady_clock;
 using Endpoint = boost::asio::ip::tcp::endpoint;
 
-/// For each key press, the time in seconds until its picture arrived; or for each question, until its answer arrived.
+/// Times in seconds: from each key press to its picture, or from each question to its answer.
 using Latencies = std::vector<double>;
 
 class Client {
   public:
     Client(boost::asio::io_context& io, Endpoint server) : stream_(io), server_(server) {}
 
-    /// Connects and sends `hello`, a JSON text. If `streams` is true, `hello` requests pictures, and the first picture
-    /// is read.
+    /// Connects and sends `hello`, a JSON text. If `streams` is true, `hello` must request pictures, and the function
+    /// reads the first one.
     boost::asio::awaitable<void> open(std::string hello, bool streams);
     boost::asio::awaitable<void> send(std::string text);
-    /// Reads messages until the picture of the revision `wanted` or of a newer one. Acknowledges and counts this
-    /// picture and all earlier ones.
+    /// Reads messages up to the picture of the revision `wanted` or of a newer one. Acknowledges and counts this
+    /// picture and all before it.
     boost::asio::awaitable<void> picture(std::uint64_t wanted);
     /// Presses a key and waits for its picture.
     boost::asio::awaitable<void> key(char which);
-    /// Asks what the picture shows at the point (x, y), in pixels from the upper left corner, and waits for the answer.
-    /// All pictures must have been read.
+    /// Asks what the picture shows at the point (x, y), in pixels from the upper left corner. Waits for the answer. All
+    /// pictures must have been read before.
     boost::asio::awaitable<void> pointAt(int x, int y);
     boost::asio::awaitable<void> close();
 

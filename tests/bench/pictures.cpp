@@ -1,8 +1,8 @@
-// Measures every step from a state to its picture, as in the server; prints the medians as one line of JSON.
+// Measures every step from a state to its picture, as the server performs them. Prints the medians as one line of JSON.
 //   bench_pictures POLYTOPE|FILE.npy|formula [SLICES] [WIDTH] [HEIGHT] [FRAMES] [SETTING=VALUE …]
-// The scene is the same as in the programs that oval4d is compared with: hyperplanes from w = −1 to 1 for a
+// The scene is the same as in the programs with which oval4d is compared: hyperplanes from w = −1 to 1 for a
 // circumradius of 4/√10, and double rotations. If FRAMES is 0, nothing is drawn. For "formula", the setting formula=…
-// must be given.
+// is required.
 
 #include <sys/resource.h>
 
@@ -53,10 +53,10 @@ double secondsOf(Work&& work) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The times of a repeated operation.
+/// The durations of a repeated operation.
 class Samples {
   public:
-    Samples() { seconds_.reserve(1U << 18U); }  // so that adding allocates nothing
+    Samples() { seconds_.reserve(1U << 18U); }  // so that adding a sample allocates nothing
     void add(double seconds) { seconds_.push_back(seconds); }
     double milliseconds() {
         std::sort(seconds_.begin(), seconds_.end());
@@ -120,8 +120,8 @@ class Bench {
         return rasterizer;
     }
 
-    // After a warm-up, calls step(i) at least `least` times and for some time. Then calls it again with the same values
-    // of i, when all buffers have the size that they need, and records the allocations per step.
+    // Calls step(i) at least `least` times, and for some time, after a warm-up. Then all buffers have their final
+    // sizes. Calls it again with the same values of i, and records the allocations per step.
     template <typename Step>
     void repeat(const char* name, int least, Step&& step) {
         const int warm = std::min(least, 24);
@@ -225,7 +225,7 @@ class Bench {
 
     const Job job_;
     session::State state_ = session::initialState();
-    scene::PictureRequest picture_;  // what picture() has written last
+    scene::PictureRequest picture_;  // the last result of picture()
     parallel::ForkJoin forkJoin_;
     pipeline::Pipeline pipeline_{makeRasterizer(forkJoin_), &forkJoin_};
     slicing::SliceSet set_;

@@ -3,11 +3,11 @@
 // binary, as for the tests of the page.
 //   node pointing.mjs [points in each part of the picture]
 //
-// There are two pictures: the first one highlights what was cut from the element itself, the second one everything that
-// shows the element, when the server has answered what this is. For each of them, in milliseconds,
-// - `work` is how long the page's scripts run for it: from the event `pointermove` (or from the server's answer) to the
-//   end of the drawing. The work of the browser, such as composing the page, and of the graphics card is not included;
-// - `shown` is the time from the event until the browser has rendered the page, as latency.ts in web_client defines it.
+// A movement leads to two pictures. The first highlights the sections of the element itself. The second highlights all
+// parts that show the element, after the server has named them. For each picture, there are two times in milliseconds:
+// - `work` is how long the page's scripts run: from the event `pointermove` (or the server's answer) to the end of the
+//   drawing. Work of the browser, such as composing the page, and of the graphics card is not included.
+// - `shown` is the time from the event until the browser has rendered the page, as in web_client/src/latency.ts.
 import { bundleClient } from "../browser/support/bundle_client.mjs";
 
 bundleClient();
@@ -20,20 +20,21 @@ const kPolytopes = ["24-cell", "120-cell", "600-cell", "small stellated 120-cell
 const kPoints = Number(process.argv[2] ?? 100);
 
 /**
- * Runs in the page before its scripts. window.pointing.begin() forgets what was measured; window.pointing.pictures then
- * has {work, shown} of each picture that is drawn after the next movement of the mouse.
+ * Runs in the page before its scripts. window.pointing.begin() discards all measurements. window.pointing.pictures then
+ * has {work, shown} for each picture that is drawn after the next movement of the mouse.
  */
 function measurePictures() {
-    let start; // when the movement began to be handled
-    let began; // when the page's present task began; undefined between such tasks
-    let work = 0; // of the next picture
-    let drawings = 0; // calls that draw triangles
-    let last = ""; // where the mouse is: the browser repeats events without a movement
+    let start; // when the page began to handle the movement
+    let began; // when the page's current task began; undefined between tasks
+    let work = 0; // for the next picture, in milliseconds
+    let drawings = 0; // how many calls have drawn triangles
+    let last = ""; // the mouse's place; browsers repeat events without a movement
     const endTask = () => {
         if (began !== undefined) work += performance.now() - began;
         began = undefined;
     };
-    // A task also consists of what waits for promises that it resolves. It has ended when the next message arrives.
+    // A task includes the code that waits for promises that it resolves. The next message arrives after the end of the
+    // task.
     const taskEnds = new MessageChannel();
     taskEnds.port1.onmessage = endTask;
     const beginTask = () => {
@@ -47,7 +48,7 @@ function measurePictures() {
     const pointing = (window.pointing = {
         pictures: [],
         begin() {
-            // The graphics card must not be busy with earlier pictures.
+            // The graphics card must have finished earlier pictures.
             document.querySelector("#drawing canvas.solids").getContext("webgl2").finish();
             pointing.pictures = [];
             start = undefined;
@@ -77,7 +78,7 @@ function measurePictures() {
         return drawElements.apply(this, given);
     };
     const afterRendering = new MessageChannel();
-    const drawn = []; // pictures that the browser has not rendered
+    const drawn = []; // pictures that the browser has not rendered yet
     afterRendering.port1.onmessage = () => {
         for (const picture of drawn.splice(0)) picture.shown = performance.now() - picture.start;
     };
@@ -97,14 +98,14 @@ function measurePictures() {
         });
 }
 
-/** The vertices, whose pixels are `points`, and the middles of the edges and faces. */
+/** Places on elements: the vertices, whose pixels are `points`, and the middles of the edges and faces. */
 function placesOn(elements, points) {
     const { edges, of } = elements;
     const middles = [...of.edges].map((_, e) => middle([points[edges[2 * e]], points[edges[2 * e + 1]]]));
     return [...points, ...middles, ...[...of.faces].map((_, f) => middle(loopOf(elements, f).map((v) => points[v])))];
 }
 
-/** For each part of a picture, places on its elements, in pixels. */
+/** Places on the elements in each part of a picture, in pixels. */
 function placesIn(picture, size) {
     const { coordinates, projection, scene, slices } = picture;
     const pixelsOf = (scale, position, vertices) =>
@@ -122,13 +123,16 @@ function placesIn(picture, size) {
     };
 }
 
-/** `count` of the places, evenly spread; successive ones are far from each other. */
+/** Chooses `count` evenly spread places. Consecutive places are far from each other. */
 function chosen(places, count) {
     const step = (Math.sqrt(5) - 1) / 2;
     return Array.from({ length: count }, (_, i) => places[Math.floor(places.length * ((i * step) % 1))]);
 }
 
-/** Points at places one after the other. Resolves to the pictures of those at which there is another element. */
+/**
+ * Points at places, one after another. Resolves to the pictures after each place that has another element than the
+ * place before.
+ */
 async function point({ page, moveTo }, places) {
     const measured = [];
     for (const [x, y] of places) {
@@ -143,7 +147,7 @@ async function point({ page, moveTo }, places) {
     return measured;
 }
 
-/** The median and the 95th percentile; undefined if there are no values. */
+/** The median and the 95th percentile of values; undefined if there are none. */
 function summary(values) {
     if (values.length === 0) return undefined;
     const sorted = [...values].sort((a, b) => a - b);
@@ -155,7 +159,7 @@ const browser = await accurateBrowser();
 for (const polytope of kPolytopes) {
     const opened = await openTurned({ polytope }, { browser, before: measurePictures });
     const parts = placesIn(await opened.picture(), opened.size);
-    await point(opened, chosen(parts.slices, 10)); // the code is compiled, and the buffers have their sizes
+    await point(opened, chosen(parts.slices, 10)); // the browser compiles the code, and buffers get their sizes
     for (const [part, places] of Object.entries(parts)) {
         const measured = await point(opened, chosen(places, kPoints));
         const count = measured.length;

@@ -1,4 +1,5 @@
-// Measures how long polytopes take to build, and files to read: 4OFF files and convex hulls of growing size.
+// Measures how long it takes to build polytopes and to read files: 4OFF files and points of convex hulls, of growing
+// sizes.
 
 #include <benchmark/benchmark.h>
 
@@ -12,7 +13,7 @@
 namespace oval4d::bench {
 namespace {
 
-/// A polytope, built from its Coxeter diagram.
+/// A polytope that is built from its Coxeter diagram.
 struct Subject {
     const char* name;
     int p, q, r;                 ///< the symbol {p, q, r}
@@ -34,7 +35,7 @@ constexpr Subject kSubjects[] = {
     {"omnitruncated 120-cell", 5, 3, 3, {true, true, true, true}},
 };
 
-/// Returns the polytope of kSubjects[number], which is built at the first call with this number.
+/// Returns the polytope of kSubjects[number]. The first call with a number builds it.
 std::shared_ptr<const polytopes::Polytope> subject(std::size_t number) {
     static std::array<std::shared_ptr<const polytopes::Polytope>, std::size(kSubjects)> built;
     auto& slot = built.at(number);
@@ -80,7 +81,7 @@ void importOff4(benchmark::State& state) {
     read(state, polytopes::FileFormat::off4, off4(*polytope));
 }
 
-// Imports the duoprism of two n-gons, which has 2 n² edges.
+// Measures the import of the duoprism of two n-gons, which has 2 n² edges.
 void importDuoprism(benchmark::State& state) {
     polytopes::Diagram diagram;
     const auto n = static_cast<int>(state.range(0));

@@ -20,7 +20,7 @@ from programs import BIN, load, pictures, point_on_page
 PARTS = ("targets", "parts", "growth", "polytopes", "whole", "fields", "export", "drawing", "load",
          "pointing")
 PAGE = Path(__file__).resolve().parents[2] / "web_client/dist"
-AT_FRAMES = "pointing at frames, "  # the rows of bench_load that begin so are about pointing
+AT_FRAMES = "pointing at frames, "  # rows of bench_load that begin so are about pointing
 REGULAR = ("5-cell", "8-cell", "120-cell", "600-cell")
 GROWING = ("5-cell", "8-cell", "24-cell", "omnitruncated 5-cell", "120-cell", "600-cell", "omnitruncated 24-cell",
            "truncated 120-cell", "cantitruncated 120-cell", "omnitruncated 120-cell")
@@ -28,10 +28,10 @@ WHOLE = ("8-cell", "24-cell", "120-cell", "600-cell")
 WHOLE_VARIANTS = {"slices alone": {}, "with the projection": {"projection": "perspective"},
                   "with a highlighted cell": {"highlight": "cell:1"},
                   "with both": {"projection": "perspective", "highlight": "cell:1"}}
-PAGE_FRAME = 16.7  # milliseconds between two pictures of a display
+PAGE_FRAME = 16.7  # milliseconds between two pictures on a display
 STARS = ("small stellated 120-cell", "great stellated 120-cell", "great grand stellated 120-cell")
-TURNS = 5         # for frames
-QUICK_TURNS = 11  # for operations of less than a millisecond
+TURNS = 5         # how often frames are measured
+QUICK_TURNS = 11  # how often operations of less than a millisecond are measured
 
 
 def number(value):
@@ -67,7 +67,7 @@ class Turns:
         with_vtk = not peers.why_no_vtk()
         for _ in range(TURNS):
             ours, theirs = {}, {}
-            for name in REGULAR:  # oval4d and the others in turn, because the machine's speed changes
+            for name in REGULAR:  # by turns, because the machine's speed changes
                 ours[name] = pictures(name)
                 theirs.update({(name, way): peers.vtk(name, way) for way in peers.VTK if with_vtk})
             self.frames.append(ours)
@@ -248,7 +248,7 @@ def whole(wholes):
             *(whole_ratio(turns, what) for what in added)] for polytope, turns in wholes.items()])
 
 
-# The functions of vtk_field.py. Between arrays and formulas, only the source of the values differs.
+# The functions that vtk_field.py shows. Arrays and formulas differ only in the source of the values.
 FIELDS = {
     "tiger": "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09",
     "blobs": "0.6 - (" + " + ".join(

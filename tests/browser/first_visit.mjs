@@ -236,7 +236,7 @@ test("tour: on a phone and zoomed in, its panel and buttons are in the window", 
         for (let i = 0; i < 6; ++i) {
             for (const part of ["#tour", "#tour-end", "#tour-ring"]) {
                 const box = await page.locator(part).boundingBox();
-                const [right, bottom] = [box.x + box.width, box.y + box.height].map((end) => end - 0.01); // for rounding
+                const [right, bottom] = [box.x + box.width, box.y + box.height].map((end) => end - 0.01); // rounded
                 const isWithin = box.x >= 0 && box.y >= 0 && right <= width && bottom <= height;
                 assert.ok(isWithin, `${width} × ${height}, step ${i + 1}: ${part} ${JSON.stringify(box)}`);
             }

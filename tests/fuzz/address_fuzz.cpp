@@ -1,5 +1,5 @@
-// Fuzzes the access control and the targets of HTTP requests. The input has one line each for the target, Host, Origin,
-// Authorization and Cookie.
+// Fuzzes the access control of HTTP requests and the parsing of their targets. The input has five lines: the target,
+// Host, Origin, Authorization and Cookie.
 
 #include <algorithm>
 #include <array>

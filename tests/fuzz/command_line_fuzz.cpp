@@ -1,5 +1,5 @@
-// Fuzzes the command line: each line of the input is executed on one session, and also parsed as an expression and as a
-// rotation.
+// Fuzzes the command line. Each line of the input is executed on one session, and is also parsed as an expression and
+// as a rotation.
 
 #include "session/expression.hpp"
 #include "support.hpp"
@@ -16,11 +16,11 @@ void evaluateIt(std::string_view text) {
         return;
     }
     require(std::isfinite(*value), "an expression is a finite number");
-    // The value must survive formatting, as the command line does it, and parsing.
+    // The value must stay the same when it is formatted, as the command line does it, and parsed again.
     std::array<char, 32> digits;
     const std::size_t length = std::snprintf(digits.data(), digits.size(), "%.17g", *value);
     const auto again = session::evaluate({digits.data(), length});
-    const bool tiny = *value != 0 && std::abs(*value) < 1e-300;  // denormal numbers may be refused
+    const bool tiny = *value != 0 && std::abs(*value) < 1e-300;  // the parser may refuse denormal numbers
     require(tiny || (again && *again == *value), "a number's own text is that number:", digits.data());
     if (text.size() > 900) return;
     const auto bracketed = session::evaluate("(" + std::string(text) + ")");

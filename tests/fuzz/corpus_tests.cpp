@@ -1,4 +1,5 @@
-// Runs each fuzzer on the files in its corpus, tests/fuzz/corpus/<subject>/, without libFuzzer. Each file is a test.
+// Runs each fuzzer on the stored inputs of its corpus, without libFuzzer. The corpus is in
+// tests/fuzz/corpus/<subject>/. Each file in it is a test.
 
 #include <algorithm>
 #include <cctype>
@@ -27,7 +28,7 @@ namespace {
 
 using Fuzzer = int (*)(const std::uint8_t* data, std::size_t size);
 
-// The fuzzers by subject.
+// Returns the fuzzers by subject.
 const std::map<std::string, Fuzzer>& fuzzers() {
     static const std::map<std::string, Fuzzer> all{
 #define FUZZER(subject) {#subject, fuzz_##subject},
@@ -37,12 +38,13 @@ const std::map<std::string, Fuzzer>& fuzzers() {
     return all;
 }
 
-// Ends the execution of an input. Not derived from std::exception, because fuzzers catch expected exceptions.
+// An exception that ends the execution of an input. It is not derived from std::exception, because fuzzers catch such
+// exceptions.
 struct InputFailed {};
 
 fs::path corpora() { return fs::path(OVAL4D_SOURCE_DIR) / "tests/fuzz/corpus"; }
 
-// Returns the inputs of a corpus, in the order of their names; empty if there is no such corpus.
+// Returns the inputs of a corpus, ordered by name. Returns no inputs if the corpus does not exist.
 std::vector<fs::path> inputsOf(const std::string& subject) {
     std::vector<fs::path> inputs;
     if (!fs::is_directory(corpora() / subject)) return inputs;
@@ -51,7 +53,8 @@ std::vector<fs::path> inputsOf(const std::string& subject) {
     return inputs;
 }
 
-// Returns the name of the test of an input: that of the file, with "_" for characters that have a meaning in filters.
+// Returns the name of the test for an input. It is the file's name, with "_" in place of characters that have a meaning
+// in test filters.
 std::string testNameOf(const fs::path& input) {
     std::string name = input.filename();
     const auto isPlain = [](unsigned char c) { return std::isalnum(c) != 0; };
@@ -68,7 +71,7 @@ class CorpusTest : public testing::Test {
         const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
         try {
             EXPECT_EQ(fuzzer_(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()), 0);
-        } catch (const InputFailed&) {  // the failure is reported already
+        } catch (const InputFailed&) {  // reportFault() has reported the failure
         }
     }
 

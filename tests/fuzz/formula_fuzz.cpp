@@ -1,5 +1,6 @@
-// Fuzzes formulas. The first line is the formula; the bytes after it choose a box. A text is refused with the position
-// of the mistake, or gives a function whose values lie within its bounds and whose text gives the same function again.
+// Fuzzes formulas. The first line of the input is the formula; the bytes after it choose a box. A formula is either
+// refused with the position of the mistake, or gives a function. The function's values must lie within its bounds, and
+// its text must give the same function again.
 
 #include <array>
 
@@ -24,7 +25,8 @@ struct Points {
 
 bool isSame(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
-/// Returns a box and sets points in it, among them its corners of the least and largest coordinates.
+/// Returns a box, and sets points in it. Among the points are the corners of the box with the least and the greatest
+/// coordinates.
 fields::Box boxFrom(std::string_view bytes, Points& points) {
     const auto byte = [bytes](std::size_t i) { return i < bytes.size() ? static_cast<signed char>(bytes[i]) : 0; };
     fields::Box box;

@@ -1,6 +1,6 @@
-// Fuzzes PNG files. The input has a byte each for the width and the height of a picture, then the text of its state.
-// The file encoded from them must have valid chunks, and give back the text and the pixels. The text is then parsed as
-// a state.
+// Fuzzes PNG files. The input has one byte for the width of a picture, one byte for its height, and the text of its
+// state. The PNG file made from them must have valid chunks, and must give back the text and the pixels. The text is
+// then parsed as a state.
 
 #include <png.h>
 #include <zlib.h>
@@ -20,7 +20,7 @@ std::uint32_t load32(const Bytes& bytes, std::size_t at) {
            bytes[at + 3];
 }
 
-/// Returns the text of the file's iTXt chunk; requires that every chunk is complete.
+/// Returns the text in the iTXt chunk of a PNG file. Requires that every chunk is complete.
 std::string stateTextIn(const Bytes& png) {
     constexpr std::string_view kHeader("oval4d\0\0\0\0\0", 11);
     std::string state;
@@ -45,7 +45,7 @@ std::string stateTextIn(const Bytes& png) {
     return state;
 }
 
-/// Returns the pixels as decoded by libpng, without alpha.
+/// Returns the pixels that libpng decodes, without alpha.
 Bytes pixelsIn(const Bytes& png, png_image& header) {
     header = {};
     header.version = PNG_IMAGE_VERSION;
@@ -57,7 +57,7 @@ Bytes pixelsIn(const Bytes& png, png_image& header) {
     return pixels;
 }
 
-// "LL" gives an image that is encoded in two bands.
+// Returns a length in pixels for an input byte. The bytes "LL" give a picture so large that it is encoded in two bands.
 int lengthFrom(std::uint8_t byte) { return byte == 'L' ? 640 : 1 + byte % 64; }
 
 }  // namespace
@@ -78,7 +78,7 @@ OVAL4D_FUZZER(frame) {
             "the size comes back");
     for (std::size_t i = 0; i < pixels; ++i) {
         const std::size_t row = i / image.width, column = i % image.width;
-        // The image's rows are stored from the bottom up.
+        // The rows of the image are stored from the bottom to the top.
         const std::size_t from = 4 * ((image.height - 1 - row) * image.width + column);
         require(std::equal(read.begin() + 3 * i, read.begin() + 3 * i + 3, image.pixels.begin() + from),
                 "the pixels come back");

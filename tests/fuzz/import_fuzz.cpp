@@ -1,4 +1,5 @@
-// Fuzzes the import of files: the importer refuses any bytes with a reason, or returns an object that can be sliced.
+// Fuzzes the import of files. The importer must either refuse the bytes with a reason, or return an object that can be
+// sliced.
 
 #include "support.hpp"
 

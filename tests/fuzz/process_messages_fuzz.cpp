@@ -1,5 +1,5 @@
-// Fuzzes the messages between processes: invalid bytes are refused with an exception, and no message takes more memory
-// than its reader allows. The first letter of the input selects the type of message.
+// Fuzzes the messages between processes. Invalid bytes must be refused with an exception, and no message may take more
+// memory than its reader allows. The first letter of the input selects the type of message.
 
 #include <sys/socket.h>
 #include <unistd.h>
@@ -31,11 +31,11 @@ void readObject(std::string_view bytes) {
     slicing::MappedFiles files;
     const slicing::Object object = slicing::decodeObject(bytes);
     slicing::encodeObject(object, again, files);
-    // A field is made anew from its formulas and arrays, so what is not part of them is lost.
+    // A field is made again from its formulas and arrays, so other bytes are lost.
     require(slicing::fieldIn(object) != nullptr || bytes.starts_with(again), "an object is written as it was read");
 }
 
-/// Receives the bytes through a socket whose other end is then closed.
+/// Receives the bytes as a message through a socket. The other end of the socket is then closed.
 void receive(std::string_view bytes) {
     constexpr std::size_t kMost = 1000;
     int sockets[2];

@@ -1,6 +1,6 @@
-// Fuzzes stored sessions. The input has the full record, the head and one object, each after its length in two bytes
-// (little-endian). Decoding throws UnreadableRecord, or returns a valid session that can be sliced, sent and stored
-// again.
+// Fuzzes stored sessions. The input has three parts: the full record, the head and one object. Before each part is its
+// length in two bytes (little-endian). Decoding must throw UnreadableRecord, or return a valid session that can be
+// sliced, sent and stored again.
 
 #include "store/object_codec.hpp"
 #include "store/session_codec.hpp"
@@ -20,7 +20,7 @@ std::string_view takePart(std::string_view& rest) {
     return part;
 }
 
-/// Returns whether a record names a polytope that would take long to build.
+/// Returns whether a record names a polytope that takes long to build.
 bool namesLarge(std::string_view record) {
     try {
         const auto value = nlohmann::json::from_cbor(record);

@@ -1,5 +1,6 @@
-// Fuzzes messages to the server, one per line: each is refused with a reason, or executed on a session. An error does
-// not change the session; after a success it is valid, and its state survives encoding and decoding.
+// Fuzzes messages to the server, one per line. Each message must be refused with a reason or executed on a session. An
+// error must not change the session. After a success, the session must be valid, and its state must survive encoding
+// and decoding.
 
 #include "support.hpp"
 
@@ -8,7 +9,7 @@ using fuzz::require;
 
 namespace {
 
-/// Returns the id that the answer must have, found by independent parsing of the text.
+/// Returns the id that the answer to this message must have. Finds it by parsing the text independently.
 std::optional<double> idIn(std::string_view text) {
     const auto message = nlohmann::json::parse(text, nullptr, false);
     if (!message.is_object() || !message.contains("id") || !message["id"].is_number()) return {};

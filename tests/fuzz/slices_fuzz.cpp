@@ -1,6 +1,6 @@
-// Fuzzes the `slices` message. The input consists of a viewport and command lines, which set the state of a session.
-// The message of this state must have the same contents in all encodings. nlohmann::json decodes binary messages; their
-// arrays with the values of all slices are then converted to one object per slice, as in JSON.
+// Fuzzes the `slices` message. The input consists of a picture size and command lines, which set the state of a
+// session. The message for this state must have the same contents in all encodings. nlohmann::json decodes the binary
+// messages. Their arrays with the values of all slices are then converted to one object per slice, as in JSON.
 
 #include <cstring>
 #include <initializer_list>
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Returns the numbers of a typed array.
+/// Returns the numbers in the bytes of a typed array.
 template <typename T>
 json numbersOf(const json::binary_t& bytes) {
     require(bytes.size() % sizeof(T) == 0, "a typed array holds whole numbers");
@@ -26,7 +26,7 @@ json numbersOf(const json::binary_t& bytes) {
     return numbers;
 }
 
-/// Returns `value` with every typed array replaced by an array of numbers.
+/// Returns `value` after replacing every typed array in it by an array of numbers.
 json plain(const json& value) {
     if (value.is_binary()) {
         const json::binary_t& bytes = value.get_binary();
@@ -52,7 +52,7 @@ json plain(const json& value) {
     return out;
 }
 
-/// Takes elements from the front of a list; requires at the end that none is left.
+/// Takes elements from the front of a list. In the end, requires that none is left.
 class Column {
   public:
     explicit Column(const json& list) : list_(list) {}
@@ -80,7 +80,7 @@ class Column {
     std::size_t at_ = 0;
 };
 
-/// Three columns of the message: one property of the vertices, the edges and the faces.
+/// Three columns of a message: one property of all vertices, of all edges and of all faces.
 class Columns {
   public:
     explicit Columns(const json& of) : vertices_(of.at("vertices")), edges_(of.at("edges")), faces_(of.at("faces")) {}
@@ -96,10 +96,10 @@ class Columns {
     Column vertices_, edges_, faces_;
 };
 
-/// The columns of the triangles that fill faces.
+/// The columns for the triangles that fill faces.
 class FillColumns {
   public:
-    /// `columns` may be without a fill.
+    /// `columns` may lack the columns of a fill.
     explicit FillColumns(const json& columns)
         : present_(columns.contains("fill")),
           fill_(present_ ? columns.at("fill") : kNoFill),
@@ -111,7 +111,7 @@ class FillColumns {
           tints_(fill_.at("tints")),
           seen_(faint_ ? fill_.at("seen") : kNoFill.at("tints")) {}
 
-    /// Adds the fill of the next slice or part to `row` if it has triangles.
+    /// If the next slice or part has triangles, adds its fill to `row`.
     void readInto(json& row) {
         if (!present_) return;
         const std::size_t p = pointCounts_.next(), t = triangleCounts_.next();
@@ -135,7 +135,7 @@ class FillColumns {
     Column pointCounts_, triangleCounts_, points_, triangles_, tints_, seen_;
 };
 
-/// The columns that describe the elements of slices, or of the parts of a projection.
+/// The columns for the elements of slices, or of the parts of a projection.
 class ElementColumns {
   public:
     explicit ElementColumns(const json& columns)
@@ -202,7 +202,7 @@ json rowsOf(const json& columns) {
     return rows;
 }
 
-/// Rounds all numbers to float, the precision of the coordinates in a message.
+/// Rounds all numbers in `value` to float, the precision of coordinates in a message.
 void roundToFloats(json& value) {
     if (value.is_number()) value = static_cast<double>(value.get<float>());
     if (value.is_array()) {
@@ -210,10 +210,10 @@ void roundToFloats(json& value) {
     }
 }
 
-/// Divides a list into rows of `width` numbers.
+/// Splits a list into rows of `width` numbers.
 json rows(const json& list, std::size_t width) { return Column(list).rows(list.size() / width, width); }
 
-/// Returns the contents of a decoded binary message in the form of JSON.
+/// Converts the contents of a decoded binary message to the form that they have in JSON.
 json fromBinary(const json& decoded) {
     json message = plain(decoded);
     if (message.contains("coordinates")) message["coordinates"] = rows(message["coordinates"], 4);

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by the fuzzers: they check the invariants of sessions, and execute commands that build no large
+// Helpers that the fuzzers share. They check invariants of sessions, and execute only commands that build no large
 // polytopes.
 
 #include <algorithm>
@@ -27,8 +27,8 @@
 #include "wire/parse.hpp"
 #include "wire/state_message.hpp"
 
-/// Begins the definition of a fuzzer: a function of `data` and `size`, the input's bytes, that returns 0. libFuzzer
-/// calls it by its own name for it; corpus_tests.cpp by the name of the fuzzer's subject.
+/// Begins the definition of a fuzzer: a function of `data` and `size`, the bytes of the input, that returns 0. For
+/// libFuzzer, the function has the name that libFuzzer requires; for corpus_tests.cpp, it is named after its subject.
 #ifdef OVAL4D_CORPUS_TESTS
 #define OVAL4D_FUZZER(subject)                                      \
     int fuzz_##subject(const std::uint8_t* data, std::size_t size); \
@@ -41,9 +41,8 @@
 
 namespace oval4d::fuzz {
 
-/// Reports the fault that the input has found, and does not return. In a fuzzer, prints `message` and aborts the
-/// process, which libFuzzer reports as a crash; in corpus_tests, makes the test of this input fail and ends it with an
-/// exception.
+/// Reports a fault that an input has found, and does not return. In a fuzzer, prints `message` and aborts the process;
+/// libFuzzer reports this as a crash. In corpus_tests, makes the test of this input fail and throws an exception.
 #ifdef OVAL4D_CORPUS_TESTS
 [[noreturn]] void reportFault(const std::string& message);
 #else
@@ -53,7 +52,7 @@ namespace oval4d::fuzz {
 }
 #endif
 
-/// If `holds` is false, reports a fault with the message `what`, followed by `detail`.
+/// If `holds` is false, reports a fault with the message `what` followed by `detail`.
 inline void require(bool holds, std::string_view what, std::string_view detail = {}) {
     if (!holds) reportFault(std::string(what) + (detail.empty() ? "" : " ") + std::string(detail));
 }
@@ -62,8 +61,8 @@ inline std::string_view textOf(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
-/// Removes the part of `text` up to and including the first `separator`, and returns it without the separator. If there
-/// is no separator, removes and returns the whole text.
+/// Removes and returns the text before the first `separator`, and also removes the separator. Without a separator,
+/// removes and returns the whole text.
 inline std::string_view takeUntil(std::string_view& text, char separator) {
     const std::size_t end = std::min(text.find(separator), text.size());
     const std::string_view head = text.substr(0, end);
@@ -71,25 +70,25 @@ inline std::string_view takeUntil(std::string_view& text, char separator) {
     return head;
 }
 
-/// Small limits, so that each input takes only milliseconds.
+/// Small limits, with which each input takes only milliseconds.
 inline const session::Limits kLimits{
     .maxSlices = 31, .maxUndo = 4, .maxLoaded = 2, .maxVertices = 120, .maxHullCells = 500};
 
-/// Returns the polytope cache that the whole fuzzer uses.
+/// Returns the cache of polytopes that all parts of the fuzzer use.
 inline polytopes::PolytopeCache& cache() {
     static polytopes::PolytopeCache kCache;
     return kCache;
 }
 
-/// Returns whether a command with this name runs fast: polytopes::designNamed() refuses the name, or the polytope has
-/// at most kLimits.maxVertices vertices.
+/// Returns whether a command with this polytope name runs fast. It does if polytopes::designNamed() refuses the name,
+/// or if the polytope has at most kLimits.maxVertices vertices.
 inline bool isSmall(std::string_view name) {
     const auto named = polytopes::designNamed(name, kLimits.maxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     return design == nullptr || polytopes::elementCounts(*design).vertices <= kLimits.maxVertices;
 }
 
-/// Returns the name of the object that a command selects; empty if the command selects none.
+/// Returns the name of the object that a command selects; an empty string if it selects none.
 inline std::string polytopeIn(const session::Command& command, const session::State& state) {
     if (const auto* line = std::get_if<session::CommandLine>(&command)) {
         const auto parsed = session::parseCommandLine(line->line, state);
@@ -99,7 +98,7 @@ inline std::string polytopeIn(const session::Command& command, const session::St
     return set ? set->object.value_or("") : "";
 }
 
-/// Requires that a state meets the invariants, which hold for every state that a client can produce.
+/// Requires that a state meets the invariants of all states that clients can produce.
 inline void requireSound(const session::State& state, const session::Limits& limits) {
     const auto within = [](double value, double most) { return std::abs(value) <= most; };
     require(slicing::identityOf(state.object) != nullptr, "a state has an object");
@@ -174,7 +173,7 @@ inline void requireSound(const session::Session& session, const session::Limits&
     require(session.loaded.size() <= limits.maxLoaded, "no more than maxLoaded objects are kept");
 }
 
-/// Parses a message and returns it. Requires that the message is a JSON object; this implies that it is UTF-8.
+/// Parses a message and returns it. Requires that the message is a JSON object, and therefore valid UTF-8.
 inline nlohmann::json requireJson(const std::string& text) {
     auto message = nlohmann::json::parse(text, nullptr, false);
     require(!message.is_discarded() && message.is_object(), "a message is a JSON object:", text);
@@ -187,8 +186,8 @@ inline void requireSentence(const Error& error) {
     require(requireJson(wire::errorMessage(error, {})).at("message") == error.message, "an error travels whole");
 }
 
-/// Executes a command as the server does, and requires that the session then meets its invariants or, after an error,
-/// is unchanged. If the command needs an object to be loaded first, executes it only if the object is small.
+/// Executes a command as the server does. Requires that the session then meets its invariants; after an error, that it
+/// is unchanged. If the command must first load an object, executes it only if the object is small.
 inline void execute(session::Session& session, const session::Command& command) {
     const session::Session before = session;
     const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
@@ -205,7 +204,7 @@ inline void execute(session::Session& session, const session::Command& command) 
     if (!done) {
         requireSentence(done.error());
         session::Session expected = before;
-        // A refused key ends the sequence that has begun.
+        // A refused key also ends a key sequence that has begun.
         if (std::holds_alternative<session::Key>(command) && session.pendingKey.empty()) expected.pendingKey.clear();
         require(session == expected, "an error leaves the session as it was:", done.error().message);
     } else {
@@ -216,7 +215,7 @@ inline void execute(session::Session& session, const session::Command& command) 
     }
 }
 
-/// Requires that undo leads through the whole history of a session, and redo back: each step counts as one change.
+/// Requires that undo leads through the whole history of a session, and redo leads back. Each step must be one change.
 inline void requireHistory(session::Session session) {
     const session::State last = session.current;
     const auto move = [&](Result<std::monostate> (*toNext)(session::Session&)) {
@@ -233,7 +232,8 @@ inline void requireHistory(session::Session session) {
     require(session.current == last, "redo leads back to the state before undo");
 }
 
-/// Requires that encoding a state as a message and setting another session to the message gives an equal state.
+/// Requires that a state survives a message: encoding the state, and setting another session to the message, must give
+/// an equal state.
 inline void requireRoundTrip(const session::State& state, const session::LoadedObjects& loaded) {
     const std::string text = wire::stateMessage(state, {}, 7, 3);
     requireJson(text);
@@ -243,7 +243,7 @@ inline void requireRoundTrip(const session::State& state, const session::LoadedO
     require(set->object == name, "an object's name travels whole");
     session::Session other;
     other.loaded = loaded;
-    // A loaded polytope that was replaced, or that belongs to another session, is not found by its name.
+    // The name of a loaded polytope does not find it if it was replaced or belongs to another session.
     const auto own = loaded.find(name);
     const bool named = own != loaded.end() ? own->second == state.source : isSmall(name);
     if (!named) return;
@@ -257,13 +257,13 @@ inline void requireRoundTrip(const session::State& state, const session::LoadedO
     other.current.orientation = state.orientation;
     require(other.current.source == state.source && other.current.referenceFrame == state.referenceFrame,
             "an object and its frame of reference survive");
-    other.current.object = state.object;  // an equal image, made anew
+    other.current.object = state.object;  // an equal image, which was made again
     if (!state.lastTurn) other.current.lastTurn.reset();
-    other.current.playsDownward = state.playsDownward;  // which a message does not contain
+    other.current.playsDownward = state.playsDownward;  // a message does not contain this
     require(other.current == state, "a state survives:", text);
 }
 
-/// Slices the state's object as for a picture, with at most 51 slices. Requires that all indices are in range.
+/// Slices the object of a state as for a picture, with at most 51 slices. Requires that all indices are in range.
 inline void requireSlices(const session::State& state) {
     static slicing::Slicer slicer;
     static slicing::SliceSet slices;

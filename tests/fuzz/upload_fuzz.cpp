@@ -1,4 +1,4 @@
-// Fuzzes the header of uploads of fields: the method and the target of an HTTP request, one line each.
+// Fuzzes the header of uploads of fields. The input has two lines: the method and the target of an HTTP request.
 
 #include "net/http/request_target.hpp"
 #include "net/http/upload.hpp"

@@ -1,5 +1,5 @@
-// Fuzzes the reader of Zarr folders. The input is a list of files, separated by the byte 0x1e: the path of each, a line
-// feed and its contents.
+// Fuzzes the reader of Zarr folders. The input is a list of files, separated by the byte 0x1e. Each file has its path,
+// a line feed and its contents.
 
 #include <algorithm>
 #include <map>

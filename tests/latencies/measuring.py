@@ -33,7 +33,7 @@ class Comparison:
 
     def __init__(self, name):
         self.name, self.attacked, self.control = name, [], []
-        self.processors = 0.0  # that the attacked server used on average
+        self.processors = 0.0  # processors that the attacked server used on average
 
     def ratio(self, share):
         """Returns this quantile at the attacked server, divided by that of the control."""
@@ -53,7 +53,7 @@ class Comparison:
                 f"{self.processors:.2f} processors")
 
 
-# --- Processor time
+# --- How much processor time a server uses
 
 
 def processor_time(pid):
@@ -73,7 +73,7 @@ def wait_until_busy(server, seconds):
     wait_until(lambda: processor_time(server.process.pid) >= start + seconds, "the attack to begin")
 
 
-# --- Attackers
+# --- Processes that repeat an attack
 
 
 async def repeat_attack(attack, server, address, arguments):
@@ -115,7 +115,7 @@ def under_attack(server, attacks, seconds=0.5):
             process.join()
 
 
-# --- The operation: a key is pressed, and its frame arrives
+# --- The measured operation: pressing a key and waiting for its frame
 
 
 async def press_keys(servers, latencies, count, address):
@@ -138,10 +138,10 @@ async def press_keys(servers, latencies, count, address):
 def compare_frames(name, attacked_server, control_server, attacks, address):
     """Compares the latencies of frames during the attacks."""
     servers, found = (attacked_server, control_server), Comparison(name)
-    asyncio.run(press_keys(servers, ([], []), 30, address))  # until everything is built and in memory
+    asyncio.run(press_keys(servers, ([], []), 30, address))  # warm-up: everything is built and in memory
     with under_attack(attacked_server, attacks):
         start, used = time.perf_counter(), processor_time(attacked_server.process.pid)
-        for _ in range(3):  # new sessions, too, must be served soon
+        for _ in range(3):  # new sessions must be served soon, too
             asyncio.run(press_keys(servers, (found.attacked, found.control), SAMPLES // 3, address))
         used = processor_time(attacked_server.process.pid) - used
         found.processors = used / (time.perf_counter() - start)

@@ -19,7 +19,7 @@ VICTIM_ADDRESS = "127.0.0.1"
 OTHER_ADDRESSES = [f"127.0.0.{n}" for n in range(2, 12)]
 
 
-# --- Attacks: coroutine functions (server, address, …), which are repeated until their process is killed
+# --- The attacks: coroutine functions of (server, address, …), which are repeated until their process is killed
 
 
 async def new_session_per_frame(server, address, polytope, side=2048):
@@ -80,7 +80,7 @@ async def repeated_loads(server, address):
                 await client.request("load", name=f"mine {number % 3}", format="points", data=POINTS)
 
 
-HEAVY_FORMULA = "x" + "*y/z*w/x" * 249 + "*y/z*w"  # nearly as long, and as many instructions, as the limits allow
+HEAVY_FORMULA = "x" + "*y/z*w/x" * 249 + "*y/z*w"  # nearly as long, and with nearly as many instructions, as allowed
 
 
 async def turning_field(server, address, slices, kind, side=720):

@@ -44,7 +44,7 @@ async def test_a_large_array_opens_almost_as_fast_as_a_small_one(tmp_path):
     """The first picture of an array, a draft, does not require that the server reads all of it."""
     folder = tmp_path / "data"
     folder.mkdir()
-    sizes = {"small": 64, "large": 512}  # of 100 moments: 0.1 GB and 54 GB
+    sizes = {"small": 64, "large": 512}  # side lengths of 100 moments: 0.1 GB and 54 GB
     for name, size in sizes.items():
         sparse_npy(folder / f"{name}.npy", (100, size, size, size), [])
     seconds = {name: [] for name in sizes}
@@ -60,4 +60,4 @@ async def test_a_large_array_opens_almost_as_fast_as_a_small_one(tmp_path):
                     seconds[name].append(time.perf_counter() - start)
     medians = {name: statistics.median(values) for name, values in seconds.items()}
     print("seconds to open: " + ", ".join(f"{name} {value:.3f}" for name, value in medians.items()))
-    assert medians["large"] < 50 * medians["small"]  # it has 512 times as many samples
+    assert medians["large"] < 50 * medians["small"]  # the large array has 512 times as many samples

@@ -8,7 +8,7 @@ import pytest
 from harness import Server
 from running_work import KINDS_OF_WORK, server_with_running_work
 
-TIMEOUT = 0.3  # seconds that clients have to disconnect, which none of them does
+TIMEOUT = 0.3  # seconds that clients have to disconnect; none of them does
 
 
 @pytest.mark.parametrize("work", KINDS_OF_WORK)

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 
 from results import Result, read_junit
 
-# The time after which a check counts as hanging, and is ended. Single tests have a limit of their own:
+# After this time, a check counts as hanging and is ended. Single tests have their own limit, in
 # tests/hang_limit_seconds.
 LIMIT_SECONDS = 1800
-LINES_OF_LOG = 25  # how much of its log is the message of a check that fails without a failed test case
+LINES_OF_LOG = 25  # so many last lines of the log explain a failure without a test case
 
 
 @dataclass
@@ -21,7 +21,7 @@ class Check:
 
     name: str
     command: list
-    variables: dict = field(default_factory=dict)  # environment variables of this command alone
+    variables: dict = field(default_factory=dict)  # environment variables for this command only
     limit: float = LIMIT_SECONDS
 
     def options(self, report, failed):
@@ -35,7 +35,7 @@ class Check:
         stem = self.name if failed is None else f"{self.name}.again"
         report, log = folder / f"{stem}.xml", folder / f"{stem}.log"
         if failed is not None and not all(result.case for result in failed):
-            failed = None  # the check failed as a whole, so all of it is run again
+            failed = None  # the check failed as a whole, so all of it runs again
         status = execute([*self.command, *self.options(report, failed)], log, self.variables, self.limit)
         results = read_junit(report, f"{self.name}: ") or []
         if status != 0 and not any(result.outcome == "failed" for result in results):
@@ -76,7 +76,7 @@ class ListedTests(Check):
         return ["--junit", report, "--only", only]
 
 
-running = set()  # the processes that lead the process groups of the checks that run now
+running = set()  # the leading processes of the process groups of running checks
 
 
 def execute(command, log, variables, limit):

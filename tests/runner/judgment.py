@@ -8,10 +8,10 @@ from typing import Callable
 
 from results import Result
 
-# With more unstable tests than this, the run fails.
+# If more tests than this are unstable, the whole run fails.
 MOST_UNSTABLE = 2
-# The most lines of the summary and of a message in it, and the most characters of a line: only the end of the output
-# may be seen.
+# The most lines of the summary, the most lines of a message in it, and the most characters of a line. They are few,
+# because a reader may see only the end of the output.
 LINES_AT_THE_END = 60
 LINES_OF_A_MESSAGE = 6
 LENGTH_OF_A_LINE = 240
@@ -26,8 +26,8 @@ class Part:
     budget: float
     checks: Callable
     presets: tuple = ()
-    at_once: int = 1  # how many of its checks run at the same time
-    beside_previous: bool = False  # whether it runs at the same time as the part before it
+    at_once: int = 1  # how many checks of the part run at the same time
+    beside_previous: bool = False  # whether the part runs at the same time as the part before it
 
 
 @dataclass
@@ -36,7 +36,7 @@ class Failure:
 
     first: Result
     logs: list[Path]
-    second: Result | None = None  # of the second run, with no other test beside it; None before it
+    second: Result | None = None  # the result of the second run, alone; None before it
 
     @property
     def unstable(self):
@@ -143,7 +143,7 @@ def explain(failure, root, lines_of_message):
     """Returns the lines about a failure: its name, the message of its last run that failed, and the files of its logs."""
     last = failure.second if failure.second and not failure.unstable else failure.first
     message = [line for line in last.message.splitlines() if line.strip()]
-    # The message of a test case begins with what is wrong; that of a whole check is the end of its log.
+    # The message of a test case begins with the fault. The message of a whole check is the end of its log.
     message = message[:lines_of_message] if last.case else message[-lines_of_message:]
     logs = " and ".join(str(log.relative_to(root) if log.is_relative_to(root) else log) for log in failure.logs)
     return ([f"  {failure.first.name}"[:LENGTH_OF_A_LINE]] +

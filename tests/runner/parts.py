@@ -11,8 +11,8 @@ from judgment import Part
 ROOT = Path(__file__).resolve().parents[2]
 TESTS = ROOT / "tests"
 
-# The folders whose unit tests run with sanitizers; the service tests run the code of the other folders. With
-# ThreadSanitizer, only code that uses threads is run, and of the service tests only some; the others use the same
+# The folders whose unit tests run with sanitizers. The service tests run the code of the other folders. With
+# ThreadSanitizer, only code that uses threads runs, and only some service tests, because the others use the same
 # threads in the same way.
 SANITIZED_UNITS = {
     "asan-ubsan": ("fields", "file_reading", "geometry", "image", "parallel", "polytopes", "process", "raster", "render", "slicing"),
@@ -49,7 +49,7 @@ def lint(_):
     return [ListedTests("lint", [TESTS / "lint"])]
 
 
-LONGEST_UNITS = ("slicing", "export", "polytopes")  # these begin, so that no processor waits for them at the end
+LONGEST_UNITS = ("slicing", "export", "polytopes")  # these start first, so that no processor waits for them at the end
 
 
 def unit(_):
@@ -110,7 +110,7 @@ def without_address_randomization():
     return wrapper if subprocess.run([*wrapper, "true"], check=False, stderr=subprocess.DEVNULL).returncode == 0 else ()
 
 
-# Parts of LeakSanitizer's messages if a thread ends while LeakSanitizer searches for leaks.
+# Parts of messages with which LeakSanitizer reports that a thread has ended during its search for leaks.
 OF_LEAK_SEARCH = ("Unable to get registers from thread", "Tracer caught signal 11",
                   "LeakSanitizer has encountered a fatal error", "HINT: For debugging, try setting environment variable LSAN",
                   "HINT: LeakSanitizer does not work under ptrace")
@@ -120,7 +120,7 @@ def sanitized(preset, folder):
     """Returns the checks of a build with sanitizers. The last one fails if any process has written a report."""
     reports = folder / f"{preset}.report"
     variables = {
-        "LP_NUM_THREADS": "0",  # llvmpipe without threads, because it is not instrumented
+        "LP_NUM_THREADS": "0",  # no threads in llvmpipe, which is not instrumented
         "LSAN_OPTIONS": f"suppressions={TESTS}/sanitizers/lsan.supp:print_suppressions=0",
         "ASAN_OPTIONS": f"detect_stack_use_after_return=1:log_path={reports}",
         "UBSAN_OPTIONS": f"print_stacktrace=1:log_path={reports}",
@@ -134,8 +134,8 @@ def sanitized(preset, folder):
         checks.append(GoogleTest(f"{preset}-unit-{unit_folder}", command, variables | ({"GTEST_FILTER": chosen} if chosen else {})))
     files = [TESTS / "service" / (f"test_{subject}.py" if subject else "") for subject in SANITIZED_SERVICE[preset]]
     checks.append(pytest(f"{preset}-service", *files, "--numprocesses=2", preset=preset, wrapper=wrapper, variables=variables))
-    # LeakSanitizer, which searches at the end of a process, also reports a thread that ends during the search, or reads
-    # this thread's memory and fails; that is no fault of the process.
+    # LeakSanitizer searches for leaks at the end of a process. If a thread ends during the search, LeakSanitizer may
+    # report this, or fail to read the thread's memory. This is no fault of the process.
     script = f'! head -qn 50 "$0".* 2>/dev/null | grep -Ev "{"|".join(OF_LEAK_SEARCH)}"'
     checks.append(Check(f"{preset}-reports", ["bash", "-c", script, reports]))
     return checks
@@ -145,18 +145,18 @@ def sanitizers(folder):
     return [check for preset in SANITIZED_UNITS for check in sanitized(preset, folder)]
 
 
-# The parts that are deterministic and need one build. Budgets are in seconds: see Part.
+# The parts of the gate. They are deterministic and need one build. The numbers are budgets in seconds: see Part.
 GATE = [
     Part("runner", 15, runner),
     Part("lint", 60, lint, ("release",)),
     Part("unit", 60, unit, ("release",), at_once=2),
     Part("corpus", 20, corpus, ("release",)),
     Part("service", 180, service, ("release",)),
-    Part("attack", 180, attack, ("release",), beside_previous=True),  # mostly waits for limits of the server
+    Part("attack", 180, attack, ("release",), beside_previous=True),  # mostly waits for time limits of the server
     Part("failover", 60, failover, ("release",), beside_previous=True),
     Part("browser", 220, browser, ("release",)),
 ]
-# The parts that measure, search, or need other builds.
+# The further parts. They measure, search, or need other builds.
 DEEP = [
     Part("latencies", 300, latencies, ("release",)),
     Part("container", 400, container, ("release",)),

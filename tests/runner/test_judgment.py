@@ -8,7 +8,7 @@ import pytest
 from checks import Check, GoogleTest, ListedTests, Pytest, end_group
 from judgment import LINES_AT_THE_END, Part, judge, summary
 
-# A test file of pytest: test_once[k] fails the first time only, test_always[k] each time.
+# A test file for pytest. Its tests test_once[k] fail only in the first run; its tests test_always[k] fail in every run.
 TESTS = """
 import pathlib
 import pytest
@@ -166,7 +166,7 @@ def test_a_crash_between_tests_is_a_failure_even_if_the_report_has_none(tmp_path
     assert (status, lines[-1]) == (1, "1 passed, 1 failed")
 
 
-# A program with the options of GoogleTest: "Suite.fails-once" fails in the first run.
+# A program with the options of GoogleTest. Its test "Suite.fails-once" fails in the first run.
 PROGRAM = r"""
 import pathlib, sys
 options = dict(word[2:].split("=", 1) for word in sys.argv[1:] if "=" in word)

@@ -5,11 +5,11 @@ from pathlib import Path
 
 SCHEMA = Path(__file__).parents[2] / "protocol/schema"
 
-# Members of a state that are not settings of the picture: `field` follows from the object; `turning` and `playing` are
-# motions, and `last` is the rotation that turning repeats.
+# Members of a state that are not settings of the picture. `field` follows from the object. `turning` and `playing` are
+# motions. `last` is the rotation that turning repeats.
 OTHER_MEMBERS = {"field", "turning", "playing", "last"}
 
-# The motions and the last rotation of polytope_in_motion().
+# The motions and the last rotation that polytope_in_motion() sets.
 MOTION = {"turning": True, "playing": True, "last": {"planes": ["xw"], "angles": [0]}}
 
 

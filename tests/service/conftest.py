@@ -8,8 +8,8 @@ import pytest
 from harness import DEADLINE, Server, is_sanitizer_build
 
 SANITIZED_CASES = 2
-# The seconds after which a test that is a coroutine is ended, with its traceback. Each of its waits ends after
-# DEADLINE, but a test has many.
+# After this many seconds, a coroutine test is ended with its traceback. Each wait in a test ends after DEADLINE, but a
+# test may have many waits.
 WHOLE_TEST_LIMIT = 20 * DEADLINE
 
 

@@ -21,18 +21,18 @@ def is_sanitizer_build():
     return b"__tsan_init" in program or b"__asan_init" in program
 
 
-# The seconds after which whatever a test waits for counts as hung: the only bound on the duration of anything.
+# What a test waits for counts as hung after this many seconds. No other limit bounds how long anything may take.
 DEADLINE = int(Path(__file__).parents[1].joinpath("hang_limit_seconds").read_text(encoding="ascii"))
 
-# The server's own limits on the duration of anything. A test whose subject is one of them sets it, and no other test
-# depends on them, however slow the machine is.
+# A value for the server's own time limits. A test about one of these limits sets it to another value. No other test
+# depends on the limits, however slow the machine is.
 LONG_TIME = 10 * DEADLINE
 LONG_TIMES = {name: LONG_TIME for name in ("--data-connect-timeout", "--data-timeout", "--draw-timeout", "--hello-timeout",
                                            "--idle-timeout", "--load-timeout", "--max-file-time", "--write-timeout")}
-# A client may be silent for twice this time. During a long command, the server reads nothing for half of this time, and
-# the Python client gives up if a ping of its own has no answer after 40 s.
+# A client may be silent for twice this time. During a long command, the server reads nothing for half of this time. The
+# Python client gives up if one of its own pings is unanswered for 40 s.
 LONG_TIMES["--ping-interval"] = DEADLINE / 2
-# The same limits as environment variables, for servers that are started without options.
+# The same time limits as environment variables, for servers that tests start without options.
 LONG_TIME_VARIABLES = {f"OVAL4D_{name[2:].upper().replace('-', '_')}": str(time) for name, time in LONG_TIMES.items()}
 
 
@@ -162,11 +162,11 @@ class Server:
         for file in Path("/proc").glob("[0-9]*/stat"):
             try:
                 parent = file.read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()[1]
-                # A process that is ending, or has not called exec yet, has another command line or none.
+                # A process that is ending, or that has not called exec yet, has another command line or none.
                 if int(parent) == self.process.pid and file.with_name("cmdline").read_bytes() == b"oval4d\0draw\0":
                     children.append(int(file.parent.name))
             except OSError:
-                continue  # the process has ended in the meantime
+                continue  # the process has ended meanwhile
         return children
 
     def signal_drawing_processes(self, number):
@@ -187,7 +187,7 @@ class Server:
         """Returns the targets of the server's open file descriptors."""
         targets = []
         for file in Path(f"/proc/{self.process.pid}/fd").iterdir():
-            with contextlib.suppress(FileNotFoundError):  # closed in the meantime
+            with contextlib.suppress(FileNotFoundError):  # the file has been closed meanwhile
                 targets.append(os.readlink(file))
         return targets
 

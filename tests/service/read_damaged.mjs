@@ -1,20 +1,21 @@
-// node read_damaged.mjs <folder> <seed>: damages the messages, pictures and links in the folder at random, and reads
-// them with the TypeScript client, bundled as <folder>/readers.mjs. Prints, for each kind of input, how many were read
-// and how many refused, and the longest time in milliseconds that a damaged one and an undamaged one took.
+// Damages the messages, pictures and links in a folder at random, and reads them with the TypeScript client, which is
+// bundled as <folder>/readers.mjs. For each kind of input, prints how many were read, how many were refused, and the
+// longest time in milliseconds for a damaged and for an undamaged input.
+//   node read_damaged.mjs <folder> <seed>
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 
 const [folder, seed] = process.argv.slice(2);
 const kRounds = 400; // damaged copies of each file
-const kMaxArrayBytes = 256 * 1024 * 1024; // bytes in typed arrays, including garbage of earlier inputs
+const kMaxArrayBytes = 256 * 1024 * 1024; // bytes in typed arrays, including garbage from earlier inputs
 
 globalThis.location = { pathname: "/", search: "", hash: "", href: "http://localhost/" };
 const { Arena, commandLines, decodeBinary, decodeText, kBinaryKinds, pngText } = await import(
     pathToFileURL(join(folder, "readers.mjs"))
 );
 
-// Mulberry32, a pseudorandom generator with a seed.
+// Mulberry32, a pseudorandom generator. The seed determines its numbers.
 let state = Number(seed);
 function random(below) {
     state = (state + 0x6d2b79f5) | 0;
@@ -30,7 +31,7 @@ function joined(first, second) {
     return out;
 }
 
-/** Returns a copy with some bytes changed, removed, repeated, or set to large values. */
+/** Returns a copy of the bytes in which some are changed, removed, repeated or set to large values. */
 function damagedCopy(bytes) {
     let out = Uint8Array.from(bytes);
     for (let changes = 1 + random(4); changes > 0; --changes) {
@@ -67,7 +68,7 @@ const readers = {
         return text ?? null;
     },
     link: (bytes) => {
-        const lines = commandLines(asText(bytes)); // must not throw: otherwise the page would not start
+        const lines = commandLines(asText(bytes)); // must not throw, because the page could not start
         if (lines.some((line) => typeof line !== "string")) throw "commandLines returned a value other than strings";
         return lines;
     },
@@ -76,7 +77,7 @@ for (const [encoding, { read }] of Object.entries(kBinaryKinds)) {
     if (read) readers[encoding] = (bytes) => decodeBinary(bytes, random(2) ? arena : undefined);
 }
 
-/** Reads an input; returns the result, which is null if it was refused. */
+/** Reads an input. Returns the result; null if the input was refused. */
 function readOrRefuse(kind, bytes) {
     try {
         return readers[kind](bytes);
@@ -86,7 +87,10 @@ function readOrRefuse(kind, bytes) {
     }
 }
 
-/** Returns the milliseconds that reading an input takes: the least of five times, which excludes garbage collection. */
+/**
+ * Returns how many milliseconds reading an input takes. This is the least of five times, which excludes garbage
+ * collection.
+ */
 function milliseconds(kind, bytes) {
     let least = Infinity;
     for (let time = 0; time < 5; ++time) {

@@ -8,8 +8,8 @@ from jsonschema import Draft202012Validator
 
 SCHEMAS = {path.name: json.loads(path.read_text(encoding="utf-8"))
            for path in Path(__file__).parents[2].joinpath("protocol/schema").glob("*.schema.json")}
-# Of each list, only this many numbers or other items at its beginning are compared, because each takes microseconds. No
-# schema states a longer length. Unit tests compare whole messages.
+# How many numbers, and how many other items, are compared at the beginning of each list. Comparing an item takes
+# microseconds, and no schema states a longer length. Unit tests compare whole messages.
 MOST_NUMBERS, MOST_ITEMS = 256, 20
 
 _compared = set()

@@ -83,7 +83,7 @@ async def test_malformed_messages_end_the_connection(server, data, error, close)
             await socket.send(data)
             async for answer in socket:
                 assert json.loads(answer)["code"] == error
-        except Exception as end:  # versions of the library differ in whether a close raises an exception
+        except Exception as end:  # whether a close raises an exception depends on the library's version
             assert type(end).__name__.startswith("ConnectionClosed"), end
         assert socket.close_code == close
         await bystander.request("key", key="y")

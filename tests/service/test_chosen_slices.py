@@ -61,7 +61,7 @@ def test_sections_of_a_tesseract_are_cubes_wherever_they_are(server):
     assert [row["volume"] for row in rows] == pytest.approx([8] * 4)
     bodies = meshes.read_three_mf(fetch(server, "3mf", "polytope=tesseract&at=-1/2,sqrt(2)/2,0,0.3&size=40").body)
     assert [name for name, _, _ in bodies] == [f"8-cell, w = {w}" for w in ("\u22120.50", "0.71", "0", "0.30")]
-    for _, points, triangles in bodies:  # the circumscribed sphere has the diameter 4
+    for _, points, triangles in bodies:  # the sphere around the tesseract has the diameter 4
         assert meshes.volume(points, triangles) == pytest.approx(8 * 10**3, rel=1e-3)
 
 
@@ -123,7 +123,7 @@ def test_a_field_has_the_fitted_slices_of_its_box(server):
     answer = fetch(server, "3mf", query)
     bodies = meshes.read_three_mf(answer.body)
     assert answer.getheader("Export-Warnings") == "2 of 4 slices are empty and left out: w = -1.5, 1.5"
-    scale = 30 / 4  # the half diagonal of the box is 4
+    scale = 30 / 4  # the box has a half diagonal of 4
     for _, points, triangles in bodies:
         assert meshes.volume(points, triangles) == pytest.approx(4 / 3 * numpy.pi * (0.75**0.5 * scale)**3, rel=0.01)
     assert len(bodies) == 2
@@ -216,5 +216,5 @@ async def test_the_numbers_at_a_matrix_are_those_of_the_file(server):
             return numbers(client.messages[client.messages.index(done) - 1].decode())
 
         for center in ([0, 0, 0, 0], [40, 0, -3, 1e6], [1e9, 0, 0, 0]):
-            expected = 2 * [c + value for c in center for value in (-1, -0.5, 0, 0.5, 1)]  # in the rows and the columns
+            expected = 2 * [c + value for c in center for value in (-1, -0.5, 0, 0.5, 1)]  # rows and columns
             assert sorted(await drawn(center)) == sorted(expected)

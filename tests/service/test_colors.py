@@ -7,7 +7,7 @@ import pytest
 from png import pixels, state_in
 from wire import Client, Refused
 
-TESSERACT = "truncated tesseract"  # two kinds of cells: 0, eight truncated cubes; 1, sixteen tetrahedra
+TESSERACT = "truncated tesseract"  # has two kinds of cells: 0 for truncated cubes, 1 for tetrahedra
 
 
 def fetch_frame(server, **members):

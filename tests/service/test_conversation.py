@@ -72,7 +72,7 @@ async def test_pong_tells_how_busy_the_workers_are(server):
         assert before == {"type": "pong", "id": before["id"], "workers": ANY, "waiting": ANY, "busy": ANY, "time": ANY}
         assert before["workers"] >= 1 and before["waiting"] >= 0
         await client.request("get", what="frame")
-        async with asyncio.timeout(DEADLINE):  # the picture's job ends soon after its picture is sent
+        async with asyncio.timeout(DEADLINE):  # a picture's job ends soon after the picture is sent
             while (after := await client.request("ping"))["busy"] <= before["busy"]:
                 pass
         assert before["time"] < after["time"]
@@ -161,7 +161,7 @@ async def test_get_returns_the_requested_data(server):
 async def test_every_request_with_an_id_is_answered_once(server):
     async with Client(server, stream="geometry") as client:
         await client.request("shown", revision=0)
-        await client.request("key", key="g")  # the first key of "gg": no effect yet
+        await client.request("key", key="g")  # the first key of "gg", which has no effect yet
         await client.request("key", key="G")
         await client.request("key", key="0")
         for number in range(1, 6):

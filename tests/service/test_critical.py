@@ -18,7 +18,7 @@ TIGER = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09"
 
 
 async def critical_of(client):
-    # Some searches compute for many seconds on a fast machine, and the server ends one that hangs.
+    # Some searches take many seconds even on a fast machine. The server ends a search that hangs.
     return await client.request("get", what="critical", deadline=LONG_TIME)
 
 
@@ -51,7 +51,7 @@ async def test_the_changes_of_a_field(server):
 @pytest.mark.release_only
 async def test_the_changes_follow_orientation_levels_and_inside(server):
     async with field_client(server, "1 - (x^2 + y^2 + z^2 + w^2)") as client:
-        await client.request("set", levels=[0.75], inside="above")  # the ball of radius 0.5
+        await client.request("set", levels=[0.75], inside="above")  # a ball of radius 0.5
         await client.request("rotate", planes=["xw"], angles=[0.3])
         message = await critical_of(client)
         assert message["most_w"] == pytest.approx(2 * (math.cos(0.3) + math.sin(0.3)))
@@ -78,7 +78,7 @@ async def test_keys_move_the_focus(server):
         assert [await press("(") for _ in range(5)] == pytest.approx([0.4, -0.4, -1, -1, -1], abs=4e-4)
 
 
-# Each sine takes its time: a search takes minutes, and ends only when it is canceled.
+# Each sine takes time to compute: a search takes minutes, and ends only when it is canceled.
 SLOW_FIELD = " + ".join(f"sin({n}*x*y+w)*cos({n}*z*w-x)" for n in range(1, 40)) + " < 0"
 
 
@@ -106,7 +106,7 @@ async def test_another_client_ends_the_search_of_a_key(server):
         welcome = client.welcome
         async with Client(server, welcome["session"], token=welcome["token"], stream="none") as other:
             await client.send("key", id=500, key=")")
-            while not client.answer_to(500):  # a rotation may come before the key
+            while not client.answer_to(500):  # a rotation may be executed before the key
                 await other.request("rotate", planes=["xw"], angles=[0.1])
                 await asyncio.sleep(0.05)
             await canceled(client, 500)
@@ -114,7 +114,7 @@ async def test_another_client_ends_the_search_of_a_key(server):
 
 @pytest.mark.parametrize("request_", [{"type_": "get", "what": "critical"}, {"type_": "key", "key": ")"}])
 async def test_a_search_ends_when_its_client_leaves(request_):
-    # There is one worker for searches. If it went on, the second session would wait for it.
+    # There is only one worker for searches. If the first search went on, the second session would have to wait.
     with Server("--file-workers", 1) as server:
         async with field_client(server, SLOW_FIELD) as client:
             before = cpu_seconds(server.process.pid)
@@ -137,7 +137,7 @@ async def test_results_are_kept_up_to_a_limit():
 async def test_a_search_does_not_delay_other_sessions(server):
     async with field_client(server, SLOW_FIELD) as client, Client(server, stream="none") as other:
         search = await begin_search(client)
-        await client.request("get", what="state")  # the search has begun
+        await client.request("get", what="state")  # the search has begun before this answer
         for _ in range(5):
             await other.request("key", key="y")
         assert not client.answer_to(search)
@@ -146,10 +146,10 @@ async def test_a_search_does_not_delay_other_sessions(server):
 @pytest.mark.release_only
 async def test_a_client_that_waits_for_a_search_is_not_dropped():
     """A client that is silent for twice the interval is dropped, and the search takes longer; but it answers pings."""
-    for interval in (0.5, 2, 8, 32):  # until it suffices for this machine to answer a ping
+    for interval in (0.5, 2, 8, 32):  # increases until this machine can answer a ping in time
         with Server("--ping-interval", interval) as server:
             async with field_client(server, SLOW_FIELD) as client:
-                # The client's later messages wait for the search of a key.
+                # The client's later messages wait for the search that the key starts.
                 await client.send("key", id=500, key=")")
                 await asyncio.sleep(4 * interval)
                 if client.close_code is None and not client.answer_to(500):
@@ -161,4 +161,4 @@ def test_from_python(server):
     with oval4d_client.connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
         sections = oval.critical()["sections"]
-        assert sum(section["vertices"] for section in sections) == 5  # the 5-cell
+        assert sum(section["vertices"] for section in sections) == 5  # the vertices of the 5-cell

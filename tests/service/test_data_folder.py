@@ -30,7 +30,7 @@ def folder_of_arrays(tmp_path_factory):
         (folder / name).mkdir()
     values = quadratic()
     for moment in range(len(values)):
-        (folder / "series" / f"t{moment}.npy").write_bytes(npy(values[moment]))  # t2 comes before t10
+        (folder / "series" / f"t{moment}.npy").write_bytes(npy(values[moment]))  # t2 must come before t10
     (folder / "series" / "t0 link.npy").symlink_to(root / "secret.npy")
     (folder / "mixed" / "t0.npy").write_bytes(npy(quadratic((4, 5, 6))))
     (folder / "mixed" / "t1.npy").write_bytes(npy(quadratic((4, 5, 7))))
@@ -108,7 +108,7 @@ async def test_sessions_share_a_field_until_the_file_changes(tmp_path):
         async with Client(server) as one, Client(server) as two:
             for client in (one, two):
                 await client.request("load", name="run", path="run.npy")
-            # Counted in the cache. What a request reserves is freed shortly after its answer.
+            # The field counts in the cache. Bytes reserved for a request are freed shortly after its answer.
             server.wait_for(lambda: server.metric("oval4d_client_bytes") < 1 << 20)
             first = await slices_of(one)
             assert first == await slices_of(two)
@@ -116,7 +116,7 @@ async def test_sessions_share_a_field_until_the_file_changes(tmp_path):
             await two.request("load", name="run", path="run.npy")
             assert await slices_of(one) == first
             (tmp_path / "third.npy").write_bytes(npy(values))
-            with pytest.raises(Refused, match="--data-cache") as refused:  # both versions are in use
+            with pytest.raises(Refused, match="--data-cache") as refused:  # both versions of the file are in use
                 await two.request("load", name="third", path="third.npy")
             assert refused.value.code == "too_many"
 

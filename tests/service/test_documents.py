@@ -10,10 +10,10 @@ from schemas import SCHEMAS
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = ["README.md", "SECURITY.md", "docker/README.md", "docker/large-fields.md", "protocol/README.md"]
 UNITS = {"KiB": 1 << 10, "MiB": 1 << 20, "GiB": 1 << 30}
-# Options of other programs that the documents name.
+# Options of other programs that the documents mention.
 FOREIGN = {"--attr-timeout", "--build", "--build-arg", "--cap-drop", "--cpus", "--dir-cache-time", "--fix", "--read-only",
            "--rm", "--scale", "--tmpfs", "--vfs-cache-mode"}
-# The options of the server that limit nothing.
+# The options of the server that are not limits.
 NO_LIMITS = {"--allow-host", "--allow-origin", "--data", "--field-cache-folder", "--file-workers", "--host",
              "--io-threads", "--log-level", "--open", "--port", "--sandbox", "--spool", "--stop-timeout", "--store",
              "--store-timeout", "--token", "--trusted-proxy", "--version", "--web-root", "--workers"}

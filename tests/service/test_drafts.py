@@ -69,7 +69,7 @@ async def test_a_field_that_turns_continuously_has_drafts_until_it_stops(server)
 
 async def test_polytopes_have_one_picture_for_each_revision_and_no_drafts(server):
     async with Client(server, stream="geometry", **SIZE) as client:
-        for _ in range(3):  # a second picture of the last revision would come before those of the next ones
+        for _ in range(3):  # a second picture of a revision would come before pictures of later ones
             last = await turn(client, 20)
             await client.wait_for_slices(last)
         revisions = [m["revision"] for m in client.streamed_messages("slices")]

@@ -16,7 +16,7 @@ from wire import Client, Refused
 
 SIZE = {"width": 480, "height": 270}
 DEATHS = 'oval4d_drawing_losses_total{cause="died"}'
-# A picture that takes so long to draw that a test can interrupt it.
+# A picture that takes so long to draw that a test can interrupt the drawing.
 LONG = {"polytope": "omnitruncated 120-cell", "slices": {"count": 101}}
 LARGE = {"width": 2400, "height": 1350}
 
@@ -80,7 +80,7 @@ async def test_a_picture_whose_processes_keep_dying_is_refused():
             before = await client.request_frame()
             await client.request("set", **LONG)
             with pytest.raises(Refused, match="internal"):
-                while True:  # a process may finish before it is killed
+                while True:  # until a process is killed before it has finished
                     asked = asyncio.ensure_future(client.request_frame(**LARGE))
                     while not asked.done():
                         server.signal_drawing_processes(signal.SIGKILL)
@@ -98,7 +98,7 @@ async def test_drawing_processes_end_only_with_the_server():
     try:
         pids = server.drawing_processes()
         assert len(pids) >= 2
-        server.signal_drawing_processes(signal.SIGTERM)  # a terminal or a container sends these to all processes
+        server.signal_drawing_processes(signal.SIGTERM)  # terminals and containers send these signals to all processes
         server.signal_drawing_processes(signal.SIGINT)
         async with Client(server, stream="none", **SIZE) as client:
             await client.request_frame()
@@ -148,14 +148,14 @@ async def test_a_drawing_process_without_shared_memory_ends_with_an_error(tmp_pa
         drawing = subprocess.Popen([PROGRAM, "draw"], stderr=log, preexec_fn=lambda: os.dup2(theirs.fileno(), 3),
                                    pass_fds=[3])
         ours.settimeout(DEADLINE)
-        assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # the process reports that it is ready
-        ours.sendall(struct.pack("=I4xQ", 1, 0))  # a draw request without its contents and without the shared memory
+        assert struct.unpack("=I4xQ", ours.recv(16)) == (0, 0)  # the process is ready
+        ours.sendall(struct.pack("=I4xQ", 1, 0))  # a draw request without contents and without shared memory
         assert drawing.wait(DEADLINE) == 1
     assert b"a draw request arrived without the memory to draw into" in (tmp_path / "log").read_bytes()
 
 
 @pytest.mark.skipif(is_sanitizer_build(), reason="sanitizers open files of their own")
-@pytest.mark.parametrize("files", [8, 11, 14, 16])  # the server and four workers have 17 files open when they wait
+@pytest.mark.parametrize("files", [8, 11, 14, 16])  # when idle, the server with four workers has 17 open files
 def test_a_too_low_limit_on_open_files_is_reported(files, tmp_path):
     def limit_open_files():
         resource.setrlimit(resource.RLIMIT_NOFILE, (files, files))
@@ -166,7 +166,7 @@ def test_a_too_low_limit_on_open_files_is_reported(files, tmp_path):
     reports = lambda: "Too many open files" in (tmp_path / "log").read_text(encoding="utf-8")
     wait_until(lambda: server.poll() is not None or reports(), "the report or the end of the server")
     server.terminate()
-    # The signal itself ends a server that does not handle signals yet, or no longer.
+    # A server that does not handle signals yet, or no longer, is ended by the signal itself.
     assert server.wait(DEADLINE) in (0, 1, -signal.SIGTERM)
     assert reports()
 

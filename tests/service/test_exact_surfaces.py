@@ -18,7 +18,7 @@ TIGER = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 < 0.09"
 BOX = "-1.6,1.6,-1.6,1.6,-1.3,1.3,-1.3,1.3"
 QUERY = f"formula={quote(TIGER)}&box={BOX}&rotate=xw,yz:0.4,0.9"
 WORDS = ["--formula", TIGER, f"--box={BOX}", "--rotate", "xw,yz:0.4,0.9"]
-RADIUS = float(numpy.hypot(1.6, 1.3) * 2**0.5)  # of the sphere around the box
+RADIUS = float(numpy.hypot(1.6, 1.3) * 2**0.5)  # the radius of the sphere around the box
 
 
 def read_obj(data):
@@ -50,7 +50,7 @@ async def test_the_body_of_an_array_has_the_volume_of_the_table(server, seed):
         (row,) = csv.DictReader(io.StringIO((await file("csv")).decode()))
         points, triangles = read_obj(await file("obj", exact=True))
         meshes.assert_manifold(triangles)
-        scale = 30 / 2  # the half diagonal of the box is 2
+        scale = 30 / 2  # the box has a half diagonal of 2
         assert meshes.volume(points, triangles) == pytest.approx(float(row["volume"]) * scale**3, rel=1e-9)
         smooth = read_obj(await file("obj"))
         assert smooth == read_obj(await file("obj", exact=False)) != (points, triangles)

@@ -82,7 +82,7 @@ async def test_export_limits_are_enforced():
         assert "takes longer than" in export_refusal(server, "stl", query, 413)["message"]
 
 
-# A server takes a hundred times as long to make this file as to answer a few requests for pictures.
+# Making this file takes the server a hundred times as long as answering a few requests for pictures.
 LONG_FILE = "/api/v1/file.3mf?polytope=120-cell&of=oval&body=frame"
 
 
@@ -125,7 +125,7 @@ def receive_slowly(raw, size, duration):
 
 def test_a_slow_reader_receives_a_whole_long_file():
     """It takes longer in total than the time limit of one write, but never pauses that long."""
-    for limit in (0.5, 2, 8, 32):  # until the pauses of this machine are shorter
+    for limit in (0.5, 2, 8, 32):  # increases until the pauses of this machine are shorter
         with Server("--write-timeout", limit) as server:
             whole = server.get("/api/v1/file.stl?polytope=24-cell&of=oval&body=frame").body
             assert len(whole) > 20_000_000

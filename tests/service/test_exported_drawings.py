@@ -71,7 +71,7 @@ def test_svg_of_many_vertices_shows_their_density(server, tmp_path):
             for place in range(int(row), int(row) + int(height)):
                 assert drawn.setdefault((int(column), place), float(tone.get("fill-opacity"))) > 0
     assert {column for column, _ in drawn} == set(range(193)) and max(drawn.values()) == 1
-    for (column, row), opacity in drawn.items():  # the 120-cell is symmetric under point reflection
+    for (column, row), opacity in drawn.items():  # the 120-cell is symmetric about its center
         assert abs(drawn.get((column, 64 - row), 0) - opacity) < 0.1
 
 
@@ -125,7 +125,8 @@ def test_a_drawing_of_the_matrix_has_the_sections(server, tmp_path):
     groups = {group.get("id"): group for group in root.iter(SVG + "g")}
     assert set(groups) == {a + b for a in "xyzw" for b in "xyzw" if a != b} | {"names", "numbers"}
     assert [text.text for text in groups["names"].iter(SVG + "text")] == list("xyzw")
-    # The tesseract has the circumradius 2, so the panels reach a little farther, below four columns and beside four rows.
+    # The tesseract has the circumradius 2. The panels reach a little farther, and have numbers below four columns and
+    # beside four rows.
     assert collections.Counter(text.text for text in groups["numbers"].iter(SVG + "text")) == dict.fromkeys(
         ("-2", "-1", "0", "1", "2"), 8)
     for name, group in groups.items():
@@ -166,7 +167,7 @@ def test_a_drawing_of_the_matrix_of_a_field_has_the_contours_in_the_colors_of_th
 
 @pytest.mark.parametrize("of, slices", [("oval", 7), ("focus", 1)])
 def test_a_drawing_of_slices_has_their_elements_and_holds_on_white(server, tmp_path, of, slices):
-    query = f"polytope=24-cell&{ROTATION}&slices=7&of={of}&background=dark"  # paper is white in any case
+    query = f"polytope=24-cell&{ROTATION}&slices=7&of={of}&background=dark"  # drawings are for white paper in any case
     root = svg_of(server, tmp_path, query)
     rows = [row for row in csv_rows(server, f"polytope=24-cell&{ROTATION}&slices=7&of={of}") if int(row["vertices"])]
     groups = {group.get("id"): group for group in root.iter(SVG + "g")}
@@ -175,13 +176,13 @@ def test_a_drawing_of_slices_has_their_elements_and_holds_on_white(server, tmp_p
         group = groups[f"slice_{row['n']}"]
         count = {shape: len(list(group.iter(SVG + shape))) for shape in ("polygon", "line", "circle")}
         assert (count["polygon"], count["circle"]) == (int(row["faces"]), int(row["vertices"]))
-        assert count["line"] <= int(row["edges"])  # those inside balls are not drawn
+        assert count["line"] <= int(row["edges"])  # lines inside balls are not drawn
     labels = [text.text for text in groups["labels"]]
     assert any(label.startswith("w = 0") for label in labels) and (of == "focus" or "-" in "".join(labels))
     assert sorted(text.text for text in groups["axes"].iter(SVG + "text")) == list("xyz")
     for shape in root.iter():
         color = shape.get("fill") or shape.get("stroke")
-        least = 4.5 if shape.tag == SVG + "text" else 2.9  # a light brightens some faces
+        least = 4.5 if shape.tag == SVG + "text" else 2.9  # the light brightens some faces
         assert color is None or contrast_to_white(color) >= least, color
     only = svg_of(server, tmp_path, f"{query}&faces=off&balls=off&labels=off")
     assert not list(only.iter(SVG + "polygon")) and not list(only.iter(SVG + "circle"))[3:], "only the tips of the axes"

@@ -24,7 +24,7 @@ def report_on(server, tmp_path, query):
     return meshes.assert_closed_mesh(path, parts=1)
 
 
-# Polytopes have edge length 2, and the circumscribed sphere has a diameter of 60 mm.
+# Polytopes have edges of length 2. In files, the sphere around a polytope has a diameter of 60 mm.
 @pytest.mark.parametrize("query, volume", [
     ("polytope=tesseract&highlight=cell:3", 30**3),
     ("polytope=120-cell&highlight=cell:77", (15 + 7 * 5**0.5) / 4 * (30 / (PHI**2 * 2**0.5))**3),
@@ -84,7 +84,7 @@ async def test_messages_queries_and_the_command_line_export_the_same_element(ser
     by_http = fetch(server, format_, "polytope=24-cell&highlight=cell:17")
     by_command = run_oval4d("export", "-o", "-", "--format", format_, "--polytope", "24-cell", "--highlight", "cell:17",
                             "--of", "highlight").stdout
-    if format_ == "3mf":  # a 3MF file contains its time of creation
+    if format_ == "3mf":  # 3MF files contain their time of creation
         assert meshes.read_three_mf(by_websocket) == meshes.read_three_mf(by_http) == meshes.read_three_mf(by_command)
     else:
         assert by_websocket == by_http == by_command

@@ -36,7 +36,7 @@ async def test_websocket_http_and_command_export_the_same_file(server, tmp_path,
     path = tmp_path / f"slices.{format_}"
     done = run_oval4d("export", "-o", path, "--polytope", "24-cell", "--rotate", "xw,yz:0.39,1.42", "--of", of, "--size=40")
     assert done.returncode == 0, done.stderr
-    if format_ == "3mf":  # a 3MF file contains its time of creation
+    if format_ == "3mf":  # 3MF files contain their time of creation
         assert meshes.read_three_mf(by_websocket) == meshes.read_three_mf(by_http) == meshes.read_three_mf(path.read_bytes())
     else:
         assert by_websocket == by_http == path.read_bytes()
@@ -52,7 +52,8 @@ def test_admesh_finds_nothing_to_repair_after_any_rotation(server, tmp_path, pol
         query = f"polytope={polytope}{turn}&focus={rng.randint(-4, 4)}"
         report = meshes.assert_closed_mesh(fetch_file_to(server, tmp_path / "solid.stl", query), parts=1)
         (row,), levels = csv_rows(server, query), csv_rows(server, query + "&of=critical")
-        # The circumscribed sphere has a diameter of 60 mm; the 4OFF file gives its radius in the polytope's units.
+        # The sphere around the polytope has a diameter of 60 mm. The 4OFF file gives its radius in the polytope's
+        # units.
         points = off_points(fetch_file(server, "off", query))
         scale = 30 / max(sum(c * c for c in p) ** 0.5 for p in points)
         assert report["volume"] == pytest.approx(float(row["volume"]) * scale**3, rel=1e-3)
@@ -73,14 +74,14 @@ def test_bodies_of_the_oval_stand_separately_on_the_build_plate(server, tmp_path
     slices = csv_rows(server, query)
     full = [row for row in slices if float(row["volume"]) > 1e-6]
     path = fetch_file_to(server, tmp_path / "oval.stl", query + f"&body={body}")
-    # Balls and bars are also exported for flat slices, which have no solid.
+    # Flat slices have no solid, but their balls and bars are exported.
     parts = len(full) if body == "solid" else sum(1 for row in slices if int(row["vertices"]) > 0)
     report = meshes.assert_closed_mesh(path, parts)
     assert all(low == pytest.approx(0, abs=1e-3) for low, _ in report["box"])
     assert report["box"][2][1] < 60
     if body == "skeleton" and polytope != "5-cell":
-        return  # too many triangles to check in Python
-    # In 3MF each part is an object, and the bounding boxes are disjoint.
+        return  # there are too many triangles to check in Python
+    # In 3MF, each part is an object. The bounding boxes of the objects are disjoint.
     objects = meshes.read_three_mf(fetch_file(server, "3mf", query + f"&body={body}"))
     assert len(objects) == parts
     boxes = []
@@ -129,7 +130,7 @@ def test_ply_faces_have_the_colors_of_their_cells(server):
     records = body[12 * vertices:]
     assert len(records) == 16 * faces
     colors = {records[16 * i + 13:16 * i + 16] for i in range(faces)}
-    assert len(colors) == 14  # each of the 14 faces of the slice comes from another cell
+    assert len(colors) == 14  # the slice has 14 faces, each from another cell
 
 
 def test_openscad_modules_are_the_bodies_of_3mf_with_clockwise_faces(server):
@@ -190,7 +191,7 @@ def test_csv_measurements_match_the_16_cell(server):
     levels = csv_rows(server, "polytope=16-cell&of=critical")
     assert [row["n"] for row in slices] == ["-2", "-1", "0", "1", "2"]
     for row in slices:
-        # At ±w the 16-cell's slice is the octahedron of radius √2 − |w|.
+        # The slice of the 16-cell at ±w is an octahedron of radius √2 − |w|.
         radius = 2**0.5 - abs(float(row["w"]))
         assert float(row["volume"]) == pytest.approx(4 / 3 * radius**3)
         assert float(row["area"]) == pytest.approx(4 * 3**0.5 * radius**2)
@@ -227,7 +228,7 @@ def test_the_projection_has_the_size_of_the_object(server, tmp_path):
     """The vertices of a tesseract at w = ±1 lie on concentric cubes with the half edges d / (d ∓ 1), d: the eye's w."""
     path = fetch_file_to(server, tmp_path / "cubes.stl", "polytope=tesseract&of=projection&eye=3&size=100")
     corners = meshes.stl_triangles(path.read_bytes()).reshape(-1, 3)
-    radius = 50 / 2  # millimeters per unit: the circumradius of a tesseract with edge length 2 is 2
+    radius = 50 / 2  # millimeters per unit; a tesseract with edges of length 2 has the circumradius 2
     outer = radius * 6 / (6 - 1)
     balls = numpy.ptp(corners, axis=0) / 2 - outer
     assert (balls > 0).all() and (balls < 0.15 * outer).all()
@@ -239,7 +240,7 @@ HOSTILE_NAMES = ["R&D.off", "a < b > c", "\"quoted\" 'twice'", "]]>", "<!--", "&
 
 @pytest.mark.parametrize("name", HOSTILE_NAMES, ids=ascii)
 async def test_files_of_objects_with_any_name_can_be_parsed(server, tmp_path, name):
-    shown = name.replace("\ufffe", "").replace("\uffff", "")  # XML cannot contain these
+    shown = name.replace("\ufffe", "").replace("\uffff", "")  # XML cannot contain these characters
     async with Client(server, stream="none") as client:
         await client.request("load", name=name, format="points", data="1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n-1 -1 -1 -1\n")
         files = {row["name"]: await file_over_websocket(client, format=row["name"])

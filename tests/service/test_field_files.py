@@ -17,7 +17,7 @@ BALL = "x^2 + y^2 + z^2 + w^2 < 1"
 BALL_BOX = "-1.2,1.2,-1.2,1.2,-1.2,1.2,-1.2,1.2"
 TIGER = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.8)^2 < 0.1225"
 TIGER_BOX = "-1.4,1.4,-1.4,1.4,-1.2,1.2,-1.2,1.2"
-CUT_BOX = "-0.5,1.4,-1.4,1.4,-1.2,1.2,-1.2,1.2"  # through the tiger: its slices have caps
+CUT_BOX = "-0.5,1.4,-1.4,1.4,-1.2,1.2,-1.2,1.2"  # cuts through the tiger, so its slices have caps
 TURN = "xw,yz:0.7,0.4"
 
 
@@ -37,7 +37,7 @@ def rows_of(data):
     return [{name: float(value) if value else None for name, value in row.items()} for row in rows]
 
 
-# --- Measurements
+# --- Measurements in CSV files
 
 
 @pytest.mark.release_only
@@ -52,7 +52,7 @@ def test_the_csv_measures_balls(server):
             assert row["centroid_x"] is None
             continue
         radius = math.sqrt(1 - row["w"] ** 2)
-        # A piecewise linear function of 64 cells across the box: the error is of the second order.
+        # The field is a piecewise linear function of 64 cells across the box, so the error is of second order.
         assert row["volume"] == pytest.approx(4 / 3 * math.pi * radius**3, rel=0.01)
         assert row["area"] == pytest.approx(4 * math.pi * radius**2, rel=0.01)
         assert [row[f"centroid_{a}"] for a in "xyz"] == pytest.approx([0, 0, 0], abs=1e-3)
@@ -93,7 +93,7 @@ def test_the_csv_has_a_row_for_each_of_several_levels(server):
     assert [(row["n"], row["level"]) for row in rows] == [(0, 0.5), (0, 1), (0, 9)]
     for row, radius in zip(rows, (0.5, 1)):
         assert row["volume"] == pytest.approx(4 / 3 * math.pi * radius**3, rel=0.01)
-    # The whole box is inside: there is no level set.
+    # The whole box is inside the body, so there is no level surface.
     assert rows[2]["volume"] == pytest.approx(2.4**3) and rows[2]["area"] == 0 and rows[2]["euler"] == 2
     outside = rows_of(fetch(server, "csv", "sqrt(x^2+y^2+z^2+w^2)", BALL_BOX, levels="0.5", inside="above"))
     assert outside[0]["volume"] == pytest.approx(2.4**3 - rows[0]["volume"], rel=1e-9)
@@ -125,7 +125,7 @@ def test_the_csv_of_critical_w_says_what_changes_there(server):
             assert (row[f"{name}_{inside}"], row[f"{name}_{outside}"]) == (value, 0)
 
 
-# --- Bodies
+# --- Bodies for printing
 
 
 @pytest.mark.parametrize("formula, box", [(BALL, BALL_BOX), (TIGER, TIGER_BOX), (TIGER, CUT_BOX)])
@@ -173,7 +173,7 @@ def test_ply_has_colors_and_values_at_points(server):
     for x, y, z, *color, value in vertices:
         assert abs(math.hypot(x, y, z) / scale - radius) <= 0.01 * radius and abs(value) < 0.01
         assert color == list(vertices[0][3:6])
-    growing = "sqrt(x^2+y^2+z^2) < 0.6 + 0.3*x*t"  # grows for positive x, shrinks for negative x
+    growing = "sqrt(x^2+y^2+z^2) < 0.6 + 0.3*x*t"  # grows where x is positive, and shrinks where x is negative
     _, vertices = ply_vertices(fetch(server, "ply", growing, BALL_BOX, color="growth"))
     for x, _, _, red, _, blue, _ in vertices:
         assert red > blue if x > 2 else red < blue if x < -2 else True
@@ -192,7 +192,7 @@ def test_viewers_read_the_bodies(server, tmp_path):
     assert report["issues"]["numErrors"] == report["issues"]["numWarnings"] == 0, report["issues"]
 
 
-# --- ParaView
+# --- Files for ParaView
 
 
 def test_vtp_contains_the_surfaces(server):
@@ -230,7 +230,7 @@ def test_vti_samples_the_slice(server):
     counts = [n + 1 for n in high]
     values = data["PointData"]["value"]
     assert len(values) == math.prod(counts)
-    # The hyperplane w = 0.5 after the rotation, which turns z toward w: z of the function is w, and w is −z.
+    # The hyperplane is w = 0.5 after the rotation, which turns z toward w. The function's z is then w, and its w is −z.
     for i, j, k in ((0, 0, 0), (5, 7, 9), (high[0], high[1], high[2])):
         x, y, z = (o + s * n for o, s, n in zip(data["origin"], data["spacing"], (i, j, k)))
         expected = x + 10 * y + 100 * 0.5 + 1000 * -z
@@ -240,7 +240,7 @@ def test_vti_samples_the_slice(server):
     assert 0 < missing < 0.8 * len(rotated), "the corners of the bounding box are outside of the domain"
 
 
-# --- What is refused
+# --- Requests that are refused
 
 
 @pytest.mark.parametrize("format_, query, reason", [

@@ -38,7 +38,7 @@ def colors_at(surface):
     return [(color >> 16, color >> 8 & 255, color & 255) for color in surface["colors"]]
 
 
-# --- Loading
+# --- Loading fields
 
 
 async def test_a_loaded_formula_shows_its_surfaces(server):
@@ -59,7 +59,7 @@ async def test_a_loaded_formula_shows_its_surfaces(server):
             surface = piece["surface"]
             assert len(surface["points"]) == len(surface["normals"])
             assert len(surface["triangles"]) == len(surface["level"]) == len(surface["cap"])
-            for point, normal in zip(surface["points"], surface["normals"]):  # on the sphere, outward
+            for point, normal in zip(surface["points"], surface["normals"]):  # must be on the sphere
                 radius = math.sqrt(1 - piece["w"] ** 2)
                 assert math.hypot(*point) == pytest.approx(radius, abs=1e-3)
                 assert normal == pytest.approx([c / math.hypot(*point) for c in point], abs=5e-3)
@@ -100,11 +100,11 @@ async def test_a_formula_replaces_that_of_the_same_name(server):
         names = [polytope["name"] for polytope in (await client.request("get", what="catalogue"))["polytopes"]]
         assert names.count("field") == 1
         middle = (await slices_of(client))["slices"][10]
-        # Half of the cube, because the plane x = w passes through its middle.
+        # The body is half of the cube, because the plane x = w passes through the cube's middle.
         assert surface_volume(middle) == pytest.approx(2.4 ** 3 / 2, rel=1e-3)
 
 
-# --- Geometry
+# --- The geometry of surfaces
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -126,8 +126,8 @@ async def test_slices_of_ellipsoids_have_their_volume_and_centroid(server, axes,
             if expected is None:
                 assert "surface" not in piece
                 continue
-            # A surface of triangles whose corners are on the true surface cuts off, relative to the volume, a part in
-            # proportion to the square of the triangles' size over the radius of curvature.
+            # Triangles whose corners are on a curved surface cut off a part of the volume. Relative to the volume, this
+            # part is proportional to the square of the triangles' size divided by the radius of curvature.
             size = min(axes) * expected.scale
             if size < 3 * step:
                 continue
@@ -140,7 +140,7 @@ async def test_slices_of_ellipsoids_have_their_volume_and_centroid(server, axes,
 
 async def test_the_error_of_a_volume_is_of_second_order(server):
     errors = []
-    for half in (4, 2):  # the lattice is half as coarse in a box of half the size
+    for half in (4, 2):  # a box of half the size has a lattice with half the step
         async with field_client(server, BALL, [[-half, half]] * 4) as client:
             errors.append(4 / 3 * math.pi - surface_volume((await slices_of(client))["slices"][10]))
     assert 2.5 < errors[0] / errors[1] < 6
@@ -196,12 +196,12 @@ async def test_a_field_and_its_complement_fill_the_domain(server, seed):
         above = await slices_of(client)
         for one, other in zip(below["slices"], above["slices"]):
             whole = domain_volume(one)
-            # The edges between surfaces and caps are rounded off, in both bodies.
+            # In both bodies, the edges between surfaces and caps are rounded off.
             assert 0.98 * whole < surface_volume(one) + surface_volume(other) < 1.002 * whole
             assert 0 < surface_volume(one) < whole
 
 
-# Functions with poles, jumps, edges, double roots, or parts without values.
+# Functions with poles, jumps, edges, double roots, or regions without values.
 DIFFICULT = ["1/x - y", "sqrt(x) - w", "log(x) + sqrt(y)", "floor(4*x) - 0.5", "step(x*y) - 0.5", "mod(x, 0.5) - 0.2",
              "tan(9*x)", "x*y", "x*y*z*w", "abs(x)", "abs(x) - 1e-9", "min(x, y, z, w)", "exp(1e3*x) - 1", "1e300*x*1e300",
              "x^y", "x^w - y", "atan2(y, x)", "0/0", "x - x", "log(-1 - x^2)", "x < 1/0", "sin(20*x)*sin(20*y)*sin(20*z)"]
@@ -220,7 +220,7 @@ async def test_surfaces_of_difficult_formulas_are_closed(server, formula):
         assert await client.request_frame(**SIZE)
 
 
-# --- Encodings
+# --- Encodings of `slices` messages
 
 
 @pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
@@ -249,11 +249,11 @@ async def test_all_encodings_have_the_same_surfaces(server, color, encoding, mon
                 assert surface_volume(own, level) == pytest.approx(surface_volume(piece, level), rel=1e-5)
 
 
-# --- Settings
+# --- Settings of fields
 
 
 async def test_each_level_has_its_own_closed_surface(server):
-    levels = [0.44, 0, -0.36, -0.75]  # spheres of the radii 1.2, 1, 0.8, 0.5 in the middle slice
+    levels = [0.44, 0, -0.36, -0.75]  # in the middle slice, spheres of the radii 1.2, 1, 0.8 and 0.5
     async with field_client(server, BALL, [[-1.5, 1.5]] * 4) as client:
         await client.request("set", levels=levels, slices={"count": 5})
         message = await slices_of(client)
@@ -264,7 +264,7 @@ async def test_each_level_has_its_own_closed_surface(server):
             expected = 4 / 3 * math.pi * radius ** 3
             error = (lattice_step(message) / radius) ** 2
             assert expected * (1 - error) < surface_volume(middle, index) < expected * (1 + error / 4)
-        look = message["scene"]["surfaces"]  # the innermost level, which is opaque, comes first
+        look = message["scene"]["surfaces"]  # the innermost level, which is opaque, is first
         assert [level["level"] for level in look] == [3, 2, 1, 0]
         assert [level["opacity"] == 1 for level in look] == [True, False, False, False]
         assert len({level["color"] for level in look}) == 4
@@ -302,7 +302,7 @@ async def test_the_colors_by_growth_show_where_a_body_grows(server):
             assert color[2] > color[0] + 10
         assert all(max(color) - min(color) < 25 for color in middle)
 
-        # A ball that moves along x at half a unit of length per unit of w: it grows in front and shrinks behind.
+        # A ball that moves along x by half a unit of length per unit of w. It grows in front and shrinks behind.
         await load_field(client, "(x - w/2)^2 + y^2 + z^2 < 1/4", BALL_BOX)
         await client.request("set", color="growth")
         pieces = surfaces_in(await slices_of(client))
@@ -329,7 +329,7 @@ def points_in_caps(surface):
     return inside
 
 
-# --- Storage
+# --- Stored fields
 
 
 async def test_a_field_survives_a_restart_with_its_levels_and_constants(tmp_path):
@@ -359,7 +359,7 @@ async def test_a_field_survives_a_restart_with_its_levels_and_constants(tmp_path
             assert whole == pytest.approx(4 * math.pi ** 3 * 0.8 * 0.35 ** 2, rel=0.03)
 
 
-# --- Pictures
+# --- Pictures of fields
 
 
 QUERIES = [
@@ -403,12 +403,12 @@ async def test_a_histogram_takes_the_place_of_parallel_coordinates(server):
         assert [round(value, 2) for value in histogram["range"]] == [-1, 1]
         assert [level["value"] for level in histogram["levels"]] == [0]
         panel, rows = layout["columns"] // 4, len(shown["density"])
-        # f = x is a diagonal in the panel of x.
+        # In the panel of x, the function f = x is a diagonal.
         for row, tones in enumerate(shown["density"]):
             seen = [column for column in range(panel) if tones[column] > 0]
             middle = (panel - 1) * (1 - row / (rows - 1))
             assert seen and max(abs(column - middle) for column in seen) < 2
-        # A quarter turn in xw takes x to w.
+        # A quarter turn in xw moves x to w.
         await client.request("rotate", planes=["xw"], angles=[math.pi / 2])
         turned = await slices_of(client)
         for tones, before in zip(turned["density"], shown["density"], strict=True):

@@ -37,7 +37,7 @@ MANY_CONSTANTS = "x; " + ", ".join(f"c{n}=1" for n in range(17))
     ("(x < 1) + y", 4, "only outside of parentheses"),
     ("x =", 4, "a number, a name or '(' is expected"),
     ("1e999*x", 1, "too large or too small"),
-    ("π*é", 3, "a number, a name or '(' is expected"),  # characters, not bytes
+    ("π*é", 3, "a number, a name or '(' is expected"),  # counts characters, not bytes
     ("a*x;", 5, "the name of a constant is expected"),
     ("a*x; a", 7, "'=' is expected after a"),
     ("a*x; a=", 8, "a number, a name or '(' is expected"),
@@ -63,12 +63,12 @@ async def test_a_wrong_formula_is_refused_with_the_position_of_the_mistake(serve
             assert refused.value.code == "bad_expression" and text in refused.value.text
             assert int(re.search(r"position (\d+):", refused.value.text).group(1)) == position
         assert {**await client.request("get", what="state"), "id": 0} == {**before, "id": 0}
-        await load_field(client, "x")  # the connection and the session work on
+        await load_field(client, "x")  # the connection and the session still work
 
 
 async def test_a_formula_at_the_limits_is_accepted(server):
     async with Client(server) as client:
-        await load_field(client, "x" + "*y/z*w/x" * 249 + "*y/z*w")  # 999 operations
+        await load_field(client, "x" + "*y/z*w/x" * 249 + "*y/z*w")  # has 999 operations
         await load_field(client, "(" * 64 + "x" + ")" * 64)
         await load_field(client, " " * 1999 + "x")
 
@@ -118,7 +118,7 @@ async def test_nonfinite_numbers_are_refused(server, message, number):
     async with field_client(server, "w") as client, field_client(server, "w") as bystander:
         await client.socket.send(message % number)
         error = await client.wait_until(lambda: next((m for m in client.messages if m["type"] == "error"), None))
-        if error["code"] == "bad_json":  # NaN and Infinity are not JSON
+        if error["code"] == "bad_json":  # NaN and Infinity are not valid JSON
             assert number != "1e999" and await client.wait_for_close_code() == 1007
             credentials = {"session": client.session or client.welcome["session"], "token": client.welcome["token"]}
             async with Client(server, **credentials) as again:

@@ -39,7 +39,7 @@ def test_every_picture_of_the_gallery_has_a_name():
 def test_pictures_are_drawn_one_by_one(program, tmp_path):
     folder = tmp_path / "pictures"
     folder.mkdir()
-    # The others are composed by Python from several pictures, or need an array that it computes.
+    # The other figures are composed by Python from several pictures, or need an array that Python computes.
     names = [name for name in run_make("--list").stdout.split()
              if not re.match("figure|julia|gray-scott|ladder", name)]
     for some in [["tiger.png", "24-cell"], names]:

@@ -9,7 +9,7 @@ from harness import Server
 from test_data_folder import slices_of
 from wire import Client, credentials_of
 
-VALUES = quadratic((8, 24, 24, 24))  # the levels take 432 KiB, 27 KiB and 1.7 KiB
+VALUES = quadratic((8, 24, 24, 24))  # the sizes of the levels are 432 KiB, 27 KiB and 1.7 KiB
 FIRST = ("--first-level-bytes", "4k")
 
 
@@ -59,7 +59,7 @@ async def test_finer_levels_replace_a_coarse_one_in_place(folder):
             state = await whole.request("get", what="state")
             assert field == state["field"]
             assert await slices_of(client) == await slices_of(whole)
-            for _ in range(3):  # the rotation, the settings, the load
+            for _ in range(3):  # undoes the rotation, the settings and the load
                 await client.request("undo")
             assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
             await client.request("redo")
@@ -95,7 +95,7 @@ async def test_sessions_read_a_level_once(folder):
             done = await one.request("load", name="run", path="image")
             await refined(one, done["revision"])
             cached = server.metric("oval4d_data_cache_bytes")
-            for path in (folder / "image").glob("[0-2]/*.*.*.*"):  # damages the chunks, but lets them look unchanged
+            for path in (folder / "image").glob("[0-2]/*.*.*.*"):  # damages chunks, which look unchanged
                 status = path.stat()
                 with path.open("r+b") as file:
                     file.write(bytes(status.st_size))

@@ -70,7 +70,7 @@ async def test_the_table_is_the_transfer_function(server):
 async def test_all_encodings_have_the_same_fog(server, encoding, monkeypatch):
     monkeypatch.setattr(oval4d_client, "numpy", None)
     async with Client(server) as client:
-        await load_field(client, "sqrt(x) + y*z - w")  # without values where x < 0
+        await load_field(client, "sqrt(x) + y*z - w")  # has no values where x < 0
         await client.request("set", fog=FOG, orientation=random_rotation(2), slices={"count": 5, "spacing": 1.5})
         text = await slices_of(client)
         await client.request("hello", encoding=encoding)

@@ -72,7 +72,7 @@ async def test_slices_of_the_5_cell_are_correct_after_each_rotation_key(server):
                 assert piece["w"] == pytest.approx(piece["index"] * spacing)
                 assert_closed_surface(piece)
                 if min(abs(p[3] - piece["w"]) for p in expected) < 1e-5:
-                    continue  # the hyperplane contains a vertex: other tests cover this
+                    continue  # the hyperplane contains a vertex, which other tests cover
                 points = simplex_section(expected, piece["w"])
                 assert len(points) == len(piece["vertices"])
                 for point in points:
@@ -114,8 +114,8 @@ async def test_the_slices_message_contains_the_layout(server):
         assert len(scene["colors"]["cells"]) == 5
         places = [piece["position"] for piece in slices["slices"]]
         assert places[10] == [0, 0, 0] and slices["slices"][10]["focus"] is True
-        assert all(a[0] < b[0] for a, b in zip(places, places[1:]))  # w rises to the right
-        # z grows with the square of the distance from the focus.
+        assert all(a[0] < b[0] for a, b in zip(places, places[1:]))  # w increases to the right
+        # z grows with the square of the distance from the focus slice.
         assert places[0][2] == pytest.approx(100 * places[9][2])
         done = await client.request("key", key="o")
         single = await client.wait_for_slices(done["revision"])

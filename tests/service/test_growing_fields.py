@@ -31,7 +31,7 @@ async def test_appended_moments_equal_the_whole_array(server, by_http):
         assert {**grown, "revision": 0, "object_serial": 0} == {**expected, "revision": 0, "object_serial": 0}
         grown, expected = [(await each.request("get", what="slices", **SIZE))["slices"] for each in (client, whole)]
         assert grown == expected and any("surface" in piece for piece in grown)
-        await client.request("undo")  # the rotation, not the moments
+        await client.request("undo")  # undoes the rotation, but not the moments
         await whole.request("undo")
         grown, expected = [(await each.request("get", what="slices", **SIZE))["slices"] for each in (client, whole)]
         assert grown == expected
@@ -48,7 +48,7 @@ async def test_a_field_grows_while_another_object_is_shown(server):
         await client.request("set", levels=[0.5])
         welcome = client.welcome
         slices = (await client.request("get", what="slices", **SIZE))["slices"]
-    async with Client(server, welcome["session"], token=welcome["token"]) as again:  # from the store
+    async with Client(server, welcome["session"], token=welcome["token"]) as again:  # reads it from the store
         assert (await again.request("get", what="slices", **SIZE))["slices"] == slices
 
 
@@ -69,7 +69,7 @@ async def test_moments_that_do_not_fit_are_refused(server, name, values, code, t
 
 
 async def test_a_growing_field_is_bounded():
-    values = quadratic((4, 8, 8, 8))  # 2 KiB a moment
+    values = quadratic((4, 8, 8, 8))  # a moment has 2 KiB
     with Server("--max-field-bytes", "32k") as server:
         async with Client(server) as client:
             await load(client, "run", npy(values))
@@ -100,7 +100,8 @@ async def test_a_growing_field_is_held_once(server):
             for moment in range(60):
                 await client.request("rotate", planes=["xw"], angles=[0.1])
                 await load(client, "run", npy(values[moment % 2]), append=True)
-            # 62 time steps of 128 KiB, and a margin. What a request reserves is freed shortly after its answer.
+            # There are 62 time steps of 128 KiB, plus a margin. Bytes reserved for a request are freed shortly after
+            # its answer.
             own.wait_for(lambda: own.metric("oval4d_client_bytes") < 20 << 20)
             for _ in range(60):
                 await client.request("undo")

@@ -40,7 +40,7 @@ def measured_timeout():
 class SuspendsDrawers(Server):
     """A server whose drawing processes are suspended (SIGSTOP) as soon as they appear, from begin() to end()."""
 
-    most = math.inf  # the number of processes to suspend
+    most = math.inf  # how many processes to suspend
     suspender = None
 
     def begin(self):
@@ -111,7 +111,7 @@ async def test_a_process_that_hangs_while_it_draws_is_replaced(timeout):
                 pid = await signal_busy_drawing_process(server, signal.SIGSTOP, asked)
                 assert png.pixels(await asked) == png.pixels(whole)
                 if pid is not None and not has_ended(pid):
-                    os.kill(pid, signal.SIGCONT)  # it had already finished the picture
+                    os.kill(pid, signal.SIGCONT)  # the process had already finished the picture
             assert server.metric(DEATHS) == 0
 
 
@@ -121,7 +121,7 @@ async def test_a_hanging_drawing_process_does_not_delay_other_clients():
             await client.request("set", **LONG)
             whole = await client.request_frame(**LARGE)
             drew_after = False
-            while not drew_after:  # otherwise the process had finished the picture when it was suspended
+            while not drew_after:  # until a process is suspended before it has finished
                 asked = asyncio.ensure_future(client.request_frame(**LARGE))
                 pid = await signal_busy_drawing_process(server, signal.SIGSTOP, asked)
                 if pid is not None:
@@ -145,7 +145,7 @@ async def test_a_picture_that_hangs_two_processes_is_refused(timeout):
             await client.request("set", **LONG)
             server.begin()
             with pytest.raises(Refused, match="internal"):
-                while True:  # a process may finish before it is suspended
+                while True:  # until a process is suspended before it has finished
                     await client.request_frame(**LARGE)
             server.end()
             assert server.metric(HANGS) >= 2 and server.metric(DEATHS) == 0
@@ -158,7 +158,7 @@ async def test_a_picture_that_hangs_two_processes_is_refused(timeout):
 
 async def test_drawing_processes_that_hang_at_the_start_are_replaced(timeout):
     hangs = 0
-    while hangs == 0:  # a process may have started before it is suspended
+    while hangs == 0:  # until a process is suspended before it has started
         with contextlib.closing(SuspendsFirstDrawers("--draw-timeout", timeout)) as server:
             hangs = server.metric(HANGS)
             assert server.metric(DEATHS) == 0
@@ -181,7 +181,7 @@ async def test_a_server_stop_does_not_wait_for_hanging_processes(drawing):
             status, _ = await asyncio.to_thread(server.stop)
             if asked:
                 await asyncio.wait([asked])
-                asked.exception()  # the end of the connection, if the process had not finished the picture
+                asked.exception()  # the connection's end, unless the picture was finished before
         assert status == 0 and "stopped" in server.log()
         wait_for_processes_to_end(pids)
 
@@ -214,7 +214,7 @@ async def test_the_server_does_not_wait_for_a_killed_process_to_end(timeout):
             server.signal_drawing_processes(signal.SIGKILL)
             for pid in traced:
                 while not os.WIFSIGNALED(status := os.waitpid(pid, 0)[1]):
-                    pass  # it had stopped before it was killed
+                    pass  # the process had been suspended before it was killed
                 assert os.WTERMSIG(status) == signal.SIGKILL
             assert all(Path(f"/proc/{pid}").exists() for pid in killed)
             while any(Path(f"/proc/{pid}").exists() for pid in killed):  # until new processes have replaced them
@@ -226,7 +226,7 @@ async def test_randomly_killed_and_suspended_processes_leave_no_trace(timeout):
     """Processes are suspended and killed at random moments, also while they receive a polytope."""
     names = ["120-cell", "omnitruncated 24-cell", "600-cell", "omnitruncated tesseract"]
     rng = random.Random(4)
-    # Not `with Server(…)`, which fails if the log contains faults.
+    # `with Server(…)` would fail here, because the log contains faults.
     harmed = contextlib.closing(SuspendsDrawers("--draw-timeout", timeout, "--polytope-cache", 0))
     with harmed as server, Server() as other:
         async with Client(server, stream="none") as client, Client(other, stream="none") as unharmed:
@@ -239,10 +239,11 @@ async def test_randomly_killed_and_suspended_processes_leave_no_trace(timeout):
                 await asyncio.sleep(rng.uniform(0, 0.04))
                 server.signal_drawing_processes(rng.choice([signal.SIGSTOP, signal.SIGKILL]))
                 assert png.pixels(await asked) == png.pixels(await unharmed.request_frame(**SIZE))
-            assert server.metric(HANGS) + server.metric(DEATHS) >= 1  # a process may be hit twice, or not draw again
+            assert server.metric(HANGS) + server.metric(DEATHS) >= 1  # may be less than the number of kills
 
             def is_as_before():
-                # A worker replaces a lost process only when it draws again, so all workers draw at the same time.
+                # A worker replaces a lost process only when it draws again. Therefore all workers draw at the same
+                # time.
                 with concurrent.futures.ThreadPoolExecutor(4) as pool:
                     for answer in pool.map(lambda _: server.get("/api/v1/frame.png?width=640&height=360"), range(4)):
                         assert answer.status in (200, 500)

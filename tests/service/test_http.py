@@ -31,7 +31,7 @@ def start_compressed_site_server(tmp_path_factory):
     (root / "index.html").write_text("<!doctype html><title>page</title>")
     (root / "app.js").write_bytes(SCRIPT)
     (root / "app.js.gz").write_bytes(gzip.compress(SCRIPT, mtime=0))
-    (root / "app.js.br").write_bytes(b"brotli")  # the server does not decompress it
+    (root / "app.js.br").write_bytes(b"brotli")  # the server does not decompress this
     (root / "lone.gz").write_bytes(b"as it is")
     with Server("--web-root", root) as server:
         yield server
@@ -150,7 +150,7 @@ async def test_metrics_count_messages_and_pictures(server):
         sockets = server.metric("oval4d_websockets")
         assert sockets >= 1 and server.metric("oval4d_sessions") >= 1
         await client.socket.send('{"type":"key","key":"q"}')
-        await client.wait_for_slices(0)  # otherwise, one picture may show both states
+        await client.wait_for_slices(0)  # otherwise, one picture could show both states
         done = await client.request("key", key="y")
         await client.wait_for_slices(done["revision"])
     assert server.metric('oval4d_errors_total{code="unknown_key"}') == before + 1

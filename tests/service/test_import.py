@@ -123,7 +123,7 @@ async def test_invalid_files_are_refused_and_change_nothing(server, format_, dat
 async def test_an_invalid_cell_is_reported_with_its_line(server):
     text = tesseract_file().rstrip("\n").split("\n")
     last = text[-1].split()
-    text[-1] = " ".join(["5", *last[1:6]])  # a cube without one of its squares
+    text[-1] = " ".join(["5", *last[1:6]])  # a cube that lacks one of its squares
     async with Client(server) as client:
         error = await load_refusal(client, "off", "\n".join(text) + "\n")
         assert f"line {len(text)}: cell 7 is not closed" in error.text or "does not lie in two cells" in error.text
@@ -138,7 +138,7 @@ def moment_curve_points(count):
 async def test_the_size_of_the_convex_hull_is_limited():
     with Server("--max-hull-cells", 800) as server:
         async with Client(server) as client:
-            await load_file(client, "points", moment_curve_points(40))  # 40 · 37 / 2 cells
+            await load_file(client, "points", moment_curve_points(40))  # a hull of 40 · 37 / 2 cells
             assert await element_counts(client) == [40, 780, 1480, 740]
             error = await load_refusal(client, "points", moment_curve_points(50))
             assert error.code == "too_large" and "more than 800 cells" in error.text
@@ -155,7 +155,7 @@ async def test_a_load_does_not_delay_other_clients():
             for _ in range(10):
                 await other.request("key", key="y")
             assert not busy.answer_to(500)  # the hull has two million cells
-            await asyncio.to_thread(server.stop)  # the server would not read the client's close during the load
+            await asyncio.to_thread(server.stop)  # during the load, the server would not notice that the client closes
 
 
 async def test_messages_wait_for_the_load_before_them(server):
@@ -201,7 +201,7 @@ async def test_what_is_told_of_an_object_is_in_the_coordinates_of_its_file(serve
         slices = await client.request("get", what="slices", **SIZE)
         assert next(one["label"] for one in slices["slices"] if one["focus"]).startswith("w = −5000000.00")
 
-        # The lines of vertex 6, (0, 0, 0, 1) from the center, in the parallel coordinates.
+        # Vertex 6 is (0, 0, 0, 1) relative to the center. Its lines are at this place in the parallel coordinates.
         layout = slices["scene"]["coordinates"]
         x = layout["left"] + 6 * layout["column_step"] + 1.5 * layout["line_step"]
         at = await client.request("get", what="at", x=x * 360, y=(1 - layout["zero"]) * 360, **SIZE)

@@ -67,8 +67,8 @@ async def test_only_addresses_lose_a_motion(tmp_path):
                 assert await all_settings.motion(other) == all_settings.MOTION
         async with Client(server, stream="none") as other:
             await other.request("address", query=query)
-            # All who open an address see the same picture, whenever they open it, so it has no motion; and no picture
-            # shows the last rotation.
+            # All who open an address see the same picture, whenever they open it. An address therefore contains no
+            # motion. It does not contain the last rotation either, because no picture shows it.
             assert await all_settings.motion(other) == {"turning": False, "playing": False, "last": None}
     with Server(*store) as server:
         async with Client(server, client.welcome["session"], token=client.welcome["token"], stream="none") as client:

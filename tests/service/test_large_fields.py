@@ -16,7 +16,7 @@ from wire import Client, Refused, hello_refusal
 
 SIZE = {"width": 480, "height": 270}
 SHAPE = (9, 20, 22, 24)
-SMALL = ("--max-field-bytes", "64k", "--max-undo", 0)  # so that arrays of this shape count as large
+SMALL = ("--max-field-bytes", "64k", "--max-undo", 0)  # with these limits, arrays of this shape count as large
 GIGABYTE = 1 << 30
 
 
@@ -94,7 +94,7 @@ async def test_a_large_series_is_one_array(folder):
 
 @pytest.mark.release_only
 async def test_an_array_larger_than_memory_is_shown(folder):
-    shape = (100, 512, 512, 512)  # 54 GB, most of which the disk does not have
+    shape = (100, 512, 512, 512)  # 54 GB; the file has holes, so the disk needs little of it
     y, x = numpy.meshgrid(numpy.linspace(-1, 1, 512), numpy.linspace(-1, 1, 512), indexing="ij")
     parts = [((t, z), 1 - x**2 - y**2 - ((z - 256) / 256)**2) for t in (49, 50) for z in range(0, 512)]
     sparse_npy(folder / "large.npy", shape, parts)
@@ -169,7 +169,7 @@ async def test_a_file_may_change_at_any_time(folder):
             await client.request("set", turning=True)
             for round_ in range(40):
                 if round_ % 4 == 0:
-                    path.write_bytes(whole)  # the file is empty for a moment
+                    path.write_bytes(whole)  # leaves the file empty for a moment
                 elif round_ % 4 == 1:
                     os.truncate(path, 128 + 40 * round_)
                 elif round_ % 4 == 2:
@@ -239,7 +239,7 @@ async def test_stored_sessions_open_their_file_again(folder, tmp_path):
 async def test_a_session_whose_field_has_no_room_can_be_opened_later(folder, tmp_path):
     for number in range(2):
         (folder / f"{number}.npy").write_bytes(npy((quadratic(SHAPE) + number).astype("f8")))
-    room = 4 * int(numpy.prod(SHAPE)) + 100  # for one of the fields
+    room = 4 * int(numpy.prod(SHAPE)) + 100  # bytes for one of the fields
     options = (*SMALL, "--field-cache", room, "--store", f"sqlite:{tmp_path / 'sessions.sqlite'}")
     with open_server(folder, *options) as server:
         async with Client(server) as client:
@@ -250,7 +250,7 @@ async def test_a_session_whose_field_has_no_room_can_be_opened_later(folder, tmp
         async with Client(server) as other:
             await other.request("load", name="run", path="1.npy")
             assert await hello_refusal(server, **credentials) == ("internal", 1013)
-    with open_server(folder, *options, "--data-cache", "1k") as server:  # a limit that the field exceeds for now
+    with open_server(folder, *options, "--data-cache", "1k") as server:  # the field exceeds this limit for now
         assert await hello_refusal(server, **credentials) == ("internal", 1013)
     with open_server(folder, *options) as server:
         async with Client(server, **credentials) as client:

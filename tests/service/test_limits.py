@@ -192,7 +192,7 @@ async def test_the_number_of_connections_is_limited():
         clients = []
         for _ in range(3):
             clients.append(await connect_when_possible(server))
-            # A connection that has said hello is not replaced by a new one.
+            # A new connection does not replace a connection that has said hello.
             await clients[-1].send('{"type":"hello"}')
             await clients[-1].recv()
         with pytest.raises(websockets.InvalidHandshake) as full:
@@ -215,7 +215,7 @@ async def test_requests_per_second_are_limited():
             allowed = sum(client.answer_to(1000 + n)["type"] == "done" for n in range(30))
             errors = {client.answer_to(1000 + n).get("code") for n in range(30)} - {None}
             earned = 10 * (time.monotonic() - start)
-            assert 19 <= allowed <= 21 + earned  # a burst may have 20, with the hello
+            assert 19 <= allowed <= 21 + earned  # a burst may have 20 messages, including the hello
             assert errors <= {"too_many"} and (errors or earned > 9)
             try:
                 for _ in range(2000):
@@ -271,7 +271,7 @@ def answer_pings(raw, most):
     with raw.makefile("rb") as frames, contextlib.suppress(ConnectionError):
         while count < most and len(head := frames.read(2)) == 2:
             size = head[1]
-            if size > 125:  # RFC 6455, 5.2
+            if size > 125:  # longer sizes follow (RFC 6455, section 5.2)
                 size = int.from_bytes(frames.read(2 if size == 126 else 8), "big")
             content = frames.read(size)
             if head[0] & 15 == ping:
@@ -296,10 +296,10 @@ async def test_clients_that_answer_no_ping_are_disconnected():
 
 
 async def test_clients_that_answer_pings_stay():
-    for interval in (0.5, 2, 8, 32):  # until it suffices for this machine to answer a ping
+    for interval in (0.5, 2, 8, 32):  # increases until this machine can answer a ping in time
         with Server("--ping-interval", interval) as server:
             silent = open_nonreading_socket(server, '{"type":"hello"}')
-            # A client that has not answered the first ping receives no second one.
+            # The server sends a second ping only after the client has answered the first.
             answered = await asyncio.to_thread(answer_pings, silent, 3)
             silent.close()
             if answered == 3:
@@ -312,7 +312,7 @@ async def test_the_server_stops_reading_while_its_answers_are_unread():
         nonreading = open_nonreading_socket(server, '{"type":"hello"}')
 
         def flood():
-            with contextlib.suppress(OSError):  # closed below
+            with contextlib.suppress(OSError):  # the socket is closed below
                 while True:
                     nonreading.sendall(masked_frame('{"type":"get","what":"keymap"}') * 1000)
 

@@ -19,10 +19,10 @@ async def domain_of(client):
 
 
 @pytest.mark.parametrize("axes, shape, expected", [
-    ("tzyx", (3, 4, 5, 9), (2, 1, 0.75, 2)),  # by default, the longest of x, y, z is 2 long, and w as long as it
+    ("tzyx", (3, 4, 5, 9), (2, 1, 0.75, 2)),  # by default, the longest of x, y, z is 2 long, and w is as long
     ("wzyx", (3, 4, 5, 9), (2, 1, 0.75, 2)),
     ("xyzt", (9, 5, 4, 3), (2, 1, 0.75, 2)),
-    ("zyx", (4, 5, 9), (2, 1, 0.75, 1)),  # without w, half as long as the longest
+    ("zyx", (4, 5, 9), (2, 1, 0.75, 1)),  # without w, w is half as long as the longest
     ("tx", (3, 5), (2, 1, 1, 2)),
 ])
 async def test_axes_name_the_dimensions(server, axes, shape, expected):
@@ -35,7 +35,7 @@ async def test_axes_name_the_dimensions(server, axes, shape, expected):
 async def test_a_box_places_an_array(server):
     async with Client(server) as client:
         await load(client, "a", npy(quadratic()), box=[[0, 4], [0, 2], [-1, 1], [0, 10]])
-        assert await domain_of(client) == pytest.approx((4, 2, 2, 4), rel=1e-5)  # w is scaled to the longest
+        assert await domain_of(client) == pytest.approx((4, 2, 2, 4), rel=1e-5)  # w is scaled to the longest axis
 
 
 async def test_a_variable_is_chosen_by_its_name(server):

@@ -7,7 +7,7 @@ from harness import Server, is_sanitizer_build
 from wire import ENCODINGS, Client, connect
 
 LARGEST = "omnitruncated 120-cell"
-NOISE = 8_000_000  # bytes; memory that a burst did not free would be several times as much
+NOISE = 8_000_000  # bytes; memory that a burst does not free would be several times as much
 
 
 async def receive_pictures(server, polytope, pictures, **hello):
@@ -46,7 +46,7 @@ async def test_memory_is_freed_after_a_burst():
         await asyncio.gather(*(receive_pictures(server, LARGEST, 12, **hello) for hello in 2 * streams))
         await wait_for_memory_below(server, warm + theirs + NOISE)
 
-        # The memory of connections is freed, too, even if no picture is requested afterward.
+        # The memory of closed connections is freed, even if no picture is requested afterward.
         await asyncio.gather(*(onlooker.close() for onlooker in onlookers))
         await wait_for_memory_below(server, warm + NOISE)
         assert await reference_picture(server) == before

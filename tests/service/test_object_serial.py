@@ -25,7 +25,7 @@ async def test_settings_keep_the_number_and_another_object_has_another(server):
         await client.request("key", key="y")
         assert await serial_of(client) == serials[1]
         assert png.state_in(await client.request_frame(width=64, height=48))["object_serial"] == serials[1]
-        for _ in range(2):  # the same name, and as many elements
+        for _ in range(2):  # with the same name and as many elements
             await client.request("load", name="mine", format="points", data=CORNERS)
             serials.append(await serial_of(client))
         for a in (0.4, 0.5):

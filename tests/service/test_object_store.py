@@ -18,9 +18,9 @@ from wire import Client, Refused, credentials_of, hello_refusal
 
 SHAPE = (5, 20, 22, 24)
 CHUNK = (2, 8, 22, 10)
-BOX = [[0, 23], [0, 21], [0, 19], [0, 4]]  # the coordinates of samples are their indices
+BOX = [[0, 23], [0, 21], [0, 19], [0, 4]]  # the coordinates of samples equal their indices
 SHARD_INDEX = 16 * 2**4 + 4
-CHUNK_OF_SHARD = 4 * 4 * 11 * 10  # bytes
+CHUNK_OF_SHARD = 4 * 4 * 11 * 10  # bytes in a chunk of a shard
 
 
 class Store:
@@ -125,7 +125,7 @@ async def refusal(server, path="run.zarr", **members):
     async with Client(server) as client:
         with pytest.raises(Refused) as refused:
             await client.request("load", name="run", path=path, **members)
-        await slices_of(client)  # the server and the session go on
+        await slices_of(client)  # the server and the session still work
     return refused.value
 
 

@@ -9,7 +9,7 @@ from exports import ROTATION, SVG, fetch_file
 from wire import Client, Refused
 
 SIZE = {"width": 640, "height": 360}
-ON_DARK, ON_WHITE = 0.46, 0.55  # the opacities of faces of slices, as in protocol/colors.json
+ON_DARK, ON_WHITE = 0.46, 0.55  # opacities of the faces of slices, as in protocol/colors.json
 
 
 async def opacity_of(client):
@@ -84,7 +84,7 @@ def test_drawings_have_it(server, of, plain):
     for opacity in (0.25, 1, 1.5, 4):
         query = f"polytope=tesseract&{ROTATION}&of={of}&opacity={opacity}"
         root = ElementTree.fromstring(fetch_file(server, "svg", query))
-        # What is opaque, such as the tips of the axes, has no attribute.
+        # Opaque shapes, such as the tips of the axes, have no attribute for the opacity.
         found = {float(one.get("fill-opacity")) for one in root.iter(SVG + "polygon") if one.get("fill-opacity")}
         assert len(found) == 1
         assert found.pop() == pytest.approx(min(opacity * plain, 1), abs=0.002)

@@ -21,7 +21,7 @@ async def test_at_most_two_pictures_are_in_flight():
             await client.wait_for_slices(0)
             for _ in range(20):
                 last = await client.request("key", key="r")
-            # Answers are in order, so all pictures have arrived: two, and no third one without a `shown`.
+            # Answers come in order, so all pictures have arrived. There are two; a third one would need a `shown`.
             await client.wait_until(lambda: len(client.pictures()) == 2)
             for _ in range(20):
                 last = await client.request("key", key="r")
@@ -49,7 +49,7 @@ async def test_every_key_of_a_flood_is_applied(server, stream):
             assert png.state_in(await client.wait_for_frame(count))["revision"] == count
         seen = [m["revision"] for m in client.states()]
         assert seen == sorted(set(seen))
-        # α increases by 250 steps and is limited to 2π: the result shows that no key was lost.
+        # α increases by 250 steps, up to 2π. The result shows that no key was lost.
         step, start = state["step"], 5 * state["step"]
         assert state["alpha"] == pytest.approx(min(start + 250 * step, 6.283185307179586))
     assert server.metric("oval4d_slow_readers_total") == 0
@@ -107,7 +107,7 @@ async def test_continuous_turning_waits_for_acknowledgments():
             assert (await client.request("get", what="state"))["revision"] == still
             await client.send("shown", revision=still)
             await client.wait_until(lambda: len(client.pictures()) > 2)
-            assert slices_revisions(client)[2] <= still + 1  # until then, it did not turn
+            assert slices_revisions(client)[2] <= still + 1  # until then, the object did not turn
 
 
 def open_nonreading_socket(server, *messages, buffer=4096):
@@ -120,12 +120,12 @@ def open_nonreading_socket(server, *messages, buffer=4096):
                 "Connection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
                 f"Sec-WebSocket-Key: {base64.b64encode(os.urandom(16)).decode()}\r\n\r\n".encode())
     answer = b""
-    while not answer.endswith(b"\r\n\r\n"):  # RFC 6455, 4.1: a client sends no frame before the handshake is answered
+    while not answer.endswith(b"\r\n\r\n"):  # sends no frame before the handshake's answer
         answer += raw.recv(1)
     try:
         for message in messages:
             raw.sendall(masked_frame(message))
-    except ConnectionError:  # the server has dropped the connection already
+    except ConnectionError:  # the server has already dropped the connection
         pass
     return raw
 
@@ -140,7 +140,8 @@ def masked_frame(text, opcode=1, final=True):
 
 
 async def test_clients_that_never_read_are_disconnected():
-    # The pictures of the client that reads are small: they do not wait for it, but fit in the kernel's buffers.
+    # The pictures of the reading client are so small that they fit into the kernel's buffers, so they need not wait for
+    # it.
     with Server("--write-timeout", 0.5, "--max-unsent", "64k") as server:
         hello = '{"type":"hello","stream":"frames","width":1600,"height":1200}'
         requests = ['{"type":"set","polytope":"600-cell"}'] + ['{"type":"get","what":"slices"}'] * 200

@@ -57,7 +57,7 @@ async def test_a_point_of_a_sphere(server, seed):
             assert at["highlight"] is None and at["in"] == "slice" and at["slice"] == piece["index"]
             assert at["w"] == pytest.approx(piece["w"]) and at["level"] == 1 and at["cap"] is False
             assert at["value"] == 0.64 and dot(at["place"], at["place"]) == pytest.approx(0.64, abs=1e-5)
-            # The rows of the matrix turn the place to the point in the picture.
+            # The rows of the rotation matrix turn a place in the box to the point in the picture.
             shown = [dot(row, at["place"]) for row in matrix]
             assert shown == pytest.approx([*point, piece["w"]], abs=0.01)
             assert "second_value" not in at and "least_w" not in at
@@ -103,7 +103,7 @@ async def test_the_second_function_is_evaluated_and_hidden_surfaces_are_not_foun
         assert at["level"] == 0 and at["second_value"] == pytest.approx(10 + at["place"][0] - at["place"][3], abs=1e-5)
         await client.request("set", shown={"faces": False})
         assert "level" not in await at_point(client, **MIDDLE)
-        # The bars of the box are elements, as before.
+        # The bars of the box are elements, as usual.
         await client.request("set", shown={"faces": True, "bars": True})
         slices = await client.request("get", what="slices", **SIZE)
         focus = next(piece for piece in slices["slices"] if piece["focus"])
@@ -133,7 +133,7 @@ async def test_the_contours_of_the_matrix(server):
 async def test_the_values_at_a_point(server):
     async with Client(server, stream="none") as client:
         await load_field(client, "x + 2*y", [[0, 1], [0, 2], [0, 3], [0, 4]], values="w")
-        # The origin is the center of the box.
+        # The coordinates of points start at the center of the box.
         at = await client.request("get", what="at", point=[0.25, 0.5, 0, -1])
         assert at["type"] == "at" and at["highlight"] is None and "in" not in at
         assert at["place"] == pytest.approx([0.75, 1.5, 1.5, 1]) and at["value"] == pytest.approx(3.75) and at["second_value"] == 1

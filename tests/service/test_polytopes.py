@@ -46,7 +46,7 @@ async def test_names_and_notations_select_polytopes(server, text, name, counts):
             assert polytope["name"] == (name or polytope["name"]) and found == (counts or found)
             assert found[0] - found[1] + found[2] - found[3] == 0 or "/" in name
             assert sum(kind["cells"] for kind in polytope["kinds"]) == found[3]
-            # The polytope of a state message can be set again.
+            # The polytope in a state message can be sent back to set the polytope again.
             await client.request("set", polytope="5-cell")
             done = await client.request("set", polytope=polytope)
             assert (await client.wait_for_state(done["revision"]))["polytope"] == polytope

@@ -146,7 +146,7 @@ def test_a_folder_of_arrays_is_a_series(tmp_path):
     (tmp_path / "run.npy").write_bytes(npy(values))
     (tmp_path / "run").mkdir()
     for moment, each in enumerate(values):
-        (tmp_path / "run" / f"t{moment}.npy").write_bytes(npy(each))  # t2 comes before t10
+        (tmp_path / "run" / f"t{moment}.npy").write_bytes(npy(each))  # t2 must come before t10
     (tmp_path / "run" / "notes.txt").write_text("no array")
     whole, series = (run_oval4d("export", "--format", "csv", "-o", "-", "--load", tmp_path / name, "--of", "oval",
                                 "--slices", 5, "--spacing", 0.3, "--box=-1,1,-1,1,-1,1,-1,1") for name in ("run.npy", "run"))

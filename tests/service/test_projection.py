@@ -111,7 +111,8 @@ async def test_pentagrams_are_filled(server):
         points = whole["fill"]["points"]
         filled = sum(area(*(points[i] for i in triangle)) for triangle in whole["fill"]["triangles"])
         enclosed = sum(area(*(whole["vertices"][v] for v in loop)) for loop in whole["faces"])
-        # The loop of a pentagram winds twice around its core; the core is filled once. Projections keep the ratio.
+        # The boundary of a pentagram winds twice around its core, but the core is filled once. Projections keep the
+        # ratio of areas.
         golden = (1 + math.sqrt(5)) / 2
         assert filled == pytest.approx(2 / golden**2 * enclosed, rel=1e-4)
         await client.request("set", shown={"back": False})

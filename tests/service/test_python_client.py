@@ -60,7 +60,7 @@ def test_request_sends_any_message(server):
         assert oval.request("get", what="state")["revision"] == 1
 
 
-@pytest.mark.parametrize("timeout", [0.1, 20])  # the library's own is 10
+@pytest.mark.parametrize("timeout", [0.1, 20])  # the default of the WebSocket library is 10
 def test_the_timeout_applies_to_the_opening(monkeypatch, timeout):
     limits = []
     opening = websockets.connect
@@ -170,7 +170,7 @@ def test_a_client_can_be_closed_while_it_reconnects(server, monkeypatch):
         oval.hello()
         close_lost_connection = oval._socket.close
 
-        async def close():  # only Client.close() calls it, before it waits for the reader, which reconnects
+        async def close():  # Client.close() calls this before it waits for the reader, which reconnects
             await close_lost_connection()
             closed.set()
 
@@ -248,7 +248,7 @@ def test_a_picture_of_the_stream_right_after_the_answer_to_a_call_is_not_held(se
     with connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()
         frame = oval.frame(32, 18)
-        oval._waiting[1000] = None  # a call, whose thread does not run before the next picture arrives
+        oval._waiting[1000] = None  # a call whose thread does not run before the next picture arrives
         oval._wants_bytes.add(1000)
         assert oval._receive(frame) == []
         assert oval._receive('{"type":"done","id":1000,"revision":0}') == []
@@ -271,7 +271,7 @@ def test_a_notebook_shows_every_change(server, tmp_path, monkeypatch):
         with connect(server.url, timeout=DEADLINE) as oval:
             oval.live(320, 200)
             assert name_in(shown.outputs[0]) == "5-cell" and not shown.outputs[0]["update"]
-            oval.frame(320, 200, "white")  # an answer is not shown
+            oval.frame(320, 200, "white")  # the notebook does not show an answer
             oval.set(polytope="24-cell")
             wait_until(lambda: name_in(shown.outputs[-1]) == "24-cell", "the picture of the change")
             assert all(output["update"] for output in shown.outputs[1:])

@@ -14,7 +14,7 @@ from oval4d_client import Refused, connect  # noqa: E402
 
 def without_typed_arrays(value):
     """Converts typed arrays and numpy arrays to lists."""
-    if hasattr(value, "tolist"):  # array.array or a numpy array
+    if hasattr(value, "tolist"):  # an array.array or a numpy array
         return value.tolist()
     if isinstance(value, dict):
         return {name: without_typed_arrays(member) for name, member in value.items()}
@@ -58,7 +58,7 @@ def assert_approximately_equal(got, expected):
 
 
 FIELD = "formula x^2 + y^2 - z^2 < w"
-STAR = "polytope small stellated 120-cell"  # its projection has a `fill`
+STAR = "polytope small stellated 120-cell"  # has a projection with a `fill`
 
 
 @pytest.mark.parametrize("encoding", BINARY_ENCODINGS)
@@ -166,7 +166,7 @@ def ball(moments, size=12):
     return 1 - sum(axis**2 for axis in numpy.meshgrid(*axes, indexing="ij"))
 
 
-@pytest.mark.parametrize("size", [12, 40])  # a message, an upload
+@pytest.mark.parametrize("size", [12, 40])  # sent in a message, and uploaded
 def test_arrays_are_fields(server, monkeypatch, size):
     uploads = []
     monkeypatch.setattr(oval4d_client.Client, "upload", lambda *arguments, upload=oval4d_client.Client.upload, **members:

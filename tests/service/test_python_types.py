@@ -69,7 +69,7 @@ def test_the_messages_of_a_server_are_of_their_types(server):
         assert fits(oval.set(polytope="24-cell", highlight={"element": "cell", "number": 3}), oval4d_messages.Done)
         state = oval.state()
         assert fits(state, oval4d_messages.State)
-        # The state can be sent back as a set, and so can parts of it.
+        # A state can be sent back as a `set` message, in whole or in part.
         parts = {name: state[name] for name in ("polytope", "slices", "shown", "camera", "highlight", "orientation")}
         assert fits(parts, oval4d_messages.Settings)
         assert fits({"type": "set", "continues": True, **parts}, oval4d_messages.SetRequest)

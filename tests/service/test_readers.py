@@ -16,11 +16,12 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "protocol/python"))
 from oval4d_client import BINARY_KINDS, png_state  # noqa: E402
 
-# The functions of the Python client that read binary data, by the suffixes of the files that write_messages() writes.
+# The functions of the Python client that read binary data. The keys are the suffixes of the files that write_messages()
+# makes.
 READERS = {encoding: BINARY_KINDS[encoding].read for encoding in BINARY_ENCODINGS} | {"png": png_state}
 
-# States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density
-# strip, surfaces of a field.
+# States whose messages together have all members: tints, hidden and faded cells, crossing faces, a density strip, and
+# surfaces of a field.
 STATES = [[], ["polytope 8-cell"], ["polytope 5,7-duoprism", "rotate xw 0.5", "hide 0", "fade 1"],
           ["polytope 5/2,5-duoprism", "rotate xw,yz 0.3 0.1", "fade 0"], ["polytope 120-cell", "set slices=1"],
           ["formula x*y < z - w", "set slices=3 color=growth"]]
@@ -116,7 +117,7 @@ def test_the_python_client_refuses_invalid_data_with_value_error(data):
         with pytest.raises(ValueError):
             read(data)
     text = b"[" * 50_000
-    with pytest.raises(ValueError):  # nested more deeply than a recursive reader's stack allows
+    with pytest.raises(ValueError):  # nested more deeply than the stack of a recursive reader allows
         png_state(b"\x89PNG\r\n\x1a\n" + len(text + b"oval4d" + bytes(5)).to_bytes(4, "big") + b"iTXtoval4d" + bytes(5) + text + bytes(4))
 
 
@@ -124,7 +125,7 @@ def test_the_python_client_refuses_a_text_as_the_size_of_fog():
     columns = dict.fromkeys(("index", "w", "label", "label_size", "focus", "drawn", "position", "label_at", "sides",
                              "vertices", "edges", "corners"), [])
     columns["counts"] = columns["of"] = {kind: [] for kind in ("vertices", "edges", "faces")}
-    size = ["a" * 1000, 10_000, 10_000]  # the product is a text of 100 GB
+    size = ["a" * 1000, 10_000, 10_000]  # the product would be a text of 100 GB
     columns["fog"] = {"size": size, "min": [0, 0, 0], "step": [1], "walls": [], "counts": {"walls": [0]}, "values": []}
     with pytest.raises(ValueError, match="interpreted as an integer"):
         READERS["cbor"](cbor2.dumps({"type": "slices", "slices": columns}))

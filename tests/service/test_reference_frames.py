@@ -42,7 +42,7 @@ async def test_what_is_followed_stands_still_at_every_pace(server):
 @pytest.mark.parametrize("speed", [0.3, 0.6, -0.8])
 async def test_a_rod_contracts_and_a_polytope_keeps_its_hypervolume(server, speed):
     gamma = 1 / math.sqrt(1 - speed ** 2)
-    async with field_client(server, "0*x < 1", [[-1, 1], [-0.5, 0.5], [-0.5, 0.5], [-3, 3]]) as client:  # fills its box
+    async with field_client(server, "0*x < 1", [[-1, 1], [-0.5, 0.5], [-0.5, 0.5], [-3, 3]]) as client:  # its body fills the box
         await client.request("command", line=f"boost x {speed}")
         await client.request("set", slices={"count": 5, "spacing": 0.1})
         for piece in (await slices_of(client))["slices"]:
@@ -104,7 +104,7 @@ async def test_wrong_frames_are_refused(server, settings, code, text):
         assert (state["revision"], state["boost"]) == (1, [0.5, 0, 0])
 
 
-# --- Pictures: the rasterizer process and the command line derive the image themselves
+# --- Pictures of moving observers: the rasterizer process and the command line derive the moved object themselves
 
 QUERIES = [
     {"polytope": "24-cell", "boost": "0.6,0,0", "rotate": "xw,yz:pi/8,0.4"},
@@ -178,7 +178,7 @@ async def test_images_count_toward_the_bytes_of_a_client():
             refusals = []
             for _ in range(20):
                 client = await sessions.enter_async_context(Client(server))
-                await client.request("set", polytope="omnitruncated 120-cell")  # which all sessions share
+                await client.request("set", polytope="omnitruncated 120-cell")  # all sessions share this polytope
                 try:
                     await client.request("set", boost=[0.5, 0, 0])
                 except Refused as refusal:

@@ -40,7 +40,7 @@ def own_point(state, piece, point):
 
 def assert_colors_follow(state, slices, f, name="colors", of_caps=False):
     """Asserts that the colors of the points are those of the values of f at the field's own points."""
-    seen, tolerance = 0, 32  # of 255: between the nine colors, the scale is not linear
+    seen, tolerance = 0, 32  # of 255; the scale is not linear between its nine colors
     for piece in slices:
         if "surface" not in piece:
             continue
@@ -90,7 +90,7 @@ async def test_without_a_second_function_the_values_are_those_of_the_field(serve
                 if not cap:
                     expected = scale_color(values, [0.2, 0.8][level])
                     assert max(abs(a - b) for a, b in zip(rgb(surface["colors"][triangle[0]]), expected)) < 30
-        # A polytope has one color.
+        # A polytope has a single color with this coloring.
         await client.request("set", polytope="8-cell")
         colors = (await client.request("get", what="slices", **SIZE))["scene"]["colors"]["cells"]
         assert len(set(colors)) == 1
@@ -134,13 +134,13 @@ def test_files_have_the_second_values(server):
     data = meshes.read_vtk(fetch(server, "vtp", BALL, BALL_BOX, **{**query, "of": "focus"}), "PolyData")
     points, values = data["Points"]["points"], data["PointData"]["second_value"]
     assert len(values) == len(points) > 100
-    # R = R_yz(0.4) R_xw(0.7), and the slice is at w = 0: x = cos(0.7) x', w = -sin(0.7) x'.
+    # With R = R_yz(0.4) R_xw(0.7) and the slice at w = 0: x = cos(0.7) x', w = -sin(0.7) x'.
     for (x, y, z), value in zip(points, values):
         assert value == pytest.approx(1 + math.cos(0.7) * x - 2 * math.sin(0.7) * x, abs=1e-4)
     rows = rows_of(fetch(server, "csv", BALL, BALL_BOX, **query))
     assert list(rows[0])[-1] == "mean_second_value"
     for row in rows:
-        # The mean over a sphere is the value in its center, (0, 0, 0, w').
+        # The mean over a sphere is the value at its center, (0, 0, 0, w').
         expected = 1 + row["w"] * (math.sin(0.7) + 2 * math.cos(0.7))
         assert row["mean_second_value"] == pytest.approx(expected, abs=0.01)
     assert "second" not in list(rows_of(fetch(server, "csv", BALL, BALL_BOX))[0])[-1]
@@ -186,7 +186,7 @@ def test_an_array_is_colored_by_another_one(server):
         low = [side[0] for side in state["field"]["box"]]
         assert low == [0, 0, 0, 0]
 
-        def expected(x, y, z, w):  # the slices are at whole moments, and the function is linear in each cell
+        def expected(x, y, z, w):  # slices are at whole moments, and the function is linear in each cell
             x, y, z, t = x + 5, y + 4.5, z + 4, (w + 5) / 5
             return x - 2 * y + z * t
 
@@ -194,7 +194,7 @@ def test_an_array_is_colored_by_another_one(server):
         assert [piece["w"] for piece in slices] == [-4.5, 0, 4.5]
         assert_colors_follow(state, [slices[1]], expected)
 
-        # A moment needs its own values.
+        # A moment of this field needs values of its own.
         with pytest.raises(Exception, match="values_variable"):
             oval.append("run", field[0])
         oval.append("run", field[0], values=values[0])
@@ -202,7 +202,7 @@ def test_an_array_is_colored_by_another_one(server):
         with pytest.raises(Exception, match="moments have no formula of values"):
             oval.append("run", field[0], values="x")
 
-        # A formula remains the same.
+        # A formula stays the same when moments are added.
         oval.field("other", field, values="x*t")
         assert oval.state()["field"]["values"]["formula"] == "x*w"
         oval.append("other", field[0])

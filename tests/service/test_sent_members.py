@@ -15,12 +15,12 @@ from wire import Client, Refused
 TYPES = ["welcome", "state", "at", "critical", "catalogue", "keymap", "error", "done", "slices"]
 SIZE = {"width": 640, "height": 360}
 FOG = [{"value": -1, "opacity": 0.9}, {"value": 0, "opacity": 0.5, "color": 0xff8000}, {"value": 1, "opacity": 0}]
-# The eight vertices of a 16-cell beside the origin, and a point in it, which a warning names.
+# The eight vertices of a 16-cell whose center is not the origin, and a point inside it, about which the server warns.
 POINTS = [[0.5 + sign * (axis == 0), *(sign * (axis == k) for k in (1, 2, 3))] for axis in range(4) for sign in (-1, 1)]
 POINTS.append([0.5, 0, 0, 0.1])
-# Members of what `set` takes that no state has, one that is sent only of arrays that are too large for a test, those
-# that are sent only of parts of arrays in a data folder, for which test_zarr.py looks, and one that is sent only if the
-# server is started with a low limit, for which test_limits.py looks.
+# Members that these messages do not have. Some are only in `set` messages. Some are sent only for arrays too large for
+# a test. Some are sent only for parts of arrays in a data folder (see test_zarr.py). One is sent only if the server has
+# a low limit (see test_limits.py).
 NOT_SENT = {"state": {"/slices/w", "/field/estimated", "/field/region", "/field/resolution", "/field/resolution/level",
                       "/field/resolution/levels", "/field/resolution/refining"},
             "slices": {"/projection/only_turned_away"}}

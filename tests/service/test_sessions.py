@@ -30,7 +30,7 @@ async def test_a_session_survives_a_reload(server):
         after = await client.request("get", what="state")
         assert {**after, "id": 0, "object_serial": 0} == {**before, "id": 0, "object_serial": 0}
         assert (await client.wait_for_slices(before["revision"]))["revision"] == before["revision"]
-        await client.request("undo")  # the history is kept, too
+        await client.request("undo")  # the history is also kept
         await client.request("undo")
         assert (await client.request("get", what="state"))["polytope"]["name"] == "5-cell"
 

@@ -145,7 +145,7 @@ class KeyPresser:
         if self.start is None:
             self.start = steps - state["revision"]
         assert steps - state["revision"] == self.start, "the angles do not match the revision"
-        # The last key may have been executed, and not acknowledged before the kill.
+        # The server may have executed the last key without acknowledging it before the kill.
         assert self.stored <= state["revision"] <= self.acknowledged + 1
         self.acknowledged = state["revision"]
 

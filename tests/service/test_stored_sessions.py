@@ -25,7 +25,7 @@ async def state_at_rest(client):
     """Returns the state after the motion toward an element, if there is one, has ended."""
     while True:
         state = await client.request("get", what="state")
-        if state["turning"] or state.get("playing") or not state.get("moving"):  # which 0.1.0 does not say
+        if state["turning"] or state.get("playing") or not state.get("moving"):  # version 0.1.0 does not say this
             return state
         await asyncio.sleep(0.01)
 
@@ -58,7 +58,7 @@ async def expect_sessions(server, folder):
     assert sessions
     for stored in sessions:
         async with Client(server, stored["session"], token=stored["token"]) as client:
-            for state in stored["states"]:  # the newest first
+            for state in stored["states"]:  # the newest state is first
                 expect_contains(await client.request("get", what="state"), state, stored["name"])
                 if state is not stored["states"][-1]:
                     await client.request("undo")
@@ -86,7 +86,7 @@ def test_the_sessions_of_this_version_have_all_that_it_stores():
         values = {json.dumps(all_settings.value(state, name)) for state in states if name[0] in state}
         assert len(values) > 1, f"{'.'.join(name)} has the same value in all sessions: {how}"
     found = {member for state in states for member in state.get("field", {})}
-    # Only an array that is too large for a test has an estimated range. What belongs to a part of an array in the data
-    # folder is not stored: it is read again.
+    # Only an array too large for a test has an estimated range. Members about a part of an array in the data folder are
+    # not stored, because they are read again.
     follows = {"estimated", "region", "resolution"}
     assert found >= all_settings.properties("settings")["field"]["properties"].keys() - follows, how

@@ -45,7 +45,8 @@ async def test_a_surface_is_cut_in_closed_curves(server, header):
                 for end in edge:
                     ends[end] += 1
             assert set(ends) <= {2} and len(one["faces"]) == 0
-            # A hyperplane can contain a vertex, which then has a number after those of the edges; likewise an edge.
+            # A hyperplane can contain a vertex or an edge of the surface. Its number then follows the numbers of the
+            # edges or the 2-faces.
             assert all(0 <= source < 384 + 192 for source in one["of"]["vertices"])
             assert all(0 <= source < 192 + 384 for source in one["of"]["edges"])
             edges += len(one["edges"])
@@ -128,7 +129,7 @@ async def test_the_nearer_of_two_crossing_bars_is_in_front(server):
             await client.request("set", view="single", shown={"balls": False, "coordinates": False}, thickness=3,
                                  slices={"count": 1}, highlight={"element": "face", "number": 0})
             picture = Image.open(io.BytesIO(await client.request_frame(width=400, height=400))).convert("RGB")
-            seen[case] = sum(red > green + 60 for red, green, _ in picture.getdata())  # in the color of highlights
+            seen[case] = sum(red > green + 60 for red, green, _ in picture.getdata())  # counts highlighted pixels
         assert seen["behind"] > 0.99 * seen["absent"] > 1.1 * seen["in front"] > 100, seen
 
 
@@ -140,7 +141,7 @@ async def test_the_area_of_a_face_that_is_not_flat_does_not_depend_on_its_first_
             await client.request("load", name="saddle", format="off", center="origin",
                                  data="\n".join(["4OFF", "4 1 4", *corners, f"4 {loop}"]) + "\n")
             measured = await client.request("measure", element="face", number=0)
-            assert measured["area"] == pytest.approx(2)  # its projection to the plane of x and y is a square of area 2
+            assert measured["area"] == pytest.approx(2)  # its projection to the xy plane is a square of area 2
 
 
 async def test_a_planar_section_shows_the_curves_in_its_plane(server):

@@ -5,7 +5,7 @@ import math
 import pytest
 from wire import Client, Refused
 
-RADIUS = 2 * (1 + math.sqrt(5)) / 2  # of a 600-cell with edge length 2
+RADIUS = 2 * (1 + math.sqrt(5)) / 2  # the circumradius of a 600-cell with edges of length 2
 
 
 async def at_rest(client):
@@ -31,7 +31,7 @@ async def test_the_object_moves_to_the_element(server, stream):
         w = heights(await client.request("get", what="state"))
         lowest = w.index(min(w))
         done = await client.request("toward", element="vertex", number=lowest)
-        # The way of almost π takes almost 2 s, and a step covers at most 0.25 s of it, however late it is.
+        # Turning by almost π takes almost 2 s. A step covers at most 0.25 s, however late it is.
         await client.wait_for_state(done["revision"] + 6)
         state = await at_rest(client)
         w = heights(state)

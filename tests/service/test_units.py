@@ -20,7 +20,7 @@ def measured(state):
 
 def nifti_with_units():
     body = bytearray(nifti(quadratic(SHAPE)))
-    body[123] = 2 | 8  # mm and s
+    body[123] = 2 | 8  # millimeters and seconds
     return bytes(body)
 
 

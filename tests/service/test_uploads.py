@@ -189,7 +189,7 @@ async def test_a_slow_upload_is_dropped():
             request = raw_request(client.welcome["session"], client.welcome["token"], 1 << 20)
             assert await asyncio.to_thread(exchange, server, request + b"x", False) == b""
 
-            def drip():  # a byte in time for each read, but far below the rate
+            def drip():  # sends bytes just in time for each read, but far below the minimum rate
                 with socket.create_connection((server.host, server.port), timeout=DEADLINE) as raw:
                     raw.sendall(request)
                     raw.settimeout(0.1)

@@ -15,7 +15,7 @@ from test_data_folder import slices_of
 from wire import Client, Refused
 
 SHAPE = (5, 20, 22, 24)
-CHUNK = (2, 8, 22, 10)  # some chunks are beyond the end
+CHUNK = (2, 8, 22, 10)  # some chunks extend beyond the array
 BOX = [[-1, 1]] * 4
 LARGE = ("--max-field-bytes", "64k")
 
@@ -38,7 +38,7 @@ async def refusal(server, path, **members):
     async with Client(server) as client:
         with pytest.raises(Refused) as refused:
             await client.request("load", name="run", path=path, **members)
-        await slices_of(client)  # the server and the session go on
+        await slices_of(client)  # the server and the session still work
     return refused.value
 
 
@@ -118,7 +118,7 @@ async def test_chunks_that_have_changed_are_read_again(shared, version):
         ranges = []
         for factor in (1, 2):
             chunk.write_bytes((values * factor).astype(values.dtype).tobytes())
-            os.utime(chunk, ns=(factor, factor))  # two writes may have the same time
+            os.utime(chunk, ns=(factor, factor))  # two writes may otherwise have the same time
             await client.request("load", name="run", path=name, box=BOX)
             ranges.append((await client.request("get", what="state"))["field"]["range"])
     assert ranges[1] == pytest.approx([2 * end for end in ranges[0]])
@@ -296,7 +296,7 @@ async def test_the_catalogue_lists_zarr_folders(shared):
         return [entry["name"] for entry in entries if entry["family"] == "data"]
 
     limit = time.monotonic() + DEADLINE
-    while "listed.zarr" not in (names := await listed()):  # the server reads the folder only now and then
+    while "listed.zarr" not in (names := await listed()):  # the server reads the folder only from time to time
         assert time.monotonic() < limit
         await asyncio.sleep(0.1)
     assert "not zarr" not in names
@@ -307,7 +307,7 @@ GOOD = {"zarr_format": 2, "shape": [4, 4], "chunks": [2, 4], "dtype": "<f4", "or
 GOOD3 = {"zarr_format": 3, "node_type": "array", "shape": [4, 4], "data_type": "float32", "fill_value": 0,
          "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [2, 4]}},
          "chunk_key_encoding": {"name": "default"}, "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}]}
-SHARDS = {"chunk_shape": [1, 2], "codecs": GOOD3["codecs"], "index_codecs": [*GOOD3["codecs"], {"name": "crc32c"}]}  # in GOOD3
+SHARDS = {"chunk_shape": [1, 2], "codecs": GOOD3["codecs"], "index_codecs": [*GOOD3["codecs"], {"name": "crc32c"}]}  # for GOOD3
 
 
 @pytest.mark.parametrize("changes, code", [
@@ -373,7 +373,7 @@ async def test_no_file_outside_of_the_folder_is_read(folder, variable):
         for members in ({"variable": variable}, {}):
             refused = await refusal(server, "group", **members)
             assert refused.code in ("out_of_range", "not_found", "bad_message", "bad_field"), str(refused)
-        async with Client(server) as client:  # a link counts as a chunk that is missing
+        async with Client(server) as client:  # a symbolic link counts as a missing chunk
             await client.request("load", name="run", path="group", variable="linked")
             assert (await client.request("get", what="state"))["field"]["range"] == [0, 0]
 
@@ -386,7 +386,7 @@ async def test_damaged_chunks_are_refused(shared, compressor):
     chunk = (folder / "0.0.0.0").read_bytes()
     pack = zarr_files.COMPRESSORS[compressor]
     damaged = [b"", chunk[:-1], chunk[: len(chunk) // 2], chunk[:3], pack(values.tobytes()[:-4]), pack(values.tobytes() + b"1234"),
-               pack(bytes(100_000_000)) if compressor else bytes(1_000_000)]  # a bomb
+               pack(bytes(100_000_000)) if compressor else bytes(1_000_000)]  # expands to much more than a chunk
     for each in damaged:
         (folder / "0.0.0.0").write_bytes(each)
         refused = await refusal(shared, folder.name)
@@ -408,7 +408,7 @@ async def test_zlib_streams_with_a_tail_are_refused(shared):
     values = quadratic((2, 4, 4, 4))
     folder = shared.folder / "tail"
     zarr_files.write(folder, values, values.shape, 2, "zlib")
-    (folder / "0.0.0.0").write_bytes(zlib.compress(values.tobytes())[:-2] + b"xx")  # a wrong checksum
+    (folder / "0.0.0.0").write_bytes(zlib.compress(values.tobytes())[:-2] + b"xx")  # has a wrong checksum
     assert (await refusal(shared, "tail")).code == "bad_field"
 
 

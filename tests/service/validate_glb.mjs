@@ -1,4 +1,4 @@
-// node validate_glb.mjs <file>: prints the report of the Khronos glTF validator as JSON.
+// Prints the report of the Khronos glTF validator on a file as JSON: node validate_glb.mjs <file>
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 

@@ -16,7 +16,7 @@ import oval4d_client  # noqa: E402
 
 SUBPROTOCOL = "oval4d.v1"
 _HELLO = json.loads((ROOT / "protocol/schema/hello.schema.json").read_text(encoding="utf-8"))
-ENCODINGS = _HELLO["properties"]["encoding"]["enum"]  # of slices
+ENCODINGS = _HELLO["properties"]["encoding"]["enum"]  # the encodings of `slices` messages
 BINARY_ENCODINGS = [encoding for encoding in ENCODINGS if encoding != "json"]
 
 
@@ -187,7 +187,7 @@ def credentials_of(client):
 def with_another_member(whole):
     """Returns the record of a session as a later version might store it: its CBOR array has one more member."""
     assert 0x80 < whole[0] < 0x97, "an array of fewer than 23 members"
-    return bytes([whole[0] + 1]) + whole[1:] + b"\xf4"  # false
+    return bytes([whole[0] + 1]) + whole[1:] + b"\xf4"  # adds a member with the value false
 
 
 async def hello_refusal(server, session="", **hello):

@@ -76,7 +76,7 @@ def write(folder, values, chunk, version=2, compressor="", order="C", separator=
         if index in skipped:
             continue
         part = values[tuple(slice(i * c, (i + 1) * c) for i, c in zip(index, chunk))]
-        whole = numpy.full(chunk, 77, values.dtype)  # readers must not see the 77 beyond the end of the array
+        whole = numpy.full(chunk, 77, values.dtype)  # readers must not see the 77 beyond the array's end
         whole[tuple(slice(0, n) for n in part.shape)] = part
         path = folder / (("c" + separator if version == 3 else "") + separator.join(map(str, index)))
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -107,7 +107,7 @@ def write_shards(folder, values, chunk, shard, compressor="", fill=0):
         for inner in itertools.product(*(range(size // part) for size, part in zip(shard, chunk))):
             first = [i * s + j * c for i, s, j, c in zip(index, shard, inner, chunk)]
             part = values[tuple(slice(f, f + c) for f, c in zip(first, chunk))]
-            if not part.any():  # also beyond the array
+            if not part.any():  # also for chunks beyond the array
                 places += struct.pack("<QQ", 2**64 - 1, 2**64 - 1)
                 continue
             whole = numpy.full(chunk, 77, values.dtype)
