@@ -42,7 +42,7 @@ async def test_what_is_followed_stands_still_at_every_pace(server):
 @pytest.mark.parametrize("speed", [0.3, 0.6, -0.8])
 async def test_a_rod_contracts_and_a_polytope_keeps_its_hypervolume(server, speed):
     gamma = 1 / math.sqrt(1 - speed ** 2)
-    async with field_client(server, "0*x < 1", [[-1, 1], [-0.5, 0.5], [-0.5, 0.5], [-3, 3]]) as client:  # its body fills the box
+    async with field_client(server, "0*x < 1", [[-1, 1], [-0.5, 0.5], [-0.5, 0.5], [-3, 3]]) as client:  # fills its box
         await client.request("command", line=f"boost x {speed}")
         await client.request("set", slices={"count": 5, "spacing": 0.1})
         for piece in (await slices_of(client))["slices"]:

@@ -307,7 +307,7 @@ GOOD = {"zarr_format": 2, "shape": [4, 4], "chunks": [2, 4], "dtype": "<f4", "or
 GOOD3 = {"zarr_format": 3, "node_type": "array", "shape": [4, 4], "data_type": "float32", "fill_value": 0,
          "chunk_grid": {"name": "regular", "configuration": {"chunk_shape": [2, 4]}},
          "chunk_key_encoding": {"name": "default"}, "codecs": [{"name": "bytes", "configuration": {"endian": "little"}}]}
-SHARDS = {"chunk_shape": [1, 2], "codecs": GOOD3["codecs"], "index_codecs": [*GOOD3["codecs"], {"name": "crc32c"}]}  # for GOOD3
+SHARDS = {"chunk_shape": [1, 2], "codecs": GOOD3["codecs"], "index_codecs": [*GOOD3["codecs"], {"name": "crc32c"}]}  # in GOOD3
 
 
 @pytest.mark.parametrize("changes, code", [
