@@ -424,7 +424,7 @@ export class App {
         showSchemePressed(choice);
     }
 
-    /** Asks for pictures in the new color scheme of the page. */
+    /** Asks the server for pictures in the new color scheme of the page. */
     private schemeChanged(): void {
         if (this.state) this.update(this.state);
         this.helloShowingRefusal({ scheme: this.colorScheme.current });
@@ -575,7 +575,7 @@ export class App {
         return answer;
     }
 
-    /** Like request(), but shows an error as a notice. Resolves to whether the command has been executed. */
+    /** Sends a command; shows an error as a notice. Resolves to whether the command has been executed. */
     private async send(command: Command): Promise<boolean> {
         this.notice.hide();
         try {

@@ -53,7 +53,7 @@ function messageIn(text: string): Done | ErrorMessage | undefined {
         const message = JSON.parse(text) as Partial<Done | ErrorMessage> | null;
         if (message?.type === "done" || message?.type === "error") return message as Done | ErrorMessage;
     } catch {
-        // not JSON
+        // The text is not JSON.
     }
     return undefined;
 }

@@ -17,7 +17,7 @@ const kLettersPerMistake = 3; // one mistake is allowed for every three letters 
 interface SearchableEntry {
     entry: CatalogueEntry;
     family: string;
-    /** Name, aliases and symbols, normalized. */
+    /** The name, the aliases and the symbols of the entry, as normalize() returns them. */
     names: string[];
     /**
      * The normalized names and family; then the names without blanks, so that a search for "120cell" finds "120 cell".

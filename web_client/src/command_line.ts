@@ -21,9 +21,9 @@ export interface CommandLineEvents {
 
 /** The completions of a line. Each press of Tab inserts the next one. */
 interface CompletionCycle extends Completions {
-    /** The line after the last completion. If the input differs from it, the user has edited the line. */
+    /** The line as the last completion left it. If the input differs from it, the user has edited the line. */
     line: string;
-    /** The index in `options` of the option that is in the line; -1 if none is. */
+    /** The index in `options` of the option that the line contains; -1 if it contains none. */
     at: number;
 }
 
@@ -99,14 +99,14 @@ export class CommandLine {
         else this.complete(-step);
     }
 
-    /** Scrolls the panel by `pages` times kPage of its height: the panel may be too low to show a whole error. */
+    /** Scrolls the panel by `pages` times kPage of its height, because a long error may not fit into the panel. */
     private scroll(event: KeyboardEvent, pages: number): void {
         event.preventDefault();
         this.form.scrollBy({ top: pages * kPage * this.form.clientHeight });
         this.form.scrollIntoView({ block: "nearest" }); // the window may have to scroll, too
     }
 
-    /** Completes the line; returns false if there is nothing to complete, so that Tab moves the focus. */
+    /** Completes the line. Returns false if there is nothing to complete; Tab then moves the focus. */
     private tab(backwards: boolean): boolean {
         if (backwards && this.list.hidden) return false;
         const step = backwards ? -1 : 1;

@@ -5,7 +5,7 @@ import parts from "../../protocol/schema/parts.schema.json";
 import planes from "../../protocol/schema/planes.schema.json";
 import settings from "../../protocol/schema/settings.schema.json";
 
-/** A command; protocol/commands.json describes the members. */
+/** A command of the command line; protocol/commands.json describes the members. */
 export interface CommandRow {
     name: string;
     arguments?: string;
@@ -25,7 +25,7 @@ interface SettingSchema {
     properties?: Record<string, SettingSchema>;
 }
 
-// Settings that messages can change, but the command line cannot.
+// The settings that messages can change, but the command line cannot.
 const kNotOnTheLine = ["orientation", "field", "last"];
 
 /** The settings of the command `set`, each with a list of its values; empty for a setting that is a number or name. */

@@ -18,12 +18,12 @@ export interface Completions {
     /** The index in the line where the completed text begins. An option replaces the text from there to the caret. */
     start: number;
     options: string[];
-    /** The text to insert after an option if there is no other option: a blank, or "". */
+    /** The text to insert after an option if it is the only one: a blank, or "". */
     suffix: string;
 }
 
 const kPageSettings = new Map([["latency", ["on", "off"]]]); // settings that only the page knows, with values
-// The kinds of names that may contain blanks, and therefore extend to the end of the line.
+// The kinds of names that may contain blanks. Such a name extends to the end of the line.
 const kOfRestOfLine = ["polytope", "kind"];
 
 /** The completions at the end of the text `line`, which ends at the caret. */

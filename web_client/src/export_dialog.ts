@@ -266,7 +266,9 @@ export class ExportDialog {
         }
     }
 
-    /** Does not offer a solid of a face, an edge or a vertex, which have no volume: selects the skeleton instead. */
+    /**
+     * Hides the choice "solid" for a face, an edge or a vertex, which has no volume, and selects the skeleton instead.
+     */
     private offerBodies(): void {
         const isFlat = this.chosenValue("of") === "highlight" && this.state?.highlight?.element !== "cell";
         const body = this.formField("body");
@@ -310,7 +312,7 @@ export class ExportDialog {
         }
     }
 
-    /** The chosen options. Fields that the format does not use are disabled, and therefore omitted. */
+    /** The chosen options, without those that the format does not use: their fields are disabled. */
     private get options(): ChosenOptions {
         const { side, ...values } = this.formValues(); // `side` is the size of a drawing
         const all = side === undefined ? values : { ...values, size: side };

@@ -12,7 +12,7 @@ export interface ExportFormat {
     label: string;
     /** A line about the contents of the file and the programs that open it. */
     about: string;
-    /** The media type. */
+    /** The media type of the file, as in the HTTP header Content-Type. */
     type: string;
     /** The options that the dialog offers for this format; "exact" is offered only for fields. */
     choices: ExportOption[];

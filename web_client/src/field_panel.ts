@@ -222,7 +222,7 @@ export class FieldPanel {
         this.loads.submit(field, delay);
     }
 
-    /** The formulas in the text fields, with this box. */
+    /** The formulas in the text fields, together with the given box. */
     private typedField(box: Box): FormulaWithBox {
         const values = this.values.value.trim();
         return { formula: this.formula.value, box, ...(values !== "" && { values }) };

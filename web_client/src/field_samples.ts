@@ -12,7 +12,10 @@ export type FieldPoint = Pick<At, "place" | "value" | "second_value">;
 export interface LevelDescription {
     /** The index of the level in the `levels` of the state. */
     level: number;
-    /** Whether the point is on a cap. The value there lies inside the body, and is not the level itself. */
+    /**
+     * Whether the point is on a cap. The value at such a point is not the level, because the point lies inside the
+     * body.
+     */
     cap: boolean;
     /** The w of the slice in which the point is; undefined in the projection and in the matrix. */
     sliceW?: number | undefined;

@@ -15,9 +15,12 @@ export class FocusMover {
     private isScheduled = false;
     private inFlight: number | undefined; // the w that has been sent and not answered
     private answered: FocusAtRevision = { w: NaN, revision: 0 };
-    private seen: FocusAtRevision = { w: 0, revision: 0 }; // the focus in the newest state
+    private seen: FocusAtRevision = { w: 0, revision: 0 }; // the focus in the newest state that has arrived
 
-    /** `settled` is called when nothing is left to send, with the error if the last move failed. */
+    /**
+     * `settled` is called when all moves have been answered and none is left to send. If the last move failed, it gets
+     * the error.
+     */
     constructor(
         private readonly client: Client,
         private readonly settled: (error?: Error) => void,
@@ -29,7 +32,7 @@ export class FocusMover {
         return this.seen.revision >= this.answered.revision ? this.seen.w : this.answered.w;
     }
 
-    /** Begins a gesture: the moves up to the next call are one undo step. */
+    /** Begins a gesture. One undo step reverts all moves between two calls. */
     begin(): void {
         this.continues = false;
     }

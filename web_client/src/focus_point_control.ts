@@ -45,7 +45,7 @@ export class FocusPointControl {
         this.lastChange.prepareForNewConnection();
     }
 
-    /** Begins a gesture: the moves up to the next call are one undo step. */
+    /** Begins a gesture. One undo step reverts all moves between two calls. */
     begin(): void {
         this.continues = false;
         this.events.began();

@@ -57,7 +57,7 @@ export class FocusSlider {
         this.show();
     }
 
-    /** Takes the critical values from the picture of the newest state. */
+    /** Takes the critical values from a picture, which must be that of the newest state. */
     updateFromPicture(slices: Slices): void {
         this.criticalValues.adoptFromPicture(slices);
     }
@@ -112,7 +112,7 @@ export class FocusSlider {
         this.show();
     }
 
-    /** Moves the focus after a drag of the slider, or a step by assistive technology. The move also ends playing. */
+    /** Moves the focus to the slider's value, after a drag or a step by assistive technology. Also ends playing. */
     private slid(): void {
         this.moveTo(this.snapped(this.input.valueAsNumber));
     }

@@ -20,10 +20,10 @@ export class HeaderValue {
     private readonly input: HTMLInputElement;
     private readonly error: HTMLElement;
     private readonly note: HTMLElement;
-    private before = ""; // the text when editing began; if the text is still the same, it is not applied
-    private refused: string | undefined; // the text that could not be applied
+    private before = ""; // the text at the start of editing; the same text is not applied
+    private refused: string | undefined; // the last text that could not be applied
     private pending: string | undefined; // the text that is being applied
-    private focusAfter: HTMLElement | undefined; // receives the focus after editing
+    private focusAfter: HTMLElement | undefined; // the element that gets the focus after editing
 
     constructor(
         name: string,

@@ -104,7 +104,7 @@ export class HeaderValues {
         this.timer = setTimeout(() => this.announce(), kSpeechDelay);
     }
 
-    /** Announces what has changed since the last announcement; the first time, also the polytope's name. */
+    /** Announces what has changed since the last announcement. The first announcement also names the polytope. */
     private announce(): void {
         this.timer = undefined;
         const before = this.announced!;

@@ -91,7 +91,8 @@ export class Help {
     }
 
     /**
-     * Shows only the lines that mention the topic or, if it is "", all lines. Throws an Error if no line mentions it.
+     * Shows only the lines that mention the topic; if it is "", shows all lines. Throws an Error if no line mentions
+     * the topic.
      */
     filter(topic: string): void {
         const wanted = topic.toLowerCase();

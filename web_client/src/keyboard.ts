@@ -12,7 +12,7 @@ interface KeyActions {
     send: (command: Command) => void;
     /** Called when Escape was pressed outside dialogs. */
     escape: (event: KeyboardEvent) => void;
-    /** Executes an action of the camera; returns false if the action is not one of the camera. */
+    /** Executes the action if it is one of the camera; otherwise returns false. */
     camera: (action: string) => boolean;
     /** The actions of the page itself, by their names in the key table. The server does not execute them. */
     page: Readonly<Record<string, () => void>>;
@@ -101,7 +101,7 @@ export class Keyboard {
      */
     private type(stroke: KeyStroke, held: boolean): void {
         if (held && this.ended) {
-            // If Shift is released first, the held letter does nothing.
+            // If Shift is released before the letter, the letter that is still held does nothing.
             if (this.ended.repeats && this.ended.key[1] === stroke.key) this.press(this.ended, false, held);
             return;
         }

@@ -10,7 +10,7 @@ import { boxOf, kUsualBox, parseNumbers, type FormulaWithBox } from "./fields";
 import { readStored, writeStored } from "./storage";
 
 export interface InitialView {
-    /** The session to return to, or to join. */
+    /** The session that the page joins, or returns to, instead of opening a new one. */
     credentials?: Credentials;
     /** The field that the query describes. A new session loads the field before it executes `lines`. */
     field?: FormulaWithBox;
@@ -67,7 +67,7 @@ export function extractSharedSession(): { credentials?: Credentials; fault?: str
     return { credentials: { session, token } };
 }
 
-/** The session that the present entry of the browser's history has, if any. */
+/** Returns the session of the current entry of the browser's history; undefined if it has none. */
 export function sessionOfHistoryEntry(): Credentials | undefined {
     return (history.state as HistoryEntry | null)?.credentials;
 }

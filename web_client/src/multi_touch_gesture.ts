@@ -1,8 +1,8 @@
 // A gesture of two or more fingers on the drawing: their common movement, spread and twist. A movement or a twist
 // counts only after it has left a dead zone, so that a pinch does not also turn the polytope.
 
-const kMoveDeadZone = 16; // pixels
-const kTwistDeadZone = 0.15; // radians
+const kMoveDeadZone = 16; // pixels; a smaller movement has no effect
+const kTwistDeadZone = 0.15; // radians; a smaller twist has no effect
 
 /** The position of a finger in the window, in CSS pixels. */
 export interface Finger {
@@ -27,8 +27,8 @@ interface FingerGeometry {
 
 export class MultiTouchGesture {
     private last: FingerGeometry;
-    private moved: ScreenVector = { x: 0, y: 0 }; // since the fingers touched the drawing
-    private twisted = 0; // radians since the fingers touched the drawing
+    private moved: ScreenVector = { x: 0, y: 0 }; // the movement since the fingers touched the drawing
+    private twisted = 0; // the angle, in radians, by which the fingers have twisted since they touched the drawing
     private moves = false; // whether the movement has left its dead zone
     private twists = false; // whether the twist has left its dead zone
 

@@ -4,7 +4,7 @@
 import { byId, element } from "./element";
 import { toSentence } from "./format";
 
-const kDuration = 8000; // milliseconds per message
+const kDuration = 8000; // the time for which each message is shown, in milliseconds
 
 export class Notice {
     private readonly root = byId("notice");
@@ -46,12 +46,12 @@ export class Notice {
         this.root.append(close);
     }
 
-    /** Hides the message, unless it is a lasting one. Must be called at each action. */
+    /** Hides the message, except a lasting one. The page must call this function at each action of the user. */
     hide(): void {
         if (!this.isLasting) this.close();
     }
 
-    /** Hides any message. */
+    /** Hides the message, even a lasting one. */
     close(): void {
         clearTimeout(this.timer);
         this.isLasting = false;

@@ -13,7 +13,7 @@ const kLeastVisible = 0.5; // the least fraction of the slices that orbiting and
 const kBisections = 10;
 const kLeastZoom = 1e-3; // relative changes of the zoom up to this size do not count
 
-const kAngleStep = Math.PI / 36; // radians per key press
+const kAngleStep = Math.PI / 36; // the angle by which one key press moves the camera, in radians
 const kZoomStep = 1.1;
 
 export class OrbitControl {

@@ -24,7 +24,7 @@ export interface PageActions {
     chooseScheme(choice: SchemeChoice): void;
     fullScreen: FullScreen;
     tilt: TiltControl;
-    /** Shows an error. */
+    /** Shows an error to the user. */
     failed(error: Error): void;
     usesSingleKeys: boolean;
     useSingleKeys(on: boolean): void;

@@ -35,7 +35,7 @@ export class PhoneLinkDialog {
         const loopback = byId("phone-loopback");
         loopback.hidden = !isOwnComputer(location.hostname);
         loopback.querySelector("b")!.textContent = location.hostname;
-        this.addsToken.checked = false; // whoever sees the screen can scan the code, so each time is a choice
+        this.addsToken.checked = false; // off each time, because whoever sees the screen can scan the code
         this.status.textContent = "";
         this.showLink(credentials);
         this.dialog.open(this.copyButton);

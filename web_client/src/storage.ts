@@ -19,6 +19,6 @@ export function writeStored(key: string, value: unknown, isLasting = false): voi
     try {
         storageOf(isLasting).setItem(key, JSON.stringify(value));
     } catch {
-        // Storage is not available: the value is lost at a reload.
+        // If storage is not available, the value is lost when the page reloads.
     }
 }

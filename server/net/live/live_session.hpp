@@ -88,7 +88,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
   private:
     using Clock = SessionPublisher::Clock;
 
-    // The following functions run on the strand.
+    // The functions of this group run on the strand.
     void assertOnStrand() const {
         assert(strand_.running_in_this_thread() && "the session is used outside its strand");
     }
@@ -104,12 +104,12 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
 
     std::uint64_t revision() const { return session_.revision; }
 
-    // Constant after construction.
+    // The members of this group do not change after construction.
     const Services services_;  // declared first, because other members are initialized from it
     const store::SessionCredentials credentials_;
     Strand strand_;  // runs all code that uses the members of the next group
 
-    // Used only on the strand.
+    // Only code on the strand uses the members of this group.
     const std::shared_ptr<MeteredSession> metered_;
     session::Session& session_;  // the value of metered_
     const std::shared_ptr<SessionPublisher> publisher_;

@@ -149,17 +149,17 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     Clock::duration shownTimeout() const;
     bool readyForNext(const Subscriber& subscriber) const;
 
-    // The following functions run on a worker.
+    // The functions of this group run on a worker.
     void runJob(pipeline::Pipeline& pipeline);
     void onLastPictureDrawn(const RevisionPicturesJob& job, const StreamKey& key);
 
-    // Constant after construction.
+    // The members of this group do not change after construction.
     const Services services_;  // declared first, because other members are initialized from it
     const Strand strand_;
     const std::string sessionId_;
     std::function<void()> moved_;
 
-    // Used only on the strand.
+    // Only code on the strand uses the members of this group.
     const std::shared_ptr<MeteredSession> metered_;
     session::Session& session_;  // the value of metered_
     std::map<const Peer*, Subscriber> subscribers_;

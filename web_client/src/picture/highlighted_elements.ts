@@ -3,7 +3,7 @@
 
 import type { Highlight, PolytopeElement, SceneDescription, Slices, State } from "@oval4d/protocol";
 
-/** The polytope's numbers of elements. */
+/** The numbers of edges, faces and cells that the polytope has. */
 export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">;
 
 /** The parts of a picture that show the highlighted elements. */
@@ -72,7 +72,7 @@ export interface HighlightChange {
      */
     vertices: Uint8Array;
     edges: Uint8Array;
-    /** The cells whose faces have other colors. */
+    /** The numbers of the cells whose faces must be colored again. */
     cells: readonly (number | undefined)[];
 }
 

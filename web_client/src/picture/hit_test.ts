@@ -21,7 +21,7 @@ export interface ElementHit {
      * polytope.
      */
     source: number;
-    /** The slice that was hit; absent in the projection and in the matrix. */
+    /** The slice in which the element was hit; absent in the projection and in the matrix. */
     slice?: Slice;
 }
 
@@ -54,7 +54,7 @@ export interface LevelHit {
     cap: boolean;
     /** The coordinates x, y, z, w of the point after the rotation, in object units from the object's center. */
     point: [number, number, number, number];
-    /** The slice that was hit; absent in the projection and in the matrix. */
+    /** The slice in which the surface was hit; absent in the projection and in the matrix. */
     slice?: Slice;
 }
 

@@ -27,7 +27,7 @@ interface PanelContext {
     scene: SceneDescription;
     viewport: Viewport;
     highlighted: HighlightedElements;
-    /** The polytope's numbers of elements. */
+    /** The numbers of edges, faces and cells that the polytope has. */
     counts: ElementCounts;
 }
 

@@ -28,7 +28,7 @@ type ProjectionPart = ObjectProjection["parts"][number];
 
 /** The convex polygons that show the faces of one part of the projection. */
 interface PartPolygons {
-    /** x, y, z of each point. */
+    /** The coordinates x, y, z of each point. */
     points: Float32Array;
     /** The corners of the polygons, in the format of Elements.faces, with indices into `points`. */
     faces: Elements["faces"];
@@ -49,7 +49,7 @@ export class ProjectionMesh {
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // number of vertices in `shapes`
-    private polygons: PartPolygons[] = []; // of each part of the picture
+    private polygons: PartPolygons[] = []; // the polygons of each part of the picture
     // Arrays with one entry for each translucent shape: its first vertex, its number of vertices, and its depth point
     // (kMiddle …).
     private first = new Uint32Array(0);

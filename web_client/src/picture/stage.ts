@@ -23,8 +23,8 @@ export interface StageEvents {
 /** The server's limits on the size of pictures. */
 export type SizeLimits = Partial<Pick<Limits, "min_side" | "max_width" | "max_height" | "max_pixels">>;
 
-const kMaxPixels = 4_000_000; // of a picture on the page; more cost time without visible benefit
-const kPrintPixels = 6_000_000; // about 300 dots per inch on a sheet of A4
+const kMaxPixels = 4_000_000; // the most pixels of a picture on the page; more cost time without visible benefit
+const kPrintPixels = 6_000_000; // the most pixels of a printed picture: about 300 dots per inch on a sheet of A4
 const kMaxPrintSide = 4096; // pixels; some browsers do not draw larger canvases
 const kLeastText = 9; // the least height of texts, in CSS pixels
 const kLeastTextInFullScreen = 0.02; // the least height of texts in full screen, in window heights
