@@ -1,7 +1,7 @@
 #pragma once
-// The commands that change a session. They come from messages, from keys and from the page's command line, which is
-// typed after ':'. Each command is a struct; its constant kMessageType is the type of the messages that contain it. If
-// the members of the struct are described with Boost.Describe, the message has members with the same names.
+// The commands that change a session. Commands come from messages, from keys and from the page's command line, which
+// opens with the key ':'. Each command is a struct. Its constant kMessageType is the type of the messages that contain
+// the command. The members of a message have the names of the members that Boost.Describe describes.
 
 #include <any>
 #include <array>
@@ -31,75 +31,82 @@ namespace oval4d::session {
 /// A key press.
 struct Key {
     static constexpr std::string_view kMessageType = "key";
-    std::string key;  ///< the value of KeyboardEvent.key in a browser: "y", "K", "2", " ", "["
+    std::string key;  ///< the value of KeyboardEvent.key in a browser, such as "y", "K", "2" or " "
     bool shift = false, ctrl = false;
 };
 BOOST_DESCRIBE_STRUCT(Key, (), (key, shift, ctrl))
 
-/// Rotates the object.
+/// The command that rotates the object in one plane, or in two perpendicular planes at once.
 struct Rotate {
     static constexpr std::string_view kMessageType = "rotate";
     geometry::Turn turn;
-    /// Whether the rotation belongs to the undo step of the previous command, as within a gesture.
+    /// Whether undo treats the rotation and the previous command as one step, as during a drag with the mouse.
     bool continues = false;
     bool operator==(const Rotate&) const = default;
 };
-/// Turns an element of the object toward +w, by the shortest rotation.
+/// The command that turns an element (a cell, face, edge or vertex) toward +w by the shortest rotation.
 struct TurnToward {
     static constexpr std::string_view kMessageType = "toward";
     slicing::ElementKind element = slicing::ElementKind::cell;  ///< the kind of the element
-    /// The index of the element (slicing::Element::index). If it is absent, turnToward() (settings.hpp) chooses an
+    /// The index of the element among the elements of its kind. If absent, turnToward() in settings.hpp chooses an
     /// element.
     std::optional<std::size_t> number;
-    bool immediately = false;  ///< whether to turn the object at once, without a continuous motion
+    bool immediately = false;  ///< whether to turn the object at once, without an animation
 };
 BOOST_DESCRIBE_STRUCT(TurnToward, (), (element, number, immediately))
 
-/// A level of a multiscale image that is to replace a coarser one.
+/// A finer resolution level of a multiscale image. The level replaces the coarser level that is shown.
 struct FinerLevel {
-    std::uint32_t level = 0;  ///< see fields::ImageLevel
-    double initialLevel = 0;  ///< of the field with the coarser one, which the field with the finer one gets, too, so
-                              ///< that the levels that are shown are still the initial ones
+    std::uint32_t level = 0;  ///< the index of the level in the image; 0 is the finest
+    /// The initial level value (isovalue) of the field at the coarser resolution. The finer field gets the same value,
+    /// so that a session that shows initial values keeps them.
+    double initialLevel = 0;
     bool operator==(const FinerLevel&) const = default;
 };
-/// Loads an object from a file, or makes a field from a formula, and shows it.
+/// The command that loads an object from a file, or makes a field from a formula, and shows the object.
 struct LoadObject {
     static constexpr std::string_view kMessageType = "load";
-    std::string name;    ///< the name to give to the object
+    std::string name;    ///< the name that the object gets
     std::string format;  ///< the name of the file format: "off", "points", "cloud", "formula", "npy" …
-    std::string data;    ///< the text of the file (of an array: its bytes in Base64), or the formula
-    /// Whether the command belongs to the undo step of the previous command, as while a user edits a formula. If true,
-    /// and if a field replaces a field, FieldSettings stay the same; if both fields also have the same circumradius,
+    /// The text of the file or the formula. For an array, the bytes of the file in Base64.
+    std::string data;
+    /// Whether undo treats the command and the previous command as one step, as while a user edits a formula. If true
+    /// and a field replaces a field, FieldSettings stay the same. If both fields also have the same circumradius,
     /// HyperplaneSettings and the focus point stay the same, too.
     bool continues = false;
-    /// The domain of the field. If it is absent, the domain of a formula is fields::kFormulaBox, and that of an array
-    /// is the box that the file states or, without one, fields::defaultBox().
+    /// The domain of the field. If absent, the domain of a formula is fields::kFormulaBox. The domain of an array is
+    /// then the box that its file states or, if the file states none, fields::defaultBox().
     std::optional<fields::Box> box = {};
-    std::optional<fields::Box> region = {};  ///< for a Zarr folder: see fields::FieldReadOptions
-    std::string axes = {};                   ///< for an array: see fields::FieldReadOptions
-    std::string variable = {};               ///< for an array: see fields::FieldReadOptions
-    std::string secondFormula = {};          ///< the formula of the second function; empty for none
-    std::string secondVariable = {};  ///< for an array: the variable of the same file that is the second function
-    /// Whether to add the time steps in the file to the loaded array called `name`, at the end of w, instead of
-    /// replacing the array. Makes no undo step: the states of the history show the longer array, too.
+    std::optional<fields::Box> region = {};  ///< for a Zarr folder: the part of the array to read; absent for all
+    /// For an array: the axes of its dimensions, such as "tzyx", where t means w. If empty, the file decides.
+    std::string axes = {};
+    /// For an array: the name of the variable in the file. If empty, the reader chooses a variable.
+    std::string variable = {};
+    std::string secondFormula = {};  ///< the formula of the field's second function; empty for none
+    /// For an array: the variable in the same file that becomes the field's second function. Empty for none.
+    std::string secondVariable = {};
+    /// Whether to append the time steps in the file to the loaded array `name`, at its end along w, instead of
+    /// replacing the array. Undo does not remove them: all states of the history show the longer array.
     bool append = false;
-    /// The file of an array, instead of `data`. If the format is empty, it is recognized from the first bytes of the
-    /// file.
+    /// An open file that contains an array; null if `data` contains the object. If `format` is empty, the format is
+    /// recognized from the first bytes of the file.
     std::shared_ptr<const fields::FileHandle> file = {};
-    /// The files of an array, instead of `data`. Each file contains one time step.
+    /// Open files that contain one time step of an array each; empty if the object is elsewhere.
     std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
-    /// A Zarr folder, instead of `data`.
+    /// A Zarr folder that contains an array; null if the object is elsewhere.
     std::shared_ptr<const fields::FolderFiles> folder = {};
-    std::string dataName = {};             ///< the name of an array in the server's data folder, instead of `data`
-    geometry::Centering center = {};       ///< for a polytope, a surface or points: the point about which they turn
-    std::optional<FinerLevel> finer = {};  ///< for an array in the server's data folder: see loadOfFinerLevel()
+    std::string dataName = {};  ///< the name of an array in the server's data folder; empty if none
+    /// For a polytope, a surface or points: the point about which the object turns.
+    geometry::Centering center = {};
+    /// For an array in the server's data folder: the resolution level to read. Set by loadOfFinerLevel() only.
+    std::optional<FinerLevel> finer = {};
 
     /// Returns whether the object is an array in files or in a folder, not in `data`. The format of such an array may
     /// be empty.
     bool isArrayInFiles() const { return file || folder || !series.empty() || !dataName.empty(); }
     bool operator==(const LoadObject&) const = default;
 };
-/// A text that says how to read an object: its name in messages and in the queries of uploads, and the member.
+/// A member of LoadObject that says how to read an object, with its name in messages and in the queries of uploads.
 struct LoadText {
     std::string_view name;
     std::string LoadObject::* member;

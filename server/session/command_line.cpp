@@ -36,8 +36,8 @@ Words split(std::string_view line) {
     }
 }
 
-// Joins words that are separated by blanks, but belong together: a word that ends with a character in `separators` and
-// the next word; a word and the next one that begins with such a character; and a number and its unit. Examples are
+// Joins words that are separated by blanks but belong together. Joins a word that ends with a character in `separators`
+// to the next word, a word that begins with such a character to the word before, and a unit to its number. Examples are
 // "highlight=cell: 3" and "30 °". All words must be views into the same string.
 Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
@@ -69,8 +69,8 @@ Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, cons
 Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (rest.empty())
         return bad(ErrorCode::bad_expression, "formula needs a function of x, y, z and w, such as formula x*y + z*w");
-    // A formula cannot contain " colored by ": in a formula, no word directly follows a word, except the units deg and
-    // rad.
+    // " colored by " separates two formulas. A formula cannot contain this text: the only words that may directly
+    // follow another word in a formula are the units deg and rad.
     constexpr std::string_view kColoredBy = " colored by ";
     const std::size_t end = rest.find(kColoredBy);
     LoadObject load{std::string(kFormula), std::string(kFormula), std::string(rest.substr(0, end))};
@@ -78,8 +78,8 @@ Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const
     return Command{std::move(load)};
 }
 
-// "region 0,1,0,1,0,1,0,5" loads this region of the array of which the shown field is a part; "region all" loads the
-// whole array.
+// Parses the command "region". The shown field is a region of a larger array. "region 0,1,0,1,0,1,0,5" loads another
+// region of this array, and "region all" the whole array.
 Result<Command> regionLine(std::string_view rest, const Words& /*words*/, const State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) {
@@ -98,8 +98,8 @@ Result<Command> regionLine(std::string_view rest, const Words& /*words*/, const 
 
 Result<Command> setLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty()) return bad(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
-    // A polytope's name may contain blanks. If `polytope` is the only setting on the line, the rest of the line is the
-    // name.
+    // The name of a polytope may contain blanks. If `polytope` is the only setting on the line, the name extends to the
+    // end of the line.
     if (rest.starts_with("polytope=") && rest.find('=') == rest.rfind('='))
         return oneSetting("polytope", rest.substr(std::string_view("polytope=").size()));
     Set set;
@@ -120,7 +120,7 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& given, const 
     const Words words = joinedWords(given, ",");
     if (words.empty())
         return bad(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
-    // If no angles are given, use those of the rotation keys.
+    // Without angles on the line, use the angles alpha and beta of the rotation keys.
     const std::string alpha = text::shortestDecimal(state.alpha) + "rad";
     const std::string beta = text::shortestDecimal(state.beta) + "rad";
     Words angles(words.begin() + 1, words.end());
@@ -185,8 +185,8 @@ Result<Command> boostLine(std::string_view rest, const Words& words, const State
 }
 
 // Returns the cell types that the arguments of hide, fade and show select: numbers, or the name of a cell type. Without
-// arguments, returns the type of the highlighted cell. Errors: those of findCellTypes(), also if there are no arguments
-// and no cell is highlighted.
+// arguments, returns the type of the highlighted cell. Errors: the errors of findCellTypes(), also if there are no
+// arguments and no cell is highlighted.
 Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state) {
     const auto& lit = state.look.highlight;
     if (rest.empty() && lit && lit->kind == slicing::ElementKind::cell)
@@ -210,7 +210,7 @@ Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, con
     return Command{set};
 }
 
-// Parses a command without arguments.
+// Parses a command that takes no arguments.
 template <typename C>
 Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (!rest.empty())
@@ -218,7 +218,7 @@ Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const
     return Command{C{}};
 }
 
-// "play" begins to move the focus to and fro; "play 2" does so at the speed 2.
+// Parses the command "play", which starts to move the focus to and fro. "play 2" does so at twice the normal speed.
 Result<Command> playLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     Set set;
     if (!rest.empty()) {

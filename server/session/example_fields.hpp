@@ -1,5 +1,5 @@
 #pragma once
-// The fields that are known by name, like the polytopes of the catalogue.
+// The example fields: scalar fields with names, given by formulas in protocol/fields.json.
 
 #include <memory>
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace oval4d::session {
 
-/// A field of protocol/fields.json.
+/// A field that protocol/fields.json lists.
 struct ExampleField {
     std::string name, formula;
-    std::vector<std::string> aliases;  ///< other names
+    std::vector<std::string> aliases;  ///< other names of the field
     fields::Box box;
     std::shared_ptr<const fields::Field> field;  ///< shared by all sessions
 };

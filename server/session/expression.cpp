@@ -19,7 +19,7 @@ namespace {
 struct NamedFunction {
     std::string_view name;
     double (*call)(double);
-    bool givesAngle = false;  // whether its value is an angle in radians
+    bool givesAngle = false;  // whether the value of the function is an angle in radians
 };
 constexpr auto kFunctions =
     std::to_array<NamedFunction>({{"sqrt", [](double x) { return std::sqrt(x); }},
@@ -34,7 +34,7 @@ constexpr auto kNames =
     std::to_array<std::string_view>({"pi", "phi", "sqrt", "sin", "cos", "tan", "asin", "acos", "atan", "deg"});
 // Unicode characters that are accepted in place of pi, phi and -.
 constexpr std::string_view kPiLetter = "π", kPhiLetter = "φ", kMinusSign = "−";
-// The degree sign, and two characters that look like it: keyboards of Spain and Portugal type the ordinal indicator.
+// The degree sign, and two similar characters: Spanish and Portuguese keyboards have the ordinal indicator º.
 constexpr auto kDegreeSigns = std::to_array<std::string_view>({"°", "º", "˚"});
 
 constexpr std::size_t kMaxLength = 1000;
@@ -43,25 +43,24 @@ constexpr int kMaxDepth = 64;
 using text::isDigit;
 using text::isLetter;
 
-// The value of a part of an expression, and the units in this part.
+// The value of a part of an expression, and information about the units in this part.
 struct ValueWithUnit {
-    double value = 0;               // in degrees if isInDegrees is true
-    double plain = 0;               // the sum of those terms that are numbers without a unit
+    double value = 0;               // in degrees if isInDegrees is true; otherwise in radians if it is an angle
+    double plain = 0;               // the sum of those terms that are numbers without units
     bool isPlain = false;           // whether `plain` is the whole value
     bool hasUnit = false;           // whether this part contains a unit
-    bool isInDegrees = false;       // whether the unit is degrees, and `value` is not converted to radians yet
+    bool isInDegrees = false;       // whether the unit is degrees and `value` is still in degrees
     bool hasUnitlessAngle = false;  // whether this part contains an angle without a unit, such as pi or atan(2)
     bool isGroup = false;           // whether parentheses enclose this part
     std::size_t unitAt = 0;         // the position of the unit in the text
 };
 
-// A recursive-descent parser that evaluates the expression while it parses. Throws SyntaxError, which evaluated()
-// catches.
-//   sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]
-//   angle = atom [unit]   atom = number | constant | function ( sum ) | ( sum )
-// The unit of a factor or of an exponent applies to the whole product: people read 45/2° as 22.5°, not as 45 divided by
-// an angle. So a product has at most one unit. If `units` is false, a unit is an error except in the argument of a
-// function.
+// A recursive-descent parser that evaluates an expression while parsing it. Throws SyntaxError, which evaluated()
+// catches. The grammar is:
+//    sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power
+//    power = angle [^ signed]   angle = atom [unit]   atom = number | constant | function ( sum ) | ( sum )
+// A product has at most one unit, after any of its factors, and this unit applies to the whole product: people read
+// 45/2° as 22.5°. If `units` is false, a unit is an error, except in the argument of a function.
 class Parser {
   public:
     Parser(std::string_view text, bool units) : text_(text), units_(units) {}
@@ -78,7 +77,7 @@ class Parser {
     }
 
   private:
-    // Parses a sum. Returns its value in radians if it has a unit.
+    // Parses a sum and returns its value, in radians if the sum has a unit.
     ValueWithUnit sum() {
         const NestingGuard deeper(*this);
         ValueWithUnit total = inRadians(product());
@@ -120,8 +119,8 @@ class Parser {
         const ValueWithUnit exponent = signedPower();
         return joined(base, exponent, std::pow(base.value, exponent.value));
     }
-    // Returns the product, quotient or power of the terms `a` and `b`; `value` is its value. Throws SyntaxError if both
-    // terms have a unit.
+    // Returns the product, quotient or power of the terms `a` and `b`, where `value` is the numeric result. Throws
+    // SyntaxError if both terms have a unit.
     ValueWithUnit joined(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
         if (a.hasUnit && b.hasUnit)
             failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");
@@ -133,8 +132,8 @@ class Parser {
         result.isGroup = false;
         return result;
     }
-    // Returns `term`, a product. If its unit is degrees, converts its value to radians; throws SyntaxError if the
-    // product also contains an angle without a unit.
+    // Converts `term`, a product, to radians if its unit is degrees. Throws SyntaxError if the product in degrees also
+    // contains an angle without a unit, such as pi.
     ValueWithUnit inRadians(ValueWithUnit term) {
         if (!term.isInDegrees) return term;
         if (term.hasUnitlessAngle) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
@@ -208,7 +207,7 @@ class Parser {
         at_ += token.size();
         return true;
     }
-    // Like take(), but takes only a whole word, after which no letter follows.
+    // Skips `word` if the remaining text begins with it and no letter follows. Returns whether it did.
     bool takeWord(std::string_view word) {
         skipBlanks();
         const std::string_view rest = text_.substr(at_);
@@ -296,7 +295,9 @@ Result<double> evaluateAngle(std::string_view text) {
 Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
                                             std::string_view examples) {
     std::vector<std::string_view> names = text::splitAtCommas(planes);
-    if (planes.empty() || planes.ends_with(',')) names.emplace_back();  // the empty name, to be refused as no plane
+    if (planes.empty() || planes.ends_with(','))
+        names.emplace_back();  // an empty name, which is refused below as an
+                               // unknown plane
     std::vector<geometry::Plane> named;
     for (const std::string_view written : names) {
         const std::string_view name = text::trimmed(written);

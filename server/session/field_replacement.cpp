@@ -15,13 +15,13 @@ namespace oval4d::session {
 
 namespace {
 
-// A field that replaces another one, in several frames of reference (see slicing::transformedTo()). Each value is the
-// new field in one frame; its key is slicing::identityOf() of the original field in the same frame.
+// A field that replaces another field, in several frames of reference (see slicing::transformedTo()). Each value is the
+// new field in one frame. Its key is slicing::identityOf() of the replaced field in the same frame.
 using FieldsByOriginal = std::map<const void*, slicing::Object>;
 
-// If `state` shows the field `before`, replaces it by `after`, as replaceField() does, and returns true; else returns
-// false. `images` contains the transformed fields that have been made so far, so that states with the same frame of
-// reference share one field.
+// If `state` shows the field `before`, replaces this field by `after` (see replaceField()) and returns true. Otherwise
+// returns false. `images` contains the transformed fields made so far. States with the same frame of reference share a
+// field.
 bool replaceInState(State& state, const slicing::Object& before, const slicing::Object& after, FieldReplacement how,
                     FieldsByOriginal& images) {
     if (state.source != before) return false;
@@ -37,9 +37,8 @@ bool replaceInState(State& state, const slicing::Object& before, const slicing::
         slices.spacing = spanningSpacing(object, slices.count);
     }
     const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
-    // spanningSpacing() is proportional to initialSliceExtent(), but the bounds are proportional to the circumradius.
-    // When an array gets its second time step, the ratio of the extent to the circumradius grows, so the new values may
-    // exceed the bounds.
+    // Clamp the values, because spanningSpacing() is proportional to initialSliceExtent(), but the bounds are
+    // proportional to the circumradius. The ratio of these two lengths grows when an array gets its second time step.
     slices.spacing = std::clamp(slices.spacing, kMinSpacing * radius, kMaxSpacing * radius);
     slices.offset = std::clamp(slices.offset, -reach, reach);
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));

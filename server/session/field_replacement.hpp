@@ -1,5 +1,5 @@
 #pragma once
-// Replaces a field by a version of it that is longer or finer, without an undo step.
+// Replaces a field by a longer or finer version of the same field, without an undo step.
 
 #include <cstdint>
 #include <optional>
@@ -9,24 +9,27 @@
 
 namespace oval4d::session {
 
-/// How a field differs from the one that it replaces.
+/// The difference between a new field and the field that it replaces.
 enum class FieldReplacement : std::uint8_t {
-    longer,  ///< it has more time steps
-    finer    ///< it is a finer level of the same image, in nearly the same box
+    longer,  ///< the new field has more time steps
+    /// The new field is a finer resolution level of the same image, in nearly the same box.
+    finer
 };
 
 /// Replaces the field `before` by `after` in the current state, in the states of the history and among the loaded
-/// objects. Adds no undo step; increases the revision if the current state shows the field. Keeps all settings, with
-/// these exceptions. If the field is longer, spacing and offset keep their ratios to slicing::initialSliceExtent(). If
-/// it is finer, the spacing becomes spanningSpacing() if it was that before. Spacing, offset and focus point are
-/// clamped to their bounds; and if the cell types of the domain change, all its cells become visible.
+/// objects. Adds no undo step. Increases the revision if the current state shows the field. Settings stay the same,
+/// with these exceptions:
+///  - For a longer field, spacing and offset keep their ratios to slicing::initialSliceExtent().
+///  - For a finer field, the spacing stays spanningSpacing() if it was that before.
+///  - Spacing, offset and focus point are clamped to their bounds.
+///  - If the cell types of the domain change, all its cells become visible.
 void replaceField(Session& session, const slicing::Object& before, const slicing::Object& after, FieldReplacement how);
 
-/// Returns how to load the next finer level of the image that the state shows; an empty optional if none is to follow
-/// (see fields::ImageLevel::finer).
+/// Returns the command that loads the next finer level of the multiscale image that the state shows. Returns an empty
+/// optional if no finer level is to be loaded.
 std::optional<LoadObject> loadOfFinerLevel(const State& state);
 
-/// Returns the same field as `field`, after which no finer level is to follow.
+/// Returns a copy of `field` for which loadOfFinerLevel() returns no further level.
 slicing::Object withoutFinerLevels(const slicing::Object& field);
 
 }  // namespace oval4d::session

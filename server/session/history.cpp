@@ -9,38 +9,38 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns `state` with the camera at this orbit.
+// Returns a copy of `state` in which the camera has the given orbit.
 State withOrbit(State state, const scene::CameraOrbit& orbit) {
     state.look.orbit = orbit;
     return state;
 }
 
-// Returns whether the states differ at most in the camera. Two transformations of the same object to the same frame of
-// reference count as equal.
+// Returns whether two states are equal apart from the camera. Different transformations of one object to the same frame
+// of reference count as equal.
 bool isSameStep(const State& a, const State& b) {
     State compared = withOrbit(a, b.look.orbit);
     if (a.source == b.source && a.referenceFrame == b.referenceFrame) compared.object = b.object;
     return compared == b;
 }
 
-// Returns whether the change from `before` to `next` is a step of its own. The end of continuous turning, and that of
-// playing, belong to the step that started them.
+// Returns whether the change from `before` to `next` needs an undo step of its own. The end of continuous turning or of
+// playing needs none, because it belongs to the step that started the motion.
 bool isNewStep(State before, const State& next) {
     before.turning = before.turning && next.turning;
     before.playing = before.playing && next.playing;
     return !isSameStep(before, next);
 }
 
-// Appends `state` to `steps`. If the last step differs from `state` at most in the camera, `state` replaces this step.
+// Appends `state` to `steps`. Replaces the last step if it equals `state` apart from the camera.
 template <typename Steps>
 void addStep(Steps& steps, const State& state) {
     if (!steps.empty() && isSameStep(steps.back(), state)) steps.pop_back();
     steps.push_back(state);
 }
 
-// Finds the last step of `from` that differs from the current state in more than the camera. Makes this step the
-// current state, but keeps the camera, and appends the former current state to `to`. Removes from `from` the step and
-// those after it. Returns false and changes nothing if there is no such step.
+// Makes the last step of `from` that differs from the current state, apart from the camera, the current state. Keeps
+// the camera, and appends the former current state to `to`. Removes this step and all later ones from `from`. If there
+// is no such step, returns false and changes nothing.
 template <typename From, typename To>
 bool moveToLastStep(Session& session, From& from, To& to) {
     const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };
@@ -58,12 +58,11 @@ std::size_t bytesOfFilter(const State& state) {
     return sizeof(std::uint32_t) * (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size());
 }
 
-/// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory is the
-/// sum of two parts: the lists of hidden and faded cell types of all undo steps, and the objects of undo steps that are
-/// neither in the current state nor in Session::loaded. Each such object counts once, with unsharedMemory(), which is 0
-/// for what all sessions share. Redo steps are not considered.
+/// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
+/// of the lists of hidden and faded cell types of all undo steps, and of the objects that are neither in the current
+/// state nor in Session::loaded. Each such object counts once, with unsharedMemory(). Redo steps are not considered.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
-    std::map<const void*, std::size_t> steps;  // by slicing::identityOf(): how often undo steps contain the object
+    std::map<const void*, std::size_t> steps;  // how many times undo steps contain an object, by slicing::identityOf()
     std::size_t bytes = 0;
     const auto isHeld = [&](const slicing::Object& object) {
         return object == session.current.object || object == session.current.source ||
@@ -86,7 +85,7 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     }
 }
 
-// Makes `next` the current state. The caller must ensure that `next` differs from the current state.
+// Makes `next` the current state, without an undo step. `next` must differ from the current state.
 void replaceCurrent(Session& session, State next, const Limits& limits) {
     const bool historyGrows = session.current.object != next.object || session.current.source != next.source ||
                               bytesOfFilter(session.current) > 0;

@@ -28,15 +28,15 @@ void moveFocus(State& state, int to) {
     state.playing = false;
 }
 
-// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. If the
-// slices are thick, as those of a point cloud, returns the indices of the hyperplanes that are nearest to the points
-// with the least and the greatest w.
+// Returns the indices n (see HyperplaneSettings) of the first and the last hyperplane that intersect the object. Slices
+// of a point cloud are thick: then returns the hyperplanes nearest to the points with the least and the greatest w.
 std::pair<int, int> nonemptySlices(const State& state) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double slack = slicing::kOnPlaneTolerance * slicing::infoOf(state.object).circumradius;
     const auto [count, spacing, focus, offset] = state.slices;
     if (slicing::propertiesOf(state.object).slicesAreThick) {
-        // As in CloudSlicer, a point half way between two hyperplanes belongs to the upper one.
+        // A point half way between two hyperplanes belongs to the upper hyperplane, as in CloudSlicer, which makes the
+        // slices.
         return {static_cast<int>(std::floor((least - offset) / spacing + 0.5)),
                 static_cast<int>(std::floor((most - offset) / spacing + 0.5))};
     }
@@ -44,7 +44,7 @@ std::pair<int, int> nonemptySlices(const State& state) {
             static_cast<int>(std::floor((most + slack - offset) / spacing))};
 }
 
-// Moves the focus point by the spacing along this axis, 0 to 2, within the bounds of the point.
+// Moves the focus point by the spacing along an axis (0, 1 or 2 for x, y or z), within the bounds of the focus point.
 void moveFocusPoint(State& state, int axis, bool up) {
     const double reach = kMaxOffset * slicing::infoOf(state.object).circumradius;
     double& coordinate = state.look.focusPoint[axis];
@@ -65,28 +65,28 @@ VoidResult showNeighbor(ActionContext& c, int by) {
 const Error kNoRotationYet{ErrorCode::nothing_to_undo,
                            "nothing to repeat: no rotation has been made yet; 2 … 7, r, t and y make one"};
 
-// Shows this view or, if it is already shown, the oval.
+// Shows a view, or the oval if the view is already shown.
 void toggleView(State& state, scene::View view) {
     state.look.view = state.look.view == view ? scene::View::oval : view;
 }
 
-// Calls `act`, which returns void because it cannot fail, and returns success.
+// Calls `act`, an action that cannot fail, and returns success.
 template <auto act>
 VoidResult always(ActionContext& c) {
     act(c);
     return std::monostate{};
 }
 
-// Returns the value that follows `value` in its table of choices; for the last value, returns the first.
+// Returns the value after `value` in its table of choices. After the last value comes the first.
 template <text::HasChoices Value>
 Value nextChoice(Value value) {
     const auto& choices = choicesOf(value);
     auto at = std::ranges::find(choices, value, &std::ranges::range_value_t<decltype(choices)>::value);
-    while (at != choices.end() && at->value == value) ++at;  // further rows of a value are its aliases
+    while (at != choices.end() && at->value == value) ++at;  // further rows with the same value are its aliases
     return at == choices.end() ? choices.begin()->value : at->value;
 }
 
-// Returns the actions that are written out one by one; allActions() makes the others from tables.
+// Returns the actions with code of their own. allActions() makes all others from tables.
 std::vector<Action> ownActions() {
     return {
         {"rotate", always<[](ActionContext& c) {
@@ -134,7 +134,7 @@ std::vector<Action> ownActions() {
     };
 }
 
-// Adds the actions that change the number of a setting by a step; see KeySteps.
+// Adds the actions that increase and decrease the number of a setting by a step (see KeySteps).
 template <typename Row>
 void addSteps(const Row& setting, std::vector<Action>& actions) {
     const auto add = [&](const std::string& ending, auto next) {
@@ -186,7 +186,8 @@ std::vector<Action> allActions() {
         }
     }
     for (const scene::ViewRow& row : scene::kViews) {
-        // The oval has no action of its own; View::single is toggled by the action "view" of ownActions().
+        // The oval needs no action, because all other actions lead back to it. The action "view" of ownActions()
+        // toggles the single view.
         if (row.value == scene::View::oval || row.value == scene::View::single) continue;
         actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> VoidResult {
                                toggleView(c.state, to);

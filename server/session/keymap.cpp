@@ -17,8 +17,8 @@ bool isUpper(const std::string& key) { return key.size() == 1 && key[0] >= 'A' &
 bool isLower(const std::string& key) { return key.size() == 1 && key[0] >= 'a' && key[0] <= 'z'; }
 bool isDigit(const std::string& key) { return key.size() == 1 && key[0] >= '0' && key[0] <= '9'; }
 
-// Normalizes a key: an uppercase letter becomes the lowercase letter with Shift. Shift is ignored for keys other than
-// letters and digits, because the character that such a key types already depends on Shift.
+// Normalizes a key. An uppercase letter becomes the lowercase letter with Shift. Keys other than letters and digits
+// lose Shift, because their character already depends on it.
 Key normalized(Key key) {
     if (key.key == "Space" || key.key == "Spacebar") key.key = " ";
     if (isUpper(key.key)) {
@@ -30,10 +30,10 @@ Key normalized(Key key) {
     return key;
 }
 
-// One row of the key table.
+// A row of the key table in protocol/keymap.json.
 struct KeyTableRow {
     Key key;
-    std::string first;  // in a sequence of two keys, the first one (`key` is the second); else empty
+    std::string first;  // the first key of a sequence of two keys, where `key` is the second; else empty
     Binding binding{};
     bool client = false;  // whether only the client handles this key
 };

@@ -1,5 +1,5 @@
 #pragma once
-// The key table from protocol/keymap.json.
+// The table of keys and their actions, from protocol/keymap.json.
 
 #include <optional>
 #include <string>
@@ -11,18 +11,18 @@
 
 namespace oval4d::session {
 
-/// The action of a key, and its arguments.
+/// The action that a key triggers, and the action's arguments.
 struct Binding {
     const Action* action = nullptr;
     geometry::Plane plane = geometry::Plane::xy;
-    bool isDoubleRotation = false;  ///< whether to rotate also by beta in the perpendicular plane
+    bool isDoubleRotation = false;  ///< whether to rotate also by the angle beta, in the perpendicular plane
     bool inverse = false;           ///< whether to apply the inverse rotation
 };
 
-/// Returns the binding of a key, or an empty optional if the key begins a sequence. `pending` is the first key of a
-/// sequence that has begun, or empty: the first g of "gg" sets it to "g", and a key with a binding clears it. A key
-/// that does not continue the sequence is handled as if no sequence had begun. Error: `unknown_key`, also for keys that
-/// only the client handles; `pending` is then unchanged.
+/// Returns the action of a key, or an empty optional if the key begins a sequence of two keys. `pending` is the first
+/// key of a sequence in progress; empty if there is none. The function updates `pending`: the first g of "gg" sets it
+/// to "g", and a key with an action clears it. A key that does not continue the sequence acts as if no sequence had
+/// begun. Error: `unknown_key`, also for keys that only the client handles; `pending` is then unchanged.
 Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending);
 
 }  // namespace oval4d::session

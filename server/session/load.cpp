@@ -46,7 +46,7 @@ std::size_t characters(std::string_view text) {
         std::ranges::count_if(text, [](char c) { return (static_cast<unsigned>(c) & kMask) != kContinuation; }));
 }
 
-// Returns at most the first `count` characters of a UTF-8 text.
+// Returns the first `count` characters of a UTF-8 text, or the whole text if it is shorter.
 std::string firstCharacters(std::string_view text, std::size_t count) {
     std::size_t end = 0;
     for (std::size_t length = 0; end < text.size(); ++end) {
@@ -62,7 +62,7 @@ Error errorOf(const FileError& error) {
     return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::message(error)};
 }
 
-// Appends a warning if the object was moved to its center because it is far from the origin of its file.
+// Appends a warning if the object has a new origin because it was far from the origin of its file.
 void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFile, std::vector<std::string>& warnings) {
     if (wanted.choice != geometry::Centering::OriginChoice::automatic || originInFile == glm::dvec4(0)) return;
     std::string center;
@@ -81,7 +81,7 @@ Result<ObjectWithWarnings> polytopeFrom(std::variant<polytopes::ImportedPolytope
     return ObjectWithWarnings{std::make_shared<const polytopes::Polytope>(std::move(polytope)), std::move(warnings)};
 }
 
-// Removes the vertices that lie on no 2-face. Returns their number.
+// Removes the vertices that no 2-face uses, and returns how many were removed.
 std::size_t removeUnusedVertices(std::vector<glm::dvec4>& vertices, geometry::JaggedArray& faces) {
     std::vector<std::uint32_t> number(vertices.size(), geometry::kNone);
     for (const std::uint32_t v : faces.items) number[v] = 0;
@@ -97,7 +97,7 @@ std::size_t removeUnusedVertices(std::vector<glm::dvec4>& vertices, geometry::Ja
     return removed;
 }
 
-// Reads a 4OFF file without cells. Throws a FileError if it is refused.
+// Reads a surface from a 4OFF file without cells. Throws a FileError if the file is invalid or too large.
 ObjectWithWarnings readSurface(std::string_view text, const LoadObject& load, const Limits& limits) {
     auto [soup, edges, shortRecord] = polytopes::readOff4(text, limits.maxVertices);
     if (soup.faces.size() == 0)
@@ -124,7 +124,7 @@ ObjectWithWarnings readSurface(std::string_view text, const LoadObject& load, co
     }
 }
 
-// Reads a 4OFF file: a polytope or, if the file lists no cells, a surface.
+// Reads a 4OFF file: a polytope, or a surface if the file lists no cells.
 Result<ObjectWithWarnings> readOff(const LoadObject& load, const Limits& limits) {
     try {
         const std::string text = text_files::plainText(load.data);
@@ -137,14 +137,14 @@ Result<ObjectWithWarnings> readOff(const LoadObject& load, const Limits& limits)
     }
 }
 
-// Reads a list of points, whose convex hull is the object.
+// Reads a list of points, and returns their convex hull.
 Result<ObjectWithWarnings> readHull(const LoadObject& load, const Limits& limits) {
     return polytopeFrom(polytopes::importPolytope(polytopes::FileFormat::points, load.data, load.name,
                                                   importLimits(limits), load.center),
                         load);
 }
 
-// Reads a point cloud: an optional keyword CLOUD, then a table of points, which may have radii.
+// Reads a point cloud: an optional keyword CLOUD, then a table of points with optional radii.
 Result<ObjectWithWarnings> readCloud(const LoadObject& load, const Limits& limits) {
     std::vector<glm::dvec4> points;
     std::vector<double> radii;
@@ -154,7 +154,7 @@ Result<ObjectWithWarnings> readCloud(const LoadObject& load, const Limits& limit
     };
     try {
         std::string text = text_files::plainText(load.data);
-        // Replace the keyword by blanks, and keep the comments above it, because they may belong to the table.
+        // Replace the keyword by blanks, but keep the comments above it: they may name the columns of the table.
         if (const std::string_view word = text_files::Tokenizer(text).next(); isCloudKeyword(word))
             text.replace(static_cast<std::size_t>(word.data() - text.data()), word.size(), word.size(), ' ');
         auto warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices, .radii = true}, add);
@@ -175,8 +175,7 @@ Result<ObjectWithWarnings> readFormulaText(const LoadObject& load, const Limits&
     return readFormula(load);
 }
 
-// Returns the bytes of the file that `load` specifies: those of `load.file` or, without it, `load.data` decoded from
-// Base64.
+// Returns the bytes of the file that `load` specifies: the file `load.file`, or `load.data` decoded from Base64.
 Result<fields::FileContents> contentsOf(const LoadObject& load) {
     if (load.file) return fields::FileContents::map(load.file->descriptor());
     const std::string& text = load.data;
@@ -198,7 +197,7 @@ Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& l
     return readArray(*file, load.name, optionsForReading(load, limits), {load.secondFormula, load.secondVariable});
 }
 
-// Returns an error if the ends of a box along any axis are in the wrong order. `name` is what the error calls the box.
+// Returns an error if a maximum of the box is less than the minimum. The error message calls the box `name`.
 std::optional<Error> checkOrder(const fields::Box& box, std::string_view name) {
     for (int axis = 0; axis < 4; ++axis) {
         if (box.min[axis] <= box.max[axis]) continue;
@@ -208,7 +207,7 @@ std::optional<Error> checkOrder(const fields::Box& box, std::string_view name) {
     return {};
 }
 
-// Returns the error of checkOrder(), or one if the box has no extent along an axis with several samples.
+// Returns the error of checkOrder(), or an error if the box has no extent along an axis with several samples.
 std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
     if (auto error = checkOrder(box, "box")) return error;
     for (int axis = 0; axis < 4; ++axis) {
@@ -237,14 +236,14 @@ std::vector<std::string> warningsOfRounding(const fields::Box& box) {
     return warnings;
 }
 
-// Makes a field from the array that `read` returns for these options, and sets the field's second function.
+// Makes a field from the array that `read` returns for `options`, and sets the field's second function.
 template <typename Read>
 Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::FieldReadOptions options,
                                       const SecondFunctionSource& second) {
     if (auto error = options.region ? checkOrder(*options.region, "region") : std::nullopt) return std::move(*error);
     Result<fields::FieldArray> array = read(options);
     if (!array) return array.error();
-    if (options.box) array->units = {};  // the units in the file belong to the box in the file, not to this one
+    if (options.box) array->units = {};  // the units in the file apply to the file's box only
     if (auto error = options.box ? checkBox(*options.box, array->shape) : std::nullopt) return std::move(*error);
     auto field = fields::fieldFromArray(name, *array);
     if (!field) return field.error();
@@ -266,10 +265,10 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
     return ObjectWithWarnings{std::make_shared<const fields::Field>(std::move(*field)), std::move(warnings)};
 }
 
-/// A file format that `load` messages can name, and its reader. The formats of arrays have no rows: they are those of
+/// A file format, its name in `load` messages, and its reader. Formats of arrays have no rows here: see
 /// fields::fieldFormats().
 struct FormatRow {
-    std::string_view name, title;  ///< the name in messages, and the name in the texts of errors
+    std::string_view name, title;  ///< `name` is used in messages, and `title` in the texts of errors
     Result<ObjectWithWarnings> (*read)(const LoadObject& load, const Limits& limits);
     bool buildsHull;
 };
@@ -351,7 +350,7 @@ fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits&
     if (newFile) options.maxSamples = fields::kMaxSamples;
     options.newFile = std::move(newFile);
     options.region = load.region;
-    // A second array has one level only.
+    // A second array has only one level, so the first array gets no coarser level either.
     if (load.secondVariable.empty()) options.maxInFirstLevel = limits.maxFirstLevelBytes / sizeof(float);
     if (load.finer) options.level = load.finer->level;
     return options;
@@ -369,7 +368,7 @@ std::string_view detectTextFormat(std::string_view text) {
         if (polytopes::detectFileFormat(plain) == polytopes::FileFormat::off4) return "off";
         return isCloudKeyword(text_files::Tokenizer(plain).next()) ? "cloud" : "points";
     } catch (const FileError&) {
-        return "points";  // reading the text as points then reports the fault
+        return "points";  // readObject() then reads the text as points and reports the fault
     }
 }
 
@@ -392,7 +391,8 @@ std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
         return Error{ErrorCode::bad_polytope,
                      text::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }
-    constexpr std::string_view kZarr = "zarr";  // recognized by its files, whatever format is named
+    constexpr std::string_view kZarr = "zarr";  // a Zarr folder is recognized by its files, whatever format the command
+                                                // names
     const bool detected = load.isArrayInFiles() && (load.format.empty() || load.format == kZarr);
     if (!detected && formatNamed(load.format) == nullptr) return unsupported(load.format);
     const bool array = detected || isArrayFormat(load.format);

@@ -12,7 +12,7 @@ namespace oval4d::session {
 
 namespace {
 
-// The maximum number of elements of a small object. Transforming it takes less than 0.2 ms and 128 KiB.
+// The maximum number of elements of a small object. Transforming a small object takes less than 0.2 ms and 128 KiB.
 constexpr std::size_t kSmall = 1000;
 
 const Error kLater{ErrorCode::internal, "the object is not available yet"};
@@ -65,9 +65,12 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
 Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
-    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // never deferred, because it is fast
+    if (load.format == kFormula)
+        return *(fromFile_ = readFormula(load));  // never deferred, because making a field
+                                                  // from a formula is fast
     if (mode_ == LoadingMode::deferred) {
-        // The command line makes a load anew whenever it parses a line. Such a load is small, unlike one with data.
+        // A load from the data folder is copied, because a command line creates a new one whenever its line is parsed.
+        // The copy is small. A load with data would be large.
         ofDataFolder_ = load.dataName.empty() ? nullptr : std::make_shared<const LoadObject>(load);
         pending_ = ofDataFolder_ ? ofDataFolder_.get() : &load;
         return kLater;
@@ -103,7 +106,7 @@ Result<slicing::CriticalSectionsPtr> ObjectLoader::search(const CriticalSearchAr
                                                           std::stop_token stop) {
     const auto& [object, orientation, settings] = arguments;
     if (search_.cache != nullptr) {
-        // Another search may have found the critical sections while this search waited for a worker.
+        // Another search may have found the critical sections while this search waited for a thread.
         if (auto known = search_.cache->find(object, orientation, settings)) return known;
     }
     auto found = slicing::findCriticalSections(object, orientation, settings, {search_.time, std::move(stop)});
@@ -152,11 +155,12 @@ void ObjectLoader::completePending(std::stop_token stop) {
 
 std::size_t ObjectLoader::memoryNeeded() const {
     constexpr std::size_t kFixed = 64U << 10U;
-    constexpr std::size_t kPerTextByte = 16;  // numbers, their copy for repairs, the polytope, and its incidences
-    constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data of the construction
+    constexpr std::size_t kPerTextByte = 16;  // the numbers, a copy of them for repairs, the polytope, and its
+                                              // incidences
+    constexpr std::size_t kPerElement = 256;  // points, incidences, and temporary data while the polytope is built
     if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
-        // The samples are in memory twice: in the message of the process that reads the file, and in the field. A
-        // sample of one byte in the file is a float, of four bytes, in both.
+        // The samples are in memory twice: in the message from the process that reads the file, and in the field. A
+        // sample of one byte in the file becomes a 32-bit float in both places.
         constexpr std::size_t kCopies = 2, kPerFileByte = kCopies * sizeof(float);
         const std::size_t file = (*load)->file ? (*load)->file->size() : 0;
         return kFixed + kPerTextByte * (*load)->data.size() +
@@ -164,8 +168,8 @@ std::size_t ObjectLoader::memoryNeeded() const {
     }
     if (const auto* extension = std::get_if<TimeStepsToAppend>(&pending_))
         return kFixed + slicing::memoryOf(extension->field) + slicing::memoryOf(extension->added);
-    // Counts the memory of the critical values, which is small for a field, but not the memory of the search itself,
-    // which is as much as that of drawing a picture.
+    // Counts the memory of the critical values, which is small for a field. Does not count the memory of the search
+    // itself, which needs as much as drawing a picture.
     if (const auto* arguments = std::get_if<CriticalSearchArguments>(&pending_))
         return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
     constexpr std::size_t kPerTransformedElement = 128;
@@ -187,11 +191,11 @@ std::size_t ObjectLoader::loadedObjectMemory() const {
 }
 
 std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
-    // In seconds. kElement: for each element of a polytope that is built. kByte: for each byte of a file that lists the
-    // elements of a polytope or the points of a cloud. kPointByte: for each byte of a list of points whose convex hull
-    // is computed. kArrayByte: for each byte of an array. kTransformedElement: for each element of an object that is
-    // transformed. kSearch: for a search for critical values of w. kHullPoint: for each point of the convex hulls that
-    // are computed to build a polytope (see Recipe::hullPointCount()).
+    // Durations in seconds: kElement per element of a polytope that is built; kByte per byte of a file that lists the
+    // elements of a polytope or the points of a cloud; kPointByte per byte of a list of points whose convex hull is
+    // computed; kArrayByte per byte of an array; kTransformedElement per element of an object that is transformed;
+    // kSearch per search for critical values of w; kHullPoint per point of the convex hulls from which a polytope is
+    // built.
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kTransformedElement = 4e-8,
                      kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;

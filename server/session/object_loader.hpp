@@ -1,6 +1,5 @@
 #pragma once
-// Builds polytopes and reads files for commands. Building and reading are the slow parts of commands, so another thread
-// can do them.
+// Builds polytopes and reads files for commands. These are the slow parts of commands, so another thread can do them.
 
 #include <chrono>
 #include <cstddef>
@@ -24,35 +23,37 @@
 
 namespace oval4d::session {
 
-/// Reads the object that a command specifies. Parameters, result and errors are those of readObject().
+/// A function that reads the object that a command specifies. Parameters, result and errors are those of readObject().
 using FileReader = std::function<Result<ObjectWithWarnings>(const LoadObject& load, const Limits& limits)>;
 
-/// How a loader searches for critical values of w: those at which the type of the section changes.
+/// Options of the search for critical values of w. At these values, the type of the section changes.
 struct CriticalSearchOptions {
-    slicing::CriticalSectionsCache* cache = nullptr;  ///< may be null; must outlive the loader
-    /// The maximum search time: see CriticalSearchLimits::time.
+    slicing::CriticalSectionsCache* cache = nullptr;  ///< results of earlier searches; may be null; must outlive the
+                                                      ///< loader
+    /// The maximum duration of a search.
     std::chrono::duration<double> time = slicing::CriticalSearchLimits{}.time;
 };
 
-/// What the critical values of w of an object depend on.
+/// Everything that determines the critical values of w of an object.
 struct CriticalSearchArguments {
     slicing::Object object;
     geometry::Rotation orientation;
-    slicing::FieldSettings settings;  ///< `levels` and `inside` of a field; all other members have their default values
+    /// For a field, `levels` and `inside` of its settings; all other members have default values.
+    slicing::FieldSettings settings;
     bool operator==(const CriticalSearchArguments&) const = default;
 };
-/// Returns the arguments that determine the critical values of w of the object that the state shows.
+/// Returns the arguments of a search for the critical values of w of the object that the state shows.
 CriticalSearchArguments criticalSearchArguments(const State& state);
 
-/// Provides the objects that one command needs, and the critical values of w of an object. With LoadingMode::immediate,
-/// polytopeOf(), objectFrom() and the other functions build or read the object before they return. With
-/// LoadingMode::deferred, they return an error if the object is not available yet, and the object becomes pending.
-/// needsLoading() calls them to find what a command needs; the caller must call completePending(), on any thread, and
-/// needsLoading() again, until nothing is pending. What was available once stays available, even if a cache drops it in
-/// the meantime. A loader can be moved, also while something is pending.
+/// A provider of the objects that one command needs, and of critical values of w. With LoadingMode::immediate,
+/// polytopeOf(), objectFrom() and similar functions do their slow work before they return. With LoadingMode::deferred,
+/// they return an error if the result is not available yet, and the work becomes pending. needsLoading() calls them to
+/// find what a command needs. The caller then calls completePending(), on any thread, and needsLoading() again, until
+/// nothing is pending. Results stay available, even if a cache drops them in the meantime. A loader can be moved at any
+/// time.
 class ObjectLoader {
   public:
-    /// Whether slow work is done at once, or by completePending().
+    /// Whether the loader does slow work at once, or in completePending().
     enum class LoadingMode : bool { immediate, deferred };
 
     /// Creates a loader with LoadingMode::immediate that reads files in the calling process.
@@ -61,58 +62,58 @@ class ObjectLoader {
     ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache, LoadingMode mode, FileReader reader,
                  CriticalSearchOptions search = {});
 
-    /// Returns the polytope of this design. Errors: `unknown_polytope` if it cannot be built; `too_large` if the
-    /// computation of a convex hull exceeds a limit, which is not known before the computation.
+    /// Returns the polytope of a design (the recipe for a named polytope). Errors: `unknown_polytope` if the polytope
+    /// cannot be built; `too_large` if the computation of a convex hull exceeds a limit.
     Result<slicing::Object> polytopeOf(const polytopes::Design& design);
 
-    /// Returns the object that `load` specifies. `load` must outlive the loader, unless it names an array in the data
-    /// folder. Errors: those of checkLoad() and readObject().
+    /// Returns the object that `load` specifies. `load` must outlive the loader, unless it names an array in the
+    /// server's data folder. Errors: the errors of checkLoad() and readObject().
     Result<ObjectWithWarnings> objectFrom(const LoadObject& load);
 
-    /// Returns `source` transformed to `frame` (see slicing::transformedTo()). An object with few elements is
-    /// transformed at once even with LoadingMode::deferred. With this mode, the loader keeps the results and transforms
-    /// an object to a frame only once.
+    /// Returns `source` in the coordinates of the frame of reference `frame` (see slicing::transformedTo()). Objects
+    /// with at most 1000 elements are transformed at once, even with LoadingMode::deferred. With this mode, the loader
+    /// keeps the results, so it transforms an object to a frame only once.
     Result<slicing::Object> transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
-    /// Returns the result of session::appendTimeSteps().
+    /// Returns the array `field`, extended by the time steps of `added` (see session::appendTimeSteps()).
     Result<slicing::Object> fieldWithTimeSteps(const slicing::Object& field, const slicing::Object& added);
 
-    /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). If
-    /// the search was deferred, the result is for the state at the time of the first call, even if the object has
-    /// turned since. The search is never deferred for an object with few elements, unless it is a field. Error:
-    /// `canceled` if the search was stopped.
+    /// Returns the critical values of w of the object that the state shows (see slicing::findCriticalSections()). A
+    /// deferred search gives the result for the state at the first call, even if the object has turned since. Only
+    /// searches in fields and in objects with more than 1000 elements are deferred. Error: `canceled` if the search was
+    /// stopped.
     Result<slicing::CriticalSectionsPtr> criticalSections(const State& state);
 
-    /// Returns whether an object or a search is pending: a function failed only because its result is not available
-    /// yet.
+    /// Returns whether an object or a search is pending. If so, a function of the loader has failed only because its
+    /// result is not available yet.
     bool isPending() const { return !std::holds_alternative<std::monostate>(pending_); }
-    /// Replaces the FileReader.
+    /// Replaces the function that reads files.
     void readFilesWith(FileReader reader) { reader_ = std::move(reader); }
-    /// Returns whether the pending object must be read by the FileReader.
+    /// Returns whether the pending object comes from a file, so that the FileReader must read it.
     bool pendingNeedsFile() const { return std::holds_alternative<const LoadObject*>(pending_); }
     /// Returns whether a search for critical values of w is pending. A search takes longer than drawing a picture.
     bool isSearchPending() const { return std::holds_alternative<CriticalSearchArguments>(pending_); }
-    /// Builds, reads or transforms the pending object, or finds the pending critical values of w. Does nothing if
-    /// nothing is pending. `stop` ends a search for critical values of w, which then fails with `canceled`.
+    /// Builds, reads or transforms the pending object, or searches for the pending critical values of w. Does nothing
+    /// if nothing is pending. `stop` ends a search for critical values, which then fails with `canceled`.
     void completePending(std::stop_token stop = {});
-    /// Returns the estimated duration of completePending(). For entries of the catalogue, it is accurate to within a
-    /// factor of three.
+    /// Returns the estimated duration of completePending(). The estimate for a polytope of the catalogue is accurate to
+    /// within a factor of three.
     std::chrono::duration<double> estimatedDuration() const;
 
-    /// Returns the estimated memory in bytes that completePending() and its result use; 0 if nothing is pending. For
-    /// the array of a compressed file, the estimate may be too low; afterward, loadedObjectMemory() states the actual
-    /// memory.
+    /// Returns the estimated memory, in bytes, of completePending() and its result; 0 if nothing is pending. The
+    /// estimate may be too low for an array in a compressed file. After completePending(), loadedObjectMemory() returns
+    /// the actual memory.
     std::size_t memoryNeeded() const;
     /// Returns the memory, in bytes, of the object that was read from a file and of the array that was extended. Does
-    /// not count polytopes that were built and objects that were transformed.
+    /// not count polytopes that were built, nor objects that were transformed.
     std::size_t loadedObjectMemory() const;
-    /// Returns ObjectWithWarnings::warnings of the object that was read; an empty list if none was read.
+    /// Returns the warnings of the object that was read from a file; an empty list if no object was read.
     std::vector<std::string> warnings() const;
 
   private:
     struct ObjectInReferenceFrame {
         slicing::Object source;
         geometry::ReferenceFrame frame;
-        slicing::Object object = {};  // `source` in `frame`; null while it is pending
+        slicing::Object object = {};  // `source` in the coordinates of `frame`; null while pending
     };
 
     Result<slicing::CriticalSectionsPtr> search(const CriticalSearchArguments& arguments, std::stop_token stop);
@@ -123,23 +124,27 @@ class ObjectLoader {
     LoadingMode mode_;
     FileReader reader_;
     CriticalSearchOptions search_;
-    // Time steps to append: those of the array `added`, at the end of the array `field`.
+    // The time steps of the array `added`, which will be appended to the array `field`.
     struct TimeStepsToAppend {
         slicing::Object field, added;
     };
     std::variant<std::monostate, polytopes::Design, const LoadObject*, ObjectInReferenceFrame, TimeStepsToAppend,
                  CriticalSearchArguments>
         pending_;
-    std::shared_ptr<const LoadObject> ofDataFolder_;  // the pending load if it names an array in the data folder
-    std::string builtName_;                           // the name of the design from which `built_` was built
+    // The pending command if it names an array in the server's data folder; else null. `pending_` points to this
+    // command.
+    std::shared_ptr<const LoadObject> ofDataFolder_;
+    std::string builtName_;  // the name of the design of the polytope `built_`
     std::optional<Result<slicing::Object>> built_;
     std::optional<Result<ObjectWithWarnings>> fromFile_;
-    slicing::Object extendedFrom_;  // the array to which time steps were added to make `extended_`
+    // The array that fieldWithTimeSteps() has extended to `extended_`.
+    slicing::Object extendedFrom_;
     std::optional<Result<slicing::Object>> extended_;
     slicing::Object searched_;  // the object whose critical values of w are `critical_`
     std::optional<Result<slicing::CriticalSectionsPtr>> critical_;
-    // The transformed objects: at most one in the frame before the command and one in the frame after it, because a
-    // command may change both the object and the frame; more only if the session changes in the meantime.
+    // Objects in the coordinates of a frame of reference. A command may change both the object and the frame, so it
+    // needs an object in the old and in the new frame. There are more than two entries only if the session changes in
+    // the meantime.
     std::vector<ObjectInReferenceFrame> objectsInFrames_;
 };
 

@@ -14,8 +14,8 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns "; did you mean …?" with the most similar names in the catalogue, or with the name of an example field or a
-// loaded object if that is at least as similar; an empty string if nothing is similar.
+// Returns "; did you mean …?" with the most similar names in the catalogue. Prefers an example field or a loaded object
+// whose name is at least as similar. Returns an empty string if no name is similar.
 std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
     name = name.substr(0, polytopes::kMaxNameBytes);
     std::vector<std::string_view> near = polytopes::equallyNearestNames(name);

@@ -5,8 +5,8 @@
 namespace oval4d::session {
 
 void writePicture(const State& state, scene::Viewport viewport, slicing::Quality quality, scene::PictureRequest& out) {
-    // All members are named, so that this function does not compile without a new member. If the new member affects
-    // pictures, it must be in the request, too. The angles of the keys and the motion do not.
+    // All members are named, so a new member of State makes this line fail to compile. Members that affect pictures
+    // must be copied to the request. The angles of the rotation keys and the motion do not affect pictures.
     const auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing,
                  playing, playsDownward, playSpeed] = state;
     auto& [outSource, outFrame, outObject, outOrientation, outPlanes, outFocus, outLook, outViewport, outQuality] = out;

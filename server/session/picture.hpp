@@ -5,10 +5,10 @@
 
 namespace oval4d::session {
 
-/// Writes the request for the picture of a state. Overwrites `out` and reuses its memory.
+/// Writes to `out` what is needed to draw the picture of a state. Overwrites `out` and reuses its memory.
 void writePicture(const State& state, scene::Viewport viewport, slicing::Quality quality, scene::PictureRequest& out);
 
-/// Returns what writePicture() writes.
+/// Returns the request that writePicture() writes.
 scene::PictureRequest pictureOf(const State& state, scene::Viewport viewport = {},
                                 slicing::Quality quality = slicing::Quality::full);
 

@@ -21,7 +21,7 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns the parameters that name the object. Error: `unknown_polytope` if an address cannot contain the object.
+// Returns the query parameters that name the object. Error: `unknown_polytope` if an address cannot contain the object.
 Result<QueryParameters> objectParameters(const slicing::Object& object) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     const fields::Field* const field = slicing::fieldIn(object);
@@ -44,7 +44,7 @@ Result<QueryParameters> objectParameters(const slicing::Object& object) {
     return parameters;
 }
 
-// Returns the rotation from the initial orientation, such as "xy,zw:0.1,0.2"; an empty string if there is none.
+// Returns the rotation from the initial orientation as text, such as "xy,zw:0.1,0.2"; an empty string for no rotation.
 std::string rotationText(const geometry::Rotation& orientation) {
     const geometry::Turn turn = orientation.turn();
     std::string planes;
@@ -56,8 +56,8 @@ std::string rotationText(const geometry::Rotation& orientation) {
     return planes.empty() ? "" : planes + ":" + numberList(angles);
 }
 
-// Parses `Count` numbers or expressions, separated by commas, as the value of the parameter `name`. `form` describes
-// the value in error messages.
+// Parses `Count` numbers or expressions, separated by commas. Error messages call the parameter `name` and describe its
+// value with `form`.
 template <std::size_t Count>
 Result<std::array<double, Count>> parseNumbers(std::string_view name, std::string_view form, std::string_view text) {
     std::array<double, Count> numbers{};
@@ -76,8 +76,8 @@ Result<std::array<double, Count>> parseNumbers(std::string_view name, std::strin
     return numbers;
 }
 
-// Returns the error for a name that stateFromQuery() does not accept: an unknown name, one of `others` (see
-// stateFromQuery()), or a name that is allowed only in the queries of pictures or only in those of files.
+// Returns the error for a name that stateFromQuery() does not accept. The name may be unknown, may be one of `others`
+// (as in stateFromQuery()), or may be allowed only in the queries of pictures or of files.
 Error unknownName(std::string_view name, std::span<const std::string_view> others) {
     const auto isIn = [&](std::span<const std::string_view> names) {
         return std::ranges::find(names, name) != names.end();
@@ -117,7 +117,7 @@ Result<geometry::Centering> parseCenter(std::string_view written) {
 
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader, State state,
                              std::span<const std::string_view> others) {
-    // Settings are collected and applied together, so that a count and a spacing in either order give the same state.
+    // Apply all settings together, so that the order of a count and a spacing in the query does not matter.
     Set set;
     std::vector<geometry::Turn> turns;
     std::optional<TurnToward> toward;
@@ -181,8 +181,8 @@ Result<QueryParameters> queryFromState(const State& state, ObjectLoader& loader)
         query->emplace_back("rotate", rotation);
     State fresh = initialState();
     if (auto done = replaceObject(fresh, state.source, loader); !done) return done.error();
-    // A query with the number of slices or the frame of reference must contain the spacing, too, even the initial one:
-    // otherwise stateFromQuery() would change the spacing.
+    // If the query changes the number of slices or the frame of reference, stateFromQuery() changes the spacing. So
+    // such a query must contain the spacing, even if this is the initial one.
     const bool isSpaced = state.slices.count == fresh.slices.count && state.referenceFrame == fresh.referenceFrame;
     const QueryParameters initial = settingTexts(settingsOf(fresh));
     for (auto& setting : settingTexts(settingsOf(state))) {

@@ -13,7 +13,7 @@ namespace oval4d::session {
 
 namespace {
 
-/// Returns a query as it was before a mailer or a forum wrote its "&" as "&amp;", or encoded its percent signs again
+/// Returns a query as it was before a mailer or a forum replaced "&" by "&amp;" or encoded the percent signs again
 /// (%252C).
 std::string repaired(std::string_view query) {
     std::string out;
@@ -29,8 +29,8 @@ std::string repaired(std::string_view query) {
     return out;
 }
 
-/// The rules of protocol/address.json: names of parameters to ignore, and of parameters whose values are not
-/// arithmetic.
+/// The rules of protocol/address.json: names of parameters to ignore, and names of parameters whose values are not
+/// arithmetic expressions.
 struct SpecialParameters {
     std::vector<std::string> ignored, texts;
 };
@@ -43,21 +43,21 @@ const SpecialParameters& rules() {
     return read;
 }
 
-/// Returns whether a parameter is one of those that other sites append to addresses.
+/// Returns whether to ignore a parameter, because other sites append it to addresses ("utm_source", for example).
 bool isIgnored(std::string_view name) {
     return std::ranges::any_of(rules().ignored, [&](std::string_view rule) {
         return rule.ends_with('*') ? name.starts_with(rule.substr(0, rule.size() - 1)) : name == rule;
     });
 }
 
-/// Returns whether an operand of an arithmetic operator can end with `c`, where `parenthesis` must be ')', or can begin
-/// with `c`, where `parenthesis` must be '('. decodedValue() uses this to find a "+" between two operands.
+/// Returns whether an operand of "+" can have `c` at its end next to the plus sign. For the end of a left operand,
+/// `parenthesis` must be ')'. For the beginning of a right operand, it must be '('.
 bool isOperand(char c, char parenthesis) {
     const bool isAscii = static_cast<unsigned char>(c) < 0x80;
     return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;
 }
 
-/// Returns whether a text begins with the unit of an angle. The function deg() is not a unit.
+/// Returns whether a text begins with a unit of an angle: "°", "deg" or "rad". The function "deg(" is not a unit.
 bool startsWithUnit(std::string_view text) {
     if (text.starts_with("°")) return true;
     constexpr std::size_t kLetters = 3;
@@ -65,9 +65,10 @@ bool startsWithUnit(std::string_view text) {
     return text.size() == kLetters || (!text::isLetter(text[kLetters]) && text[kLetters] != '(');
 }
 
-/// Decodes the value of a parameter. A "+" is a blank, as in forms (application/x-www-form-urlencoded). Where the value
-/// is arithmetic, however, a "+" between two operands is a plus sign, as in 0.1+pi/8, because a blank has no meaning
-/// there; a unit, as in 30+°, is no operand. Returns an empty optional if an escape is malformed.
+/// Decodes the value of the parameter `name`. A "+" means a blank, as in HTML forms
+/// (application/x-www-form-urlencoded). In arithmetic values, a "+" between two operands remains a plus sign, as in
+/// 0.1+pi/8. A unit is not an operand: in 30+°, the "+" is a blank. Returns an empty optional if a percent escape is
+/// malformed.
 std::optional<std::string> decodedValue(std::string_view written, const std::string& name) {
     const bool isArithmetic = std::ranges::find(rules().texts, name) == rules().texts.end();
     std::string value;
@@ -107,7 +108,7 @@ std::optional<QueryParameters> parseQuery(std::string_view text) {
 }
 
 std::string queryText(const QueryParameters& query) {
-    // These characters may stand in a query as they are (RFC 3986, section 3.4), and keep it readable.
+    // These characters are allowed in queries without escapes (RFC 3986, section 3.4). Plain, they are easier to read.
     constexpr std::string_view kPlain = ",:;/=*()";
     std::string text;
     for (const auto& [name, value] : query) {

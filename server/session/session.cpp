@@ -33,15 +33,14 @@ namespace {
 
 using VoidResult = Result<std::monostate>;
 
-// Combines the rotations of an undo step, such as those of a gesture, into one turn from `before` to `next`. The newest
-// rotation is `next.lastTurn`, from `current` to `next`. If the rotations cancel out, returns the last turn of
-// `before`.
+// Combines the rotations of an undo step into one turn, from the state `before` the step to `next`. `next.lastTurn` is
+// the newest rotation, from `current` to `next`. Returns `before.lastTurn` if the rotations cancel out.
 std::optional<geometry::Turn> turnOfStep(const State& before, const State& current, const State& next) {
     constexpr double kSame = 1e-9;
     const geometry::Rotation whole = next.orientation * before.orientation.inverse();
     if (whole.largerAngle() < kSame) return before.lastTurn;
     if (current.lastTurn && next.lastTurn) {
-        // Turns in the same plane add up, even beyond half a turn.
+        // Turns in the same planes add up, even beyond half a turn.
         const geometry::Turn sum = *current.lastTurn + *next.lastTurn;
         if (checkTurn(sum) && (geometry::Rotation(sum) * whole.inverse()).largerAngle() < kSame) return sum;
     }
@@ -61,11 +60,11 @@ void moveFocusToAndFro(State& state, double seconds) {
     }
 }
 
-// Returns whether a parameter of a query describes the connection or the size of a picture, not the view.
+// Returns whether a query parameter describes the connection or the size of a picture, and not the view.
 bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
-// Returns a random rotation; all rotations are equally probable. Its quaternions are uniformly distributed on the unit
-// sphere (K. Shoemake, "Uniform random rotations", Graphics Gems III, 1992). The same seed gives the same rotation.
+// Returns a random rotation; all rotations are equally probable. Its two unit quaternions are uniformly distributed (K.
+// Shoemake, "Uniform random rotations", Graphics Gems III, 1992). The same seed gives the same rotation.
 geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     std::mt19937_64 random(seed ? *seed : std::random_device()());
     const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11U), -53); };  // 0 ≤ u < 1
@@ -78,8 +77,8 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     return {left, quaternion()};
 }
 
-// Computes the outcome of the commands that may need an object or critical values of w from the loader. Does not change
-// the session.
+// A class that computes the outcome of a command that may need an object or critical values of w from the loader. Does
+// not change the session.
 class OutcomeOfCommand {
   public:
     OutcomeOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
@@ -102,7 +101,7 @@ class OutcomeOfCommand {
         if (VoidResult done = applySet(outcome.next, command, loaded, limits_, loader_); !done) return done.error();
         return outcome;
     }
-    // Requires that LoadObject::append is false.
+    // LoadObject::append must be false.
     Result<Outcome> of(const LoadObject& command) const {
         if (VoidResult room = checkRoom(session_.loaded, command.name); !room) return room.error();
         const auto reading = loader_.objectFrom(command);
@@ -136,7 +135,7 @@ class OutcomeOfCommand {
             return std::ranges::find(*query, name, &QueryParameters::value_type::first) != query->end();
         };
         State start = session_.current;
-        // The rotations of an address lead from the initial orientation to its view.
+        // The rotations in an address start from the initial orientation.
         if (has("rotate") || has(kPolytope) || has(kField) || has(kFormula)) returnToInitialOrientation(start);
         auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
         if (!next) return next.error();
@@ -150,7 +149,7 @@ class OutcomeOfCommand {
         return outcome;
     }
 
-    // Returns the loaded array called `command.name`, extended by the time steps in the file of `command`.
+    // Returns the loaded array `command.name`, extended by the time steps in the file of `command`.
     Result<slicing::Object> extendedField(const LoadObject& command) const {
         const auto loaded = session_.loaded.find(command.name);
         if (loaded == session_.loaded.end())
@@ -167,7 +166,8 @@ class OutcomeOfCommand {
                                               " loaded objects; load under a name that is in use to replace one"};
     }
 
-    // Adds the field of a formula to `loaded`, unless the field of this name has the same formulas and the same box.
+    // Adds the field of a formula to `loaded`, unless `loaded` or the example fields have the same field with this
+    // name.
     VoidResult loadFormula(const LoadObject& load, LoadedObjects& loaded) const {
         if (const auto present = loadedOrExample(load.name, loaded)) {
             const fields::Field* const field = slicing::fieldIn(*present);
@@ -188,10 +188,10 @@ class OutcomeOfCommand {
     ObjectLoader& loader_;
 };
 
-// Applies each command to a copy of the state, which becomes the current state only on success.
+// A visitor that applies commands to a session. Changes a copy of the state, and stores the copy only on success.
 class CommandApplier {
   public:
-    // `computed`: the outcome of the command, if it has been computed before.
+    // `computed` is the outcome of the command if needsLoading() has computed it, else empty.
     CommandApplier(Session& session, const Limits& limits, ObjectLoader& loader, ComputedOutcome computed)
         : session_(session), limits_(limits), outcome_(session, limits, loader), computed_(std::move(computed)) {}
 
@@ -199,7 +199,7 @@ class CommandApplier {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
-        session_.pendingKey = std::move(pending);  // a sequence ends also if its action is refused
+        session_.pendingKey = std::move(pending);  // a failed action ends the sequence of keys, too
         return *binding ? press(**binding) : VoidResult(std::monostate{});
     }
     VoidResult operator()(const Rotate& command) {
@@ -207,8 +207,8 @@ class CommandApplier {
         State next = session_.current;
         rotate(next, command.turn);
         const State* const before = command.continues ? stateBeforeAmendableStep(session_) : nullptr;
-        // While the object turns continuously, the orientation changes between the rotations of a step, so turnOfStep()
-        // cannot derive them from the orientations.
+        // During continuous turning, the orientation also changes between the commands of a step. turnOfStep() cannot
+        // be used then, because it compares orientations.
         if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
         (command.continues ? amend : commit)(session_, std::move(next), limits_);
         return std::monostate{};
@@ -248,8 +248,8 @@ class CommandApplier {
   private:
     Result<Outcome> outcomeOf(const auto& command) { return computed_ ? std::move(*computed_) : outcome_.of(command); }
 
-    // Stores the outcome of a command in the session, unless it is an error. `continues`: whether the command belongs
-    // to the undo step of the previous one.
+    // Stores the outcome of a command in the session, or returns its error. `continues` says whether undo treats the
+    // command and the previous command as one step.
     VoidResult finish(Result<Outcome> outcome, bool continues) {
         if (!outcome) return outcome.error();
         if (outcome->loaded) session_.loaded = std::move(*outcome->loaded);
@@ -257,8 +257,8 @@ class CommandApplier {
         return std::monostate{};
     }
 
-    // Adds time steps to a loaded array. Undo does not remove them: the longer array replaces the shorter one in the
-    // states of the history, too, so that only one array is in memory.
+    // Appends time steps to a loaded array. Undo does not remove them: all states of the history get the longer array,
+    // so that only one array is in memory.
     VoidResult append(const LoadObject& command) {
         const auto extended = outcome_.extendedField(command);
         if (!extended) return extended.error();
@@ -278,8 +278,8 @@ class CommandApplier {
     ComputedOutcome computed_;
 };
 
-// Computes the outcome of a command like CommandApplier, to make the loader note what the command needs. Computes
-// nothing for commands that need nothing from the loader, nor for time steps to append, which have no Outcome.
+// A visitor that computes the outcome of a command, so that the loader notes what the command needs. Returns an empty
+// outcome for commands that need nothing from the loader, and for appended time steps.
 class NeedsOfCommand {
   public:
     NeedsOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
@@ -292,7 +292,7 @@ class NeedsOfCommand {
         return outcome_.of(**binding);
     }
     ComputedOutcome operator()(const Set& command) const {
-        // A formula alone needs nothing, because its field is made at once.
+        // A formula needs nothing from the loader, because its field is made at once.
         if (!command.object && !command.pace && !command.follow && !command.boost) return {};
         return outcome_.of(command);
     }
@@ -342,7 +342,7 @@ double spanningSpacing(const slicing::Object& object, int count) {
 bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
                   ComputedOutcome& outcome) {
     outcome = std::visit(NeedsOfCommand(session, limits, loader), command);
-    if (loader.isPending()) outcome.reset();  // it is the error that something is missing
+    if (loader.isPending()) outcome.reset();  // the outcome is then only the error that something is not available yet
     return loader.isPending();
 }
 
@@ -368,7 +368,7 @@ std::size_t ownObjectMemory(const Session& session) {
     const auto add = [&](const slicing::Object& object) { objects.try_emplace(slicing::identityOf(object), &object); };
     auto addAll = [&, last = static_cast<const State*>(nullptr)](const State& state) mutable {
         const State* previous = std::exchange(last, &state);
-        // Most states have the same objects as the state before them. These objects have been added already.
+        // Most states have the same objects as the previous state. Skip them, because they have been added already.
         if (previous != nullptr && previous->object == state.object && previous->source == state.source) return;
         for (const slicing::Object* object : state.objects()) add(*object);
     };

@@ -1,6 +1,6 @@
 #pragma once
-// The table of settings. The code that reads and writes settings uses it: for the page's command line, the queries of
-// addresses, the messages `set` and `state`, and the keys that step through the values of a setting.
+// The table of settings. All code that reads or writes settings uses it: for the page's command line, the queries of
+// addresses, the messages `set` and `state`, and the keys that step through values.
 
 #include <cstdint>
 #include <string_view>
@@ -16,50 +16,52 @@ namespace oval4d::session {
 
 /// The names of a setting.
 struct SettingName {
-    std::string_view text;           ///< on the page's command line and in queries
-    std::string_view object{};       ///< in messages: the name of the JSON object that contains the setting, such as
-                                     ///< "camera"; empty if the message itself contains it
-    std::string_view member = text;  ///< in messages: the name of the setting in this JSON object
+    std::string_view text;  ///< the name on the page's command line and in queries
+    /// The name of the JSON object that contains the setting in messages, such as "camera"; empty for the message
+    /// itself.
+    std::string_view object{};
+    std::string_view member = text;  ///< the name of the setting in this JSON object
 };
 
 /// The unit of angles in error messages.
 inline constexpr std::string_view kRadians = " radians";
 
-/// The rule of a setting for which applySet() accepts every value.
+/// The rule of a setting that may have every value of its type.
 struct AcceptsAnyValue {};
-/// The steps by which keys change the number of the setting NAME, within its range. By default, there are no such keys.
+/// The steps by which keys change the number of a setting called NAME, within its range. By default, no keys change the
+/// number.
 struct KeySteps {
-    /// If this is not 0, the number must be positive. The actions NAME_larger and NAME_smaller round it to the nearest
-    /// power of f = 2^(1/perDoubling), and then multiply or divide it by f. So each action exactly undoes the other,
-    /// and `perDoubling` steps lead from 1 to exactly 2.
+    /// If not 0, the setting has the actions NAME_larger and NAME_smaller, and its number must be positive. With f =
+    /// 2^(1/perDoubling), an action rounds the number to the nearest power of f, and then multiplies or divides it by
+    /// f. So each action exactly undoes the other, and `perDoubling` steps lead from 1 to exactly 2.
     int perDoubling = 0;
-    /// If this is not null, the action NAME_up adds this member of the state to the number, and NAME_down subtracts it.
+    /// If not null, the action NAME_up adds this member of the state to the number, and NAME_down subtracts it.
     double State::* amount = nullptr;
 };
-/// The rule of a numeric setting: applySet() accepts the numbers in `range` and refuses all others.
+/// The rule of a numeric setting: only numbers in `range` are accepted.
 struct NumberInRange {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
     geometry::Range range;
-    std::string_view unit{};  ///< what the error message states after the range, such as " circumradii"
+    std::string_view unit{};  ///< the unit that the error message states after the range, such as " circumradii"
     KeySteps keys = {};
 };
-/// The rule of a setting that applySet() checks and changes with code of its own.
+/// The rule of a setting that applySet() checks and changes with specific code, not with the table.
 struct CheckedByApplySet {};
 
-/// Takes the place of Setting::ofState in settings that are not read from a state: they change other settings or the
-/// motion.
+/// The value of Setting::ofState for settings that are not read from a state. Such settings change other settings or
+/// the motion.
 struct NotInState {};
 
-/// The occasions on which a setting is set back to its initial value.
+/// The occasion on which a setting returns to its initial value.
 enum class ResetOccasion : std::uint8_t {
     never,                       ///< never; but the spacing changes in proportion to the size of a new object
     by_another_object,           ///< when another object replaces the object, because the value belongs to the object
     by_reset_or_another_object,  ///< when another object replaces the object, and at the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to the setting's value in a Set, a std::optional. `ofState` returns the
-/// setting's value in a State: by reference if the value is one member of the State, else by value. If `ofState`
-/// returns by value, the rule must be CheckedByApplySet.
+/// A setting. `ofSet` returns a reference to the setting's value in a Set (a std::optional). `ofState` returns the
+/// setting's value in a State: by reference if the value is one member of the State, else by value. If by value, the
+/// rule must be CheckedByApplySet.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
     static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
@@ -71,9 +73,9 @@ struct Setting {
     OfState ofState;
     Rule rule;
     ResetOccasion setBack;
-    bool forFields;  ///< whether only states with a field have the setting
+    bool forFields;  ///< whether the setting exists only for fields
 
-    /// Returns whether the setting is an angle in radians, which may be written with a unit.
+    /// Returns whether the setting is an angle. Its value is in radians; its text may have a unit.
     bool isAngle() const {
         if constexpr (kHasRange) return rule.unit == kRadians;
         return false;
@@ -82,8 +84,8 @@ struct Setting {
 template <typename OfSet, typename OfState, typename Rule>
 Setting(SettingName, OfSet, OfState, Rule, ResetOccasion, bool) -> Setting<OfSet, OfState, Rule>;
 
-/// Calls `visit` with each setting except the object, the orientation and the last rotation. Settings that are in the
-/// same JSON object of a message are visited one after another.
+/// Calls `visit` with each setting except the object, the orientation and the last rotation. Settings in the same JSON
+/// object of a message are visited one after another.
 template <typename Visitor>
 void forEachSetting(const Visitor& visit) {
     using scene::Look;
@@ -92,13 +94,13 @@ void forEachSetting(const Visitor& visit) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };
     using enum ResetOccasion;
-    // A setting that applySet() checks and changes with code of its own; Set has a member for it.
+    // Visits a setting that applySet() checks and changes with specific code. `member` is its member of Set.
     const auto visitWithOwnCode = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
                                       bool forFields = false) {
         const auto ofSet = [member](auto& set) -> auto& { return set.*member; };
         visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
     };
-    // A setting whose value applySet() only stores, if `rule` allows the value; Set::plain contains the value.
+    // Visits a setting that applySet() only stores, if `rule` allows the value. Its new value is in Set::plain.
     const auto visitPlain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack,
                                 bool forFields = false) {
         using Value = std::remove_cvref_t<decltype(ofState(std::declval<State&>()))>;

@@ -26,7 +26,7 @@ std::vector<std::string_view> names() {
 
 Error refusal(ErrorCode code, std::string message) { return {code, std::move(message)}; }
 
-// Parses `text` as the value of the setting `name`.
+// A visitor that parses `text` as the value of the setting `name`, for each type of values.
 struct ValueReader {
     std::string_view name, text;
     bool isAngle = false;  // whether the value is an angle, which may have a unit
@@ -177,7 +177,7 @@ std::string joined(const Range& range, Function&& textOf) {
     return text;
 }
 
-// Returns the text of a value, in the form that ValueReader reads.
+// A visitor that returns the text of a value, in the form that ValueReader reads.
 struct ValueWriter {
     bool isAngle = false;
 

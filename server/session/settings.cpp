@@ -22,7 +22,7 @@ namespace oval4d::session {
 
 namespace {
 
-// The error for a value that is not within its range. Its message states angles in radians and in degrees.
+// Returns the error for a value outside its range. The message states angles in radians and in degrees.
 Error outOfRange(std::string_view name, const geometry::Range& range, std::string_view unit, double value) {
     std::string allowed = text::outsideBoundsText(range.least, range.most, unit, value);
     if (unit == kRadians) {
@@ -36,8 +36,8 @@ Error outOfRange(std::string_view name, const geometry::Range& range, std::strin
     return {ErrorCode::out_of_range, std::string(name) + " must be " + allowed};
 }
 
-// Stores `value`, if there is one, in `into`. Error: `out_of_range` if it is not in `range`; `name` and `unit` are for
-// the message.
+// Stores `value` in `into`; does nothing if `value` is empty. Error: `out_of_range` if the value is not in `range`. The
+// error message contains `name` and `unit`.
 Result<std::monostate> put(std::string_view name, std::optional<double> value, const geometry::Range& range,
                            double& into, std::string_view unit = "") {
     if (!value) return std::monostate{};
@@ -46,7 +46,7 @@ Result<std::monostate> put(std::string_view name, std::optional<double> value, c
     return std::monostate{};
 }
 
-// Changes the frame of reference. Errors: `out_of_range`; that of changeReferenceFrame().
+// Changes the frame of reference. Errors: `out_of_range`; the error of changeReferenceFrame().
 Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoader& loader) {
     using geometry::ReferenceFrame;
     ReferenceFrame frame = state.referenceFrame;
@@ -93,15 +93,14 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     const glm::dvec4& origin = slicing::infoOf(state.object).originInFile;
     const auto around = [&](double middle) { return geometry::Range{middle - reach, middle + reach}; };
     if (set.focusPoint) {
-        // If `focus`, `offset` or `focusW` is present, the w of the point is ignored, and is not checked.
+        // If `focus`, `offset` or `focusW` is present, the w of the point is neither used nor checked.
         const bool placed = set.focus || set.offset || set.focusW;
         glm::dvec4 point = origin;
         for (int axis = 0; axis < (placed ? 3 : 4); ++axis) {
             const std::string name = std::string("the point's ") + "xyzw"[axis];
             if (auto done = put(name, (*set.focusPoint)[axis], around(origin[axis]), point[axis]); !done) return done;
         }
-        // For an object far from the origin of its file, the bounds in around() are rounded, so the point may be
-        // slightly beyond the reach.
+        // Clamp the point, because the bounds in around() are rounded for an object far from the origin of its file.
         point = glm::clamp(point - origin, -reach, reach);
         state.look.focusPoint = glm::dvec3(point);
         if (!placed) moveFocusTo(state, point.w);
@@ -114,7 +113,7 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
     return put("the offset", set.offset, around(0), state.slices.offset);
 }
 
-// Changes levels, inside and fog of a field. Error: `out_of_range`, also if the object is not a field.
+// Changes the levels, the inside and the fog of a field. Error: `out_of_range`, also if the object is not a field.
 Result<std::monostate> setField(State& state, const Set& set) {
     if (!set.levels && !set.inside && !set.fog) return std::monostate{};
     if (slicing::fieldIn(state.object) == nullptr) {
@@ -148,7 +147,7 @@ Result<std::monostate> setField(State& state, const Set& set) {
     return std::monostate{};
 }
 
-// For each setting that `occasion` sets back, copies its value from `initial`. Omits settings whose value is not one
+// Resets the settings that `occasion` resets to their values in `initial`. Omits settings that are not stored in one
 // member of State, such as `point`.
 void setBack(State& state, ResetOccasion occasion, const State& initial) {
     forEachSetting([&]<typename Row>(const Row& setting) {
@@ -175,8 +174,8 @@ bool isTransferFunction(std::span<const slicing::FogControlPoint> points) {
 }
 
 slicing::FieldSettings initialFieldSettings(const fields::Field& field) {
-    // The initial level of an array is the middle between its least and its greatest sample, which may be a huge number
-    // that marks missing samples.
+    // Clamp the level. In an array, the initial level lies midway between the least and the greatest sample, and one of
+    // these may be a huge number that marks missing samples.
     const double level = std::clamp(field.initialLevel, -slicing::kMaxLevel, slicing::kMaxLevel);
     return {{level}, field.initialInside};
 }
@@ -190,7 +189,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     const double spacing =
         state.slices.spacing * (slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object));
     state.slices.spacing =
-        std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding may exceed the bounds
+        std::clamp(spacing, kMinSpacing * radius, kMaxSpacing * radius);  // rounding errors may exceed the bounds
     state.ongoingTurnToward.reset();
     state.playing = false;
     const fields::Field* field = slicing::fieldIn(object);
@@ -202,7 +201,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
     State initial = initialState();
     if (field != nullptr) initial.look.field = initialFieldSettings(*field);
     setBack(state, ResetOccasion::by_another_object, initial);
-    state.look.focusPoint = initial.look.focusPoint;  // because setBack() has omitted the setting `point`
+    state.look.focusPoint = initial.look.focusPoint;  // setBack() has omitted the setting `point`
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
@@ -253,7 +252,7 @@ Result<std::monostate> changeReferenceFrame(State& state, const geometry::Refere
     const double radius = slicing::infoOf(state.object).circumradius, reach = kMaxOffset * radius;
     state.look.focusPoint = glm::clamp(state.look.focusPoint, glm::dvec3(-reach), glm::dvec3(reach));
     if (spans) {
-        // The box of a field may be so thin along w that spanningSpacing() is less than the minimum.
+        // The box of a field may be so thin along w that spanningSpacing() is below the minimum.
         state.slices.spacing =
             std::clamp(spanningSpacing(state.object, state.slices.count), kMinSpacing * radius, kMaxSpacing * radius);
         moveFocusTo(state, std::clamp(w, -reach, reach));
@@ -373,7 +372,7 @@ Result<std::monostate> turnToward(State& state, const TurnToward& command) {
     state.ongoingTurnToward.reset();
     constexpr double kRadiansPerSecond = std::numbers::pi / 2;
     const double seconds = way.largerAngle() / kRadiansPerSecond;
-    constexpr double kShortest = 1e-3;  // in seconds; nobody would see a shorter turn
+    constexpr double kShortest = 1e-3;  // in seconds; a shorter turn is not visible
     if (command.immediately || seconds < kShortest) {
         state.orientation = goal;
     } else {
@@ -393,7 +392,8 @@ Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind
     std::optional<slicing::Element>& highlight = state.look.highlight;
     std::optional<std::size_t> found;
     if (highlight && highlight->kind == kind) {
-        const std::size_t step = forward ? 1 : count - 1;  // modulo `count`, adding count − 1 is a step backward
+        const std::size_t step = forward ? 1 : count - 1;  // count − 1 steps forward are one step backward, modulo
+                                                           // count
         std::size_t index = highlight->index;
         for (std::size_t i = 0; i < count && !found; ++i) {
             index = (index + step) % count;
@@ -420,7 +420,7 @@ Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind
 
 void moveFocusTo(State& state, double w) {
     const double spacing = state.slices.spacing;
-    // If the spacing is very small, w may lie beyond the slice kMaxFocus; the offset then covers the rest.
+    // If the spacing is very small, w may lie beyond the slice with index kMaxFocus. The offset then covers the rest.
     const double limit = kMaxFocus;
     state.slices.focus = static_cast<int>(std::clamp(std::round(w / spacing), -limit, limit));
     state.slices.offset = w - state.slices.focus * spacing;

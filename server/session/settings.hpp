@@ -1,5 +1,5 @@
 #pragma once
-// Changes the settings of a state, and checks their bounds.
+// Changes the settings of a state, and checks the bounds of their values.
 
 #include <span>
 
@@ -12,91 +12,92 @@ namespace oval4d::session {
 /// The maximum absolute value of an angle of a rotation in radians; larger doubles are imprecise.
 inline constexpr double kMaxAngle = 1e6;
 
-/// Returns whether these control points are valid as FieldSettings::fog: either none, or slicing::kMinFogControlPoints
-/// … slicing::kMaxFogControlPoints points with increasing values within ±slicing::kMaxLevel, opacities of 0 … 1, and
-/// colors of 24 bits.
+/// Returns whether these control points are valid as FieldSettings::fog. There may be none, or kMinFogControlPoints …
+/// kMaxFogControlPoints points (both in slicing). Their values must increase within ±slicing::kMaxLevel, their
+/// opacities must be 0 … 1, and their colors must have 24 bits.
 bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
 
-/// Returns the levels of a field at first, which side of them is inside, and no fog.
+/// Returns the initial settings of a field: its level (isovalue), the side of the level that is inside, and no fog.
 slicing::FieldSettings initialFieldSettings(const fields::Field& field);
 
-/// Replaces State::source by `source`, and State::object accordingly; does nothing if State::source is already this
-/// object. Keeps the frame of reference, the orientation, and the ratio of the spacing to
-/// slicing::initialSliceExtent(). Ends a turn toward an element, and playing. Sets back the settings that are
-/// ResetOccasion::by_another_object or ResetOccasion::by_reset_or_another_object; the levels of a field, and which side
-/// of them is inside, become those of the new field. If only the new object has a second function, sets
-/// Coloring::value; if only the old object has one, replaces Coloring::value by Coloring::cell. Error: that of
-/// `loader`, if it defers transforming the object to the frame of reference; the state is then unchanged.
+/// Shows the object `source` in place of State::source, and updates State::object. Does nothing if `source` is already
+/// shown. Keeps the frame of reference, the orientation, and the ratio of the spacing to slicing::initialSliceExtent().
+/// Ends playing and a turn toward an element. Resets the settings with ResetOccasion::by_another_object or
+/// ResetOccasion::by_reset_or_another_object; the field settings become the initial ones of the new field. If only the
+/// new object has a second function, sets Coloring::value. If only the old object has a second function, replaces
+/// Coloring::value by Coloring::cell. Error: the error of `loader` if transforming the object to the frame of reference
+/// is deferred; the state is then unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
 
-/// Keeps the settings of a field if `load` has replaced the part of an array in the data folder that `before` shows by
-/// another part of it, or by the whole array, under the same name: its values measure the same. `next` is the state
-/// after replaceObject(), which gets the field settings and the hidden and faded kinds of `before`, except levels that
-/// nobody has changed: each part has initial levels of its own. Does nothing after any other load.
+/// Keeps the settings of a field when `load` has replaced one part of an array in the data folder by another part, or
+/// by the whole array, under the same name. `before` is the state that shows the old part. `next` is the state after
+/// replaceObject(). `next` gets the field settings and the hidden and faded cell types of `before`. Levels that still
+/// have their initial values are not kept, because each part has initial levels of its own. Does nothing after any
+/// other load.
 void keepSettingsOfPart(const State& before, const LoadObject& load, State& next);
 
-/// Sets the orientation back to the initial one, and ends all motion.
+/// Resets the orientation to the initial one, and ends all motion.
 void returnToInitialOrientation(State& state);
 
-/// Calls returnToInitialOrientation(), and sets back the settings that are ResetOccasion::by_reset_or_another_object.
+/// Resets the orientation, ends all motion, and resets the settings with ResetOccasion::by_reset_or_another_object.
 void resetOrientationAndFocus(State& state);
 
-/// Returns whether the slices have the spacing spanningSpacing(), apart from rounding.
+/// Returns whether the spacing of the slices is spanningSpacing(), apart from rounding.
 bool hasSpanningSpacing(const State& state);
 
-/// Shows the object in another frame of reference; does nothing if the state has this frame already. The caller must
-/// ensure that the members of `frame` are within their bounds (see geometry::ReferenceFrame). If the slices have the
-/// spacing spanningSpacing(), as they do initially, they also have it in the new frame, and the w of the focus slice
-/// stays the same; otherwise, the slices stay the same. In both cases, spacing, offset and focus point are clamped to
-/// their bounds, which depend on the circumradius. Ends a turn toward an element. Error: that of `loader`, if it defers
-/// the transformation; the state is then unchanged.
+/// Shows the object in another frame of reference. Does nothing if the state already has this frame. The members of
+/// `frame` must be within the bounds in geometry::ReferenceFrame. If the spacing is spanningSpacing(), as it is
+/// initially, it becomes spanningSpacing() of the transformed object, and the w of the focus slice stays the same.
+/// Otherwise, the slices stay the same. Spacing, offset and focus point are clamped to their bounds, which depend on
+/// the circumradius. Ends a turn toward an element. Error: the error of `loader` if the transformation is deferred; the
+/// state is then unchanged.
 Result<std::monostate> changeReferenceFrame(State& state, const geometry::ReferenceFrame& frame, ObjectLoader& loader);
 
-/// Changes the number of slices. If the old and the new count are greater than 1, also changes the spacing, within its
-/// bounds, so that the span (count − 1) · spacing stays the same.
+/// Changes the number of slices. If the old and the new number are greater than 1, the span (count − 1) · spacing stays
+/// the same, as far as the bounds of the spacing allow.
 void setSliceCount(State& state, int count);
 
 /// Applies the settings that are present in `set`. After an error, some of these settings may have been applied, so
-/// callers must pass a copy of the state. Errors: those of findObject(); `not_a_rotation`; `out_of_range`;
-/// `nothing_to_undo` if `set` starts continuous turning, but no rotation has been made that could be repeated.
+/// callers must pass a copy of the state. Errors: the errors of findObject(); `not_a_rotation`; `out_of_range`;
+/// `nothing_to_undo` if `set` starts continuous turning, but there is no last rotation to repeat.
 Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
                                 ObjectLoader& loader);
 
-/// Returns the settings of a state. If another state shows the same object, applySet() with these settings makes it
-/// equal to `state`, except for the orientation, the last rotation and the motion, which the settings do not contain.
+/// Returns the settings of a state. applySet() with these settings makes another state with the same object equal to
+/// `state`, except for the orientation, the last rotation and the motion.
 Set settingsOf(const State& state);
 
-/// Returns the error `out_of_range` unless the angles are finite and within ±kMaxAngle.
+/// Returns the error `out_of_range` unless the angles of a rotation are finite and within ±kMaxAngle.
 Result<std::monostate> checkTurn(const geometry::Turn& turn);
 
-/// Returns the error `out_of_range` if the object has no such element.
+/// Returns the error `out_of_range` if the object does not have the element.
 Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element);
 
 /// Rotates the object, stores the rotation as State::lastTurn, and ends a turn toward an element.
 void rotate(State& state, const geometry::Turn& turn);
 
-/// Starts to turn the object toward the orientation in which the element points to +w; with TurnToward::immediately,
-/// rotates it to this orientation at once. Without TurnToward::number, slicing::elementToTurnTo() chooses an element
-/// of the kind TurnToward::element: the one closest to +w or, if that already points there, the next one. If an element
-/// is highlighted, only this element and those that contain it or are contained in it can be chosen. Ends continuous
-/// turning. Error: `out_of_range` if the object has no such element.
+/// Starts to turn the object until an element points to +w; with TurnToward::immediately, turns the object at once.
+/// Without TurnToward::number, slicing::elementToTurnTo() chooses an element of the kind TurnToward::element: the
+/// element closest to +w or, if this element already points to +w, the next one. If an element is highlighted, only
+/// this element, elements that contain it, and elements that it contains can be chosen. Ends continuous turning. Error:
+/// `out_of_range` if the object has no such element.
 Result<std::monostate> turnToward(State& state, const TurnToward& command);
 
-/// Highlights the element of this kind whose index comes after that of the highlighted element or, if `forward` is
-/// false, before it. Skips hidden elements: those whose cells are all of types in CellTypeFilter::hidden. The last and
-/// the first element are neighbors. If no element of this kind is highlighted, begins with the first visible one that
-/// the focus slice cuts (see slicing::elementsCutBy()) or, if it cuts none, with the first visible one. Error:
-/// `out_of_range` if the object has no element of this kind, or if all of them are hidden.
+/// Highlights the next element of a kind, by index; the previous element if `forward` is false. After the last element
+/// comes the first. Skips elements whose cells all have hidden types (CellTypeFilter::hidden). If no element of this
+/// kind is highlighted, chooses the first visible element that the focus slice cuts (see slicing::elementsCutBy()). If
+/// the focus slice cuts none, chooses the first visible element. Error: `out_of_range` if the object has no element of
+/// this kind, or if all of them are hidden.
 Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind, bool forward);
 
-/// Moves the focus to this w, in the object's coordinates: sets the focus to the slice that would be closest to w if
-/// the offset were 0, and the offset to the difference. The caller must ensure |w| ≤ kMaxOffset circumradii.
+/// Moves the focus to `w`, in the object's coordinates. Sets the focus to the index of the slice nearest to `w` for the
+/// offset 0, and the offset to the difference. The caller must ensure |w| ≤ kMaxOffset circumradii.
 void moveFocusTo(State& state, double w);
 
-/// Moves the focus upward, or downward if `upward` is false, to the next w at which the section changes its type. For a
-/// field, this is the next critical w (see slicing::findCriticalSections()); for other objects, the w of the next
-/// vertex (see slicing::nextVertexHeight()). Does nothing if there is none. Error: that of `loader`, if it defers the
-/// search.
+/// Moves the focus upward, or downward if `upward` is false, to the next w at which the section changes its type. In a
+/// field, this is the next critical w (see slicing::findCriticalSections()). In other objects, it is the w of the next
+/// vertex (see slicing::nextVertexHeight()). Does nothing if there is none. Error: the error of `loader` if the search
+/// is deferred.
 Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoader& loader);
 
 }  // namespace oval4d::session

@@ -16,7 +16,7 @@ namespace oval4d::session {
 
 namespace {
 
-// Returns the box of an array after its number of time steps has grown from `before` to `after`. `box`: the box with
+// Returns the box of an array after its number of time steps has grown from `before` to `after`. `box` is the box for
 // `before` time steps.
 fields::Box boxWithTimeSteps(fields::Box box, std::size_t before, std::size_t after) {
     const double step = before > 1 ? (box.max.w - box.min.w) / static_cast<double>(before - 1) : 1;
