@@ -83,8 +83,8 @@ std::optional<std::string> CachedSessions::takeQueued() {
         std::string id = std::move(queue_.front());
         queue_.pop_front();
         CachedSession* const cached = find(id);
-        // Skip a session that was removed after it had been queued. If it was added again since, but has no changes to
-        // write, `queued` is false.
+        // Skip a session that was removed after it was queued. `queued` is false if the session was added again without
+        // changes to write.
         if (cached == nullptr || !cached->queued) continue;
         cached->queued = false;
         cached->inFlight = true;

@@ -11,9 +11,9 @@ namespace {
 constexpr std::size_t kMaxDepth = 16;       // maximum nesting depth of arrays and objects
 constexpr std::size_t kMaxNameBytes = 256;  // 64 characters, each of at most 4 bytes in UTF-8
 
-/// A handler of parser events (SAX) that stops parsing if values are nested too deeply, because the parser uses stack
-/// space for each level. The size that the input declares for an array needs no limit: the parser allocates nothing for
-/// it, and each byte of input yields at most one value.
+/// A handler of parser events (SAX) that stops parsing if values are nested too deeply. The limit is needed because the
+/// parser uses stack space for each level. Declared sizes of arrays need no limit: the parser allocates nothing for
+/// them, and each byte of input yields at most one value.
 class DepthLimiter : public json::json_sax_t {
   public:
     bool null() override { return true; }

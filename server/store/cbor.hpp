@@ -1,5 +1,5 @@
 #pragma once
-// Functions that write CBOR records (RFC 8949), and that read values from them and check these values.
+// Functions that write CBOR records (RFC 8949), and that read and check values in such records.
 
 #include <concepts>
 #include <cstddef>
@@ -15,26 +15,27 @@
 
 namespace oval4d::store {
 
-/// The version of the records of sessions that this program writes and reads. The version is the first element of each
-/// record; those of objects have their own (see object_codec.cpp).
+/// The version of session records that this program writes and reads. The version is the first element of each record.
+/// Records of objects have versions of their own (see object_codec.cpp).
 inline constexpr int kRecordVersion = 1;
 
-/// Throws UnreadableRecord with this message.
+/// Throws UnreadableRecord (the record is not valid) with the message `what`.
 [[noreturn]] void throwUnreadable(const std::string& what);
 
-/// Throws LaterRecord with a message that a later version has stored the record, and with `what` this version does not
-/// know or allow.
+/// Throws LaterRecord. The message says that a later version of the program has stored the record; `what` names the
+/// part that this version does not know or allow.
 [[noreturn]] void throwLater(const std::string& what);
 
-/// Returns the CBOR encoding of a value.
+/// Returns the CBOR encoding of a JSON value.
 std::string encodeCbor(const nlohmann::json& value);
 
-/// Parses a record: an array that begins with a version from 1 to `latestVersion`. Throws LaterRecord if the array
-/// begins with a greater number, and UnreadableRecord if `bytes` is anything else or is nested too deeply.
+/// Parses a record: a CBOR array that begins with a version from 1 to `latestVersion`. Throws LaterRecord if the
+/// version is greater. Throws UnreadableRecord if `bytes` is not a record, or is nested too deeply.
 nlohmann::json parseRecord(std::string_view bytes, int latestVersion = kRecordVersion);
 
-/// Throws LaterRecord if the array has more than `known` members. Only a later version of this program stores such
-/// an array. If this version read it, the unknown members would be lost when it stores the session again.
+/// Throws LaterRecord if the array has more than `known` members. Only a later version of this program stores more
+/// members. Reading such a record is refused, because the unknown members would be lost when the session is stored
+/// again.
 void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
 /// Calls `read` and returns its result. Converts exceptions of the JSON library to UnreadableRecord.
@@ -47,13 +48,13 @@ auto callTranslatingErrors(Read read) {
     }
 }
 
-/// Returns `value` as a number. Throws LaterRecord unless the number is from `least` to `most`; the overload
-/// without `least` requires a number from −`most` to `most`. If `value` is not a number, throws an exception of the
-/// JSON library, which callTranslatingErrors() converts to UnreadableRecord.
+/// Returns `value` as a number. The number must be from `least` to `most`; in the overload without `least`, from
+/// −`most` to `most`. Throws LaterRecord for a number outside this range. If `value` is not a number, throws an
+/// exception of the JSON library, which callTranslatingErrors() converts to UnreadableRecord.
 double readNumber(const nlohmann::json& value, double least, double most);
 double readNumber(const nlohmann::json& value, double most);
 
-/// Returns `value` as an integer. Throws UnreadableRecord if it is not an integer, or if T cannot represent it.
+/// Returns `value` as an integer. Throws UnreadableRecord if `value` is not an integer, or if T cannot represent it.
 template <std::integral T>
 T readInteger(const nlohmann::json& value) {
     const auto fitting = [](auto found) {
@@ -65,14 +66,16 @@ T readInteger(const nlohmann::json& value) {
     throwUnreadable("a value is not an integer");
 }
 
-/// Returns the elements of an array. Throws UnreadableRecord if an element is not an integer from 0 to 2^32 − 1.
+/// Returns the elements of an array of integers. Throws UnreadableRecord if an element is not an integer from 0 to 2^32
+/// − 1.
 std::vector<std::uint32_t> readIntegers(const nlohmann::json& value);
 
-/// Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8.
+/// Throws UnreadableRecord if the text is longer than 256 bytes or is not valid UTF-8.
 void checkShortText(std::string_view text);
 
-/// Returns `value` as a name. Throws UnreadableRecord if the name is longer than 256 bytes or is not valid UTF-8. If
-/// `value` is not a string, throws an exception of the JSON library, as readNumber() does.
+/// Returns `value` as a short text, such as a name. Throws UnreadableRecord if the text is longer than 256 bytes or is
+/// not valid UTF-8. If `value` is not a string, throws an exception of the JSON library, which callTranslatingErrors()
+/// converts to UnreadableRecord.
 std::string readShortText(const nlohmann::json& value);
 
 }  // namespace oval4d::store

@@ -1,5 +1,6 @@
 #pragma once
-// Writes and reads the stored members of structs: the visitors of serialization/stored_members.hpp.
+// Writes the stored members of structs to JSON arrays, and reads them. The visitors fit visitStoredMembers() functions;
+// serialization/stored_members.hpp describes their interface.
 
 #include <algorithm>
 #include <array>
@@ -29,7 +30,7 @@
 
 namespace oval4d::store {
 
-/// Writes the members of a struct into an array (see serialization/stored_members.hpp).
+/// A visitor that writes the members of a struct to an array (see serialization/stored_members.hpp).
 class MemberWriter {
   public:
     template <typename T, typename... Ranges>
@@ -52,7 +53,7 @@ class MemberWriter {
         put(number + 1, encoded(rotation.right()));
     }
 
-    /// Moves the array out of the writer.
+    /// Returns the array with all members, and leaves the writer empty.
     nlohmann::json takeArray() { return std::move(array_); }
 
   protected:
@@ -99,7 +100,7 @@ class MemberWriter {
         for (std::size_t i = 0; i < rows.size(); ++i) list.emplace_back(rows[i]);
         return list;
     }
-    // Samples are 32-bit floats in the byte order of x86-64 (little-endian).
+    // Encodes samples as 32-bit floats in little-endian byte order, which is the byte order of x86-64.
     static nlohmann::json encoded(const fields::SampleStorage& samples) {
         const auto* bytes = reinterpret_cast<const std::uint8_t*>(samples.values().data());
         return nlohmann::json::binary(
@@ -108,9 +109,9 @@ class MemberWriter {
     static nlohmann::json encoded(const glm::dvec4& v) { return {v.x, v.y, v.z, v.w}; }
     static nlohmann::json encoded(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
     static nlohmann::json encoded(const glm::dquat& q) { return {q.w, q.x, q.y, q.z}; }
-    // A turn in one plane, or in two perpendicular planes, is encoded as [plane, angle, angle in the perpendicular
-    // plane or null], which earlier versions can read, too. Any other turn is a list of pairs [[plane, angle], …].
-    // Angles are in radians.
+    // Encodes a turn (a rotation in one plane or several). A turn in one plane, or in two perpendicular planes, becomes
+    // [plane, angle, angle in the perpendicular plane or null]; earlier versions can read this form, too. Any other
+    // turn becomes a list of pairs [[plane, angle], …]. Angles are in radians.
     static nlohmann::json encoded(const geometry::Turn& turn) {
         const std::vector<geometry::Plane> planes = turn.planes();
         const geometry::Plane first = planes.at(0);
@@ -136,7 +137,7 @@ inline glm::dquat quaternionIn(const nlohmann::json& value) {
     return {value.at(0).get<double>(), value.at(1).get<double>(), value.at(2).get<double>(), value.at(3).get<double>()};
 }
 
-/// Reads the members of a struct from an array.
+/// A visitor that reads the members of a struct from an array (see serialization/stored_members.hpp).
 class MemberReader {
   public:
     explicit MemberReader(const nlohmann::json& array) : array_(array) {}
@@ -163,7 +164,7 @@ class MemberReader {
         rotation = *decoded;
     }
 
-    /// Throws LaterRecord if the array has more members than those that have been read.
+    /// Throws LaterRecord if the array has members after the last member that was read.
     void refuseUnreadMembers() const { refuseUnknownMembers(array_, readCount_); }
 
   protected:
@@ -256,7 +257,7 @@ class MemberReader {
     }
 
     const nlohmann::json& array_;
-    std::size_t readCount_ = 0;  // all members that have been read have smaller numbers
+    std::size_t readCount_ = 0;  // the largest number of a member that was read, plus 1
 };
 
 }  // namespace oval4d::store

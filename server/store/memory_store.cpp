@@ -34,8 +34,8 @@ std::optional<SessionRecord> MemoryStore::claim(const std::string& id) {
     return read(id);
 }
 
-/// Returns an upper bound of the total size of all records after the updates, in bytes. Counts even the bytes that the
-/// updates replace.
+/// Returns an upper bound of the total size of all records after the updates, in bytes. Does not subtract the sizes of
+/// the data that the updates replace.
 std::size_t MemoryStore::bytesWith(std::span<const RecordUpdate> updates) const {
     std::size_t bytes = bytes_;
     for (const RecordUpdate& update : updates) bytes += estimateStoredSize(update);

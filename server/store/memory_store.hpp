@@ -1,5 +1,5 @@
 #pragma once
-// A store in memory.
+// A session store in memory.
 
 #include <map>
 
@@ -7,12 +7,12 @@
 
 namespace oval4d::store {
 
-/// Keeps records in the memory of this process, so they are lost when the process ends.
+/// A session store in the memory of this process. Its records are lost when the process ends.
 class MemoryStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `quota`: the maximum total size of all records, in bytes.
+    /// `quota` is the maximum total size of all records, in bytes.
     explicit MemoryStore(std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now)
         : quota_(quota), now_(std::move(now)) {}
 
@@ -30,7 +30,7 @@ class MemoryStore final : public Store {
     std::size_t size() const override { return entries_.size(); }
 
   private:
-    // A session as it is stored; `touched` is the time of its last use.
+    // A stored session. `touched` is the time of its last use.
     struct StoredSession {
         std::string tokenHash, whole, head;
         std::map<std::string, std::string> objects;
@@ -47,7 +47,7 @@ class MemoryStore final : public Store {
 
     const std::size_t quota_;
     const ClockFunction<Clock> now_;
-    std::size_t bytes_ = 0;  // total size of all records, as in StoredSession::bytes()
+    std::size_t bytes_ = 0;  // total size of all records in bytes: the sum of StoredSession::bytes()
     SessionsById entries_;
 };
 

@@ -23,9 +23,10 @@
 #include "store/object_record_v1.hpp"
 #include "text/message_text.hpp"
 
-// The record of an object is a CBOR array: [version, kind, whether the members name a file in the data folder,
-// members]. The members are those that visitStoredMembers() visits, of the object itself or, for a field, of its
-// definition. Records of the version 1 are converted before they are read: see object_record_v1.cpp.
+// The record of an object is a CBOR array with four elements: [version, kind, isFile, members]. `isFile` is true if the
+// members name a file in the data folder. The members are those that visitStoredMembers() visits: members of the object
+// or, for a field, of its definition. Records of version 1 are converted before they are read (see
+// object_record_v1.cpp).
 
 namespace oval4d::store {
 
@@ -37,7 +38,7 @@ using polytopes::Polytope;
 constexpr int kObjectRecordVersion = 2;
 constexpr std::size_t kObjectRecordMembers = 4;
 
-/// Returns whether an object refers to a file instead of containing samples.
+/// Returns whether the record of an object names a file instead of containing samples.
 bool namesFile(const fields::FieldDefinition& field) { return field.source.has_value(); }
 bool namesFile(const geometry::ObjectInfo& /*object*/) { return false; }
 
@@ -51,9 +52,9 @@ slicing::Object openFile(const std::string& name, const fields::FileSource& sour
 
 // --- The kinds of objects
 //
-// For each kind: its number in records, which must not change; what is stored of it, whose members are visited for
-// writing and for reading; and a function that makes an object of the members that have been read. The code does not
-// compile if a kind has no KindCodec, or if two kinds have the same number.
+// A KindCodec for each kind of objects contains: the number of the kind in records, which must not change; the struct
+// whose members are stored; a function that makes an object from this struct. The compiler reports a kind without a
+// KindCodec, and kinds with the same number.
 
 template <typename ObjectPtr>
 struct KindCodec;
@@ -117,7 +118,7 @@ struct KindCodec<slicing::FieldPtr> {
             return openFile(info.name, *source, open);
         }
         auto field = fields::fieldFromDefinition(stored);
-        // Any other error is one of a formula or its box.
+        // All other errors concern a formula or its box.
         if (!field && field.error().code != ErrorCode::bad_field)
             throwLater("a formula cannot be read: " + field.error().message);
         if (!field) throwUnreadable("a field is not valid: " + field.error().message);
@@ -146,7 +147,8 @@ struct KindCodec<slicing::SurfacePtr> {
     }
 };
 
-// The numbers are less than 24, so that each has one byte in a record (see refersToFile()).
+// Returns whether the numbers of the kinds are different and less than 24. Such numbers have one byte in a record, as
+// refersToFile() requires.
 template <typename... Kinds>
 consteval bool numbersAreDifferentAndSmall(std::type_identity<std::variant<Kinds...>> /*kinds*/) {
     std::array<unsigned, sizeof...(Kinds)> numbers{KindCodec<Kinds>::kNumber...};
@@ -155,7 +157,7 @@ consteval bool numbersAreDifferentAndSmall(std::type_identity<std::variant<Kinds
 }
 static_assert(numbersAreDifferentAndSmall(std::type_identity<slicing::Object>()));
 
-/// Decodes a record of an object of one of these kinds.
+/// Decodes the record of an object of any of the kinds `Kinds`.
 template <typename... Kinds>
 slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/, const json& record,
                             const DataFolderReader& open) {
@@ -180,8 +182,8 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
 }  // namespace
 
 bool refersToFile(std::string_view record) {
-    // An array with n < 24 elements begins with the byte 0x80 + n; a number below 24 is one byte; true is the byte 0xf5
-    // (RFC 8949, section 3). Records of the version 1 refer to a file if they have three elements.
+    // In CBOR, an array with n < 24 elements begins with the byte 0x80 + n, a number below 24 is one byte, and true is
+    // the byte 0xf5 (RFC 8949, section 3). A record of version 1 refers to a file if it has three elements.
     constexpr std::size_t kPlaceOfFlag = 3;
     if (record.starts_with('\x83')) return true;
     return record.size() > kPlaceOfFlag && record[0] == '\x84' && record[1] == kObjectRecordVersion &&

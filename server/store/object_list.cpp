@@ -17,8 +17,8 @@ using nlohmann::json;
 
 namespace {
 
-// Returns the memory that the result of slicing::transformedTo() needs. A transformed field has a domain of its own,
-// but shares the functions of `source`, and thus the samples of an array.
+// Returns the memory, in bytes, that the result of slicing::transformedTo() needs. A transformed field has its own
+// domain, but shares the functions of `source`, and so the samples of an array.
 std::size_t memoryOfImage(const slicing::Object& source) {
     const fields::Field* const field = slicing::fieldIn(source);
     return field == nullptr ? slicing::memoryOf(source) : sizeof *field + polytopes::memoryOf(*field->domain);
@@ -63,10 +63,9 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     const auto known = std::ranges::find_if(
         transformed_, [&](const TransformedObject& image) { return image.source == source && image.frame == frame; });
     if (known != transformed_.end()) return known->image;
-    // Besides its vertices, the memory of a transformed object is limited, because a record may list few vertices, but
-    // many 2-faces: the object counts as at least one vertex for each kBytesOfVertex bytes, the typical memory of a
-    // vertex and its share of the other elements. The samples of an array do not count, because all transformed objects
-    // share them.
+    // Limit the memory of a transformed object, too, because a record may list few vertices but many 2-faces. The
+    // object counts as at least one vertex per kBytesOfVertex bytes, which is the typical memory of a vertex with its
+    // share of the other elements. Samples of an array do not count, because all transformed objects share them.
     constexpr std::size_t kBytesOfVertex = 100;
     const std::size_t vertices = std::max(slicing::elementCounts(source)[0], memoryOfImage(source) / kBytesOfVertex);
     if (vertices > vertexBudget_) throwLater("its objects have too many vertices");
@@ -76,10 +75,11 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
 }
 
 /// Returns the polytope with this name (see polytopes::designNamed()), and subtracts its number of vertices from
-/// `vertexBudget_`. Throws LaterRecord if there is no such polytope or it has more vertices than `vertexBudget_`, and
-/// UnreadableRecord if it cannot be built.
+/// `vertexBudget_`. Throws LaterRecord if no polytope has this name, or if it has more vertices than `vertexBudget_`.
+/// Throws UnreadableRecord if the polytope cannot be built.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
-    constexpr std::size_t kMaxVertices = 1'000'000;  // of one polytope; clients may build far fewer (session::Limits)
+    constexpr std::size_t kMaxVertices = 1'000'000;  // maximum for one polytope; session::Limits allows clients far
+                                                     // less
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     if (design == nullptr) throwLater("the catalogue has no polytope called " + text::inQuotes(name));

@@ -1,6 +1,5 @@
 #pragma once
-// The list of the objects in a session record. The states in the record refer to these objects by their indices in the
-// list.
+// The list of objects in a session record. States in the record contain indices into this list instead of objects.
 
 #include <cstddef>
 #include <map>
@@ -16,15 +15,16 @@
 
 namespace oval4d::store {
 
-/// Collects the objects of a session in a list without duplicates.
+/// A collector of the objects of a session, in a list without duplicates.
 class ObjectListEncoder {
   public:
     explicit ObjectListEncoder(const ObjectKeyLookup& keyOf) : keyOf_(keyOf) {}
 
-    /// Returns the index of the object in the list, from 0. Adds the object if the list does not have it yet.
+    /// Returns the index of an object in the list, from 0. Adds the object if it is not in the list.
     std::size_t findOrAddObject(const slicing::Object& object);
 
-    /// Returns the encoded list, with one entry for each object: [name] if it is built from its name, else [name, key].
+    /// Returns the encoded list. An object that can be built from its name has the entry [name], any other object the
+    /// entry [name, key].
     const nlohmann::json& list() const { return list_; }
 
   private:
@@ -34,14 +34,14 @@ class ObjectListEncoder {
 };
 
 /// The objects of a session that is being decoded: the objects in the list of its record, and these objects transformed
-/// to the frames of reference of its states.
+/// to the frames of reference of the session's states.
 class ObjectListDecoder {
   public:
     static constexpr std::size_t kMaxTotalVertices = 10'000'000;
 
-    /// Reads what ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or cannot be
-    /// built; LaterRecord if the catalogue lacks one, or if the objects that are built from their names have more than
-    /// `maxVertices` vertices altogether.
+    /// Reads a list that ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or
+    /// cannot be built. Throws LaterRecord if the catalogue lacks an object, or if the objects built from their names
+    /// have more than `maxVertices` vertices in total.
     ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache,
                       std::size_t maxVertices = kMaxTotalVertices);
 
@@ -49,10 +49,10 @@ class ObjectListDecoder {
     /// UnreadableRecord if there is no such object.
     const slicing::Object& at(const nlohmann::json& index) const;
 
-    /// Returns `source` in the frame of reference `frame` (see slicing::transformedTo()). Calls with equal arguments
-    /// return the same object, so that states share it. Throws LaterRecord, before it transforms the object, if the
-    /// transformed objects and the objects built from their names would have more than `maxVertices` vertices
-    /// altogether (see the constructor).
+    /// Returns `source` in the coordinates of the frame of reference `frame` (see slicing::transformedTo()). Calls with
+    /// equal arguments return the same object, so that states share it. Throws LaterRecord if the transformed objects
+    /// and the objects built from their names would have too many vertices in total (`maxVertices` of the constructor).
+    /// Checks this before it transforms the object.
     slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
@@ -63,7 +63,7 @@ class ObjectListDecoder {
     };
     slicing::Object rebuilt(const std::string& name, polytopes::PolytopeCache& cache);
 
-    // The number of vertices that may still be built. There is a limit because a few bytes of a record can request
+    // The number of vertices that may still be built. The limit exists because a few bytes of a record can request
     // large objects.
     std::size_t vertexBudget_;
     std::vector<slicing::Object> objects_;

@@ -6,18 +6,20 @@
 
 #include "store/cbor.hpp"
 
-// The record of an object with the version 1 is an array. Its length tells the kind:
-// - 2: [version, [[origin in the file], record of the object]], if the object was moved when it was loaded
-// - 3: [version, name, source]; a field in a file of the data folder. The source is as now, but may lack the region
-// - 4: [version, name, points, radii]; a point cloud
-// - 5: [version, name, formula or samples, box, shape]; a field. The shape of a formula is an empty array
-// - 6: [version, name, vertices, 2-faces, cells, the type of each cell]; a polytope
-// - 7: the five members of a field, the second function, and a text. The second function is a formula or [variable,
-//   samples]
-// - 8: [version, name, vertices, 2-faces, null, null, null, null]; a surface
-// - 9: these seven members (null if there is no second function), [units of x, y, z and w, [name, unit] of the values],
-//   and [name, unit] of the values of the second function; a field of an array
-// This format is final. The members of the version 2 and their numbers: see visitStoredMembers() beside each struct.
+// The record of an object in version 1 is an array. Its length tells the kind of object:
+//  - 2: [version, [[origin in the file], record of the object]], an object that was moved when it was loaded
+//  - 3: [version, name, source], a field in a file of the data folder; the source is as in version 2, but may lack the
+//    region
+//  - 4: [version, name, points, radii], a point cloud
+//  - 5: [version, name, formula or samples, box, shape], a field; the shape of a formula is an empty array
+//  - 6: [version, name, vertices, 2-faces, cells, the type of each cell], a polytope
+//  - 7: a field with a second function: the five members above, then the second function and a text; the second
+//    function is a formula or [variable, samples]
+//  - 8: [version, name, vertices, 2-faces, null, null, null, null], a surface
+//  - 9: an array with units: the seven members above (null if there is no second function), then [units of x, y, z and
+//    w, [name, unit] of the values] and [name, unit] of the values of the second function
+// This format does not change anymore. The members of version 2 and their numbers are in visitStoredMembers() beside
+// each struct.
 
 namespace oval4d::store {
 
@@ -25,14 +27,14 @@ using nlohmann::json;
 
 namespace {
 
-// The numbers of the kinds in the version 2.
+// The numbers of the kinds of objects in version 2.
 constexpr unsigned kPolytope = 0, kCloud = 1, kField = 2, kSurface = 3;
 
 json recordOf(unsigned kind, bool isFile, json members) { return json::array({2, kind, isFile, std::move(members)}); }
 
 json noQuantity() { return json::array({"", ""}); }
 
-// The members of fields::FieldArray.
+// Returns the stored members of a fields::FieldArray.
 json arrayOf(json shape, json box, json samples, json units, json quantity) {
     return json::array(
         {std::move(shape), std::move(box), std::move(samples), std::move(units), std::move(quantity), false});
@@ -88,7 +90,8 @@ json convertedFromVersion1(json record) {
     json info = json::array({take(1), std::move(origin)});
     switch (size) {
         case 3: {
-            const json box = json::array({{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}});  // as there is no formula
+            // The record states no box, because it contains no formula.
+            const json box = json::array({{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}});
             return recordOf(kField, true, json::array({std::move(info), take(2), "", box, nullptr, nullptr}));
         }
         case 4:

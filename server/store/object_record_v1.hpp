@@ -1,13 +1,13 @@
 #pragma once
-// The records of objects that earlier versions of this program have stored.
+// Conversion of object records that earlier versions of this program have stored.
 
 #include <nlohmann/json.hpp>
 
 namespace oval4d::store {
 
-/// Converts the record of an object with the version 1 to the version 2 (see object_codec.cpp). Moves large parts of
-/// the record, instead of copying them. Throws UnreadableRecord, or an exception of the JSON library, if there is no
-/// such record; values are not checked.
+/// Converts an object record from version 1 to version 2 (see object_codec.cpp). Moves large parts instead of copying
+/// them. Throws UnreadableRecord, or an exception of the JSON library, if `record` does not have the form of version 1.
+/// Does not check values.
 nlohmann::json convertedFromVersion1(nlohmann::json record);
 
 }  // namespace oval4d::store

@@ -24,7 +24,7 @@ constexpr mode_t kPermissions = 07777;
     throw StoreError(path + ": " + what + ": " + std::generic_category().message(errno));
 }
 
-/// Owns a file descriptor.
+/// An owner of a file descriptor, which the destructor closes.
 class FileDescriptor {
   public:
     explicit FileDescriptor(int number) : number_(number) {}
@@ -54,19 +54,19 @@ void makeFolders(const std::filesystem::path& folder) {
     std::filesystem::path made;
     for (const auto& part : folder) {
         made /= part;
-        // Errors are ignored here: opening the file then fails and reports them. mkdir() applies the umask; chmod()
-        // does not.
+        // Ignore errors here: opening the file then fails and reports them. chmod() is needed because mkdir() applies
+        // the umask to the mode.
         if (mkdir(made.c_str(), kFolderMode) == 0) chmod(made.c_str(), kFolderMode);
     }
 }
 
 enum class Permissions : std::uint8_t { leave, tighten };
 
-/// Checks that a file is safe to use (see requireOwnRegularFileIfExists()), and sets its mode to 0600 if `permissions`
-/// is `tighten`. Returns false if the file does not exist.
+/// Checks that a file is safe to use (see requireOwnRegularFileIfExists()). If `permissions` is `tighten`, sets its
+/// mode to 0600. Returns false if the file does not exist.
 bool checkFile(const std::string& path, Permissions permissions) {
-    // Closing an ordinary descriptor would release all locks of this process on the file; closing an O_PATH descriptor
-    // does not.
+    // Open the file with O_PATH: closing such a descriptor keeps the locks of this process on the file, whereas closing
+    // an ordinary descriptor releases them all.
     const FileDescriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
     if (!file.valid()) {
         if (errno == ENOENT) return false;
@@ -97,7 +97,8 @@ void ensurePrivateFile(const std::string& path) {
         if (file.valid() && fchmod(file.number(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
         if (!file.valid() && errno != EEXIST) fail(path, "unable to open it");
     }
-    checkFile(path, Permissions::tighten);  // in case another server has created it, with another mode
+    // Another server may have created the file in the meantime, with another mode.
+    checkFile(path, Permissions::tighten);
 }
 
 void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions::tighten); }

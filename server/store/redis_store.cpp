@@ -16,16 +16,16 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The script that reads a session. KEYS: the keys of the Redis hashes that contain the session and its objects. Returns
-// {fence, whole, head, objects}; false if there is no such session.
+// A Redis script that reads a session. KEYS: the two Redis hashes with the session and its objects. Returns {fence,
+// whole, head, objects}, or false if there is no such session.
 constexpr const char* kRead = R"(#!lua flags=no-writes,allow-oom
 local fence, whole, head = unpack(redis.call('HMGET', KEYS[1], 'fence', 'whole', 'head'))
 if not whole then return false end
 return {tonumber(fence) or 0, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// The script that claims a session. KEYS: as for kRead. ARGV: the name of this server, the expiry period in
-// milliseconds, the session's id. Returns the same as kRead, with the new fence. Redis runs both scripts even if its
-// memory is full (allow-oom), so that stored sessions can still be opened.
+// A Redis script that claims a session for this server. KEYS: as for kRead. ARGV: the name of this server, the expiry
+// period in milliseconds, the session's id. Returns the same as kRead, with the new fence. Redis runs kRead and kClaim
+// even if its memory is full (allow-oom), so that stored sessions can still be opened.
 constexpr const char* kClaim = R"(#!lua flags=allow-oom
 local owner, whole, head = unpack(redis.call('HMGET', KEYS[1], 'owner', 'whole', 'head'))
 if not whole then return false end
@@ -39,12 +39,12 @@ redis.call('PEXPIRE', KEYS[1], ARGV[2])
 redis.call('PEXPIRE', KEYS[2], ARGV[2])
 return {fence, whole, head or '', redis.call('HGETALL', KEYS[2])})";
 
-// The script that saves a session. KEYS: as for kRead. ARGV: the name of this server, the expiry period in
-// milliseconds, the fence, the hash of the token, the token itself (empty if it is not to be stored as plain text), the
-// head, the whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, the
-// key and the bytes of each of them, the keys of the objects to drop. Returns the number of a SaveResult. Two servers
-// can have equal fences only if Redis has lost writes; in that case, only the save of the owner is accepted. A save of
-// the head alone does not restart the expiry period, because a save of the whole session follows within a second.
+// A Redis script that saves a session. KEYS: as for kRead. ARGV: the name of this server, the expiry period in
+// milliseconds, the fence, the hash of the token, the token as plain text (empty if not to be stored), the head, the
+// whole (empty if unchanged), 1 if no client has the session open anymore, the number of objects to add, their keys and
+// bytes, the keys of the objects to drop. Returns the number of a SaveResult.
+// Two servers can have equal fences only if Redis has lost writes. Then only the owner may save. Saving the head alone
+// does not restart the expiry period, because a save of the whole session follows within a second.
 constexpr const char* kSave = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -67,23 +67,24 @@ if last > 9 then redis.call('PEXPIRE', KEYS[2], ARGV[2]) end
 for i = last + 1, #ARGV do redis.call('HDEL', KEYS[2], ARGV[i]) end
 return 0)";
 
-// The script that adds the hash of a token to a session that contains the token as plain text. KEYS: as for kRead.
-// ARGV: the token, its hash, 1 if the plain text is to be deleted.
+// A Redis script that adds the hash of a token to a session that contains the token as plain text. KEYS: as for kRead.
+// ARGV: the token, its hash, 1 to delete the plain text.
 constexpr const char* kHash = R"(#!lua flags=allow-oom
 if redis.call('HGET', KEYS[1], 'token') == ARGV[1] then
   redis.call('HSET', KEYS[1], 'hash', ARGV[2])
   if ARGV[3] == '1' then redis.call('HDEL', KEYS[1], 'token') end
 end)";
 
-// The script that removes a session unless another server owns it. KEYS: as for kRead. ARGV: the name of this server.
+// A Redis script that removes a session, unless another server owns it. KEYS: as for kRead. ARGV: the name of this
+// server.
 constexpr const char* kRemove = R"(#!lua flags=allow-oom
 local owner = redis.call('HGET', KEYS[1], 'owner')
 if owner and owner ~= '' and owner ~= ARGV[1] then return end
 redis.call('DEL', KEYS[1], KEYS[2]))";
 
-// The script that empties the list of the sessions that other servers have claimed from this one. KEYS: the list.
-// Returns {number of keys in Redis, id, fence in the record of this id, id, fence, …}; the fence is 0 if there is no
-// record.
+// A Redis script that reads and empties the list of sessions that other servers have claimed from this server. KEYS:
+// the list. Returns {number of keys in Redis, id, fence, id, fence, …}, where each fence is the one in the session's
+// record, or 0 if there is no record.
 constexpr const char* kPoll = R"(#!lua flags=allow-oom
 local reply = {redis.call('DBSIZE')}
 for _, id in ipairs(redis.call('LRANGE', KEYS[1], 0, -1)) do
@@ -93,10 +94,10 @@ end
 redis.call('DEL', KEYS[1])
 return reply)";
 
-// kOlderSave is the SHA-1 of the save script of version 0.1.0: if Redis knows that script, servers of version 0.1.0 use
-// this Redis. kHashedSince is a key in Redis. Its value is the time, in milliseconds of Redis's clock, at which a
-// server of a later version first noticed servers of version 0.1.0. kNoteSince is the script that sets this value if it
-// is not set yet, and returns it.
+// Constants to find out whether servers of version 0.1.0 use this Redis. kOlderSave is the SHA-1 of the save script of
+// version 0.1.0, which Redis then knows. kHashedSince is a key in Redis; its value is the time, in milliseconds of
+// Redis's clock, at which a later version first noticed servers of version 0.1.0. kNoteSince is a script that sets this
+// value if it is not set, and returns it.
 constexpr const char* kOlderSave = "3f542d461100cccfdf5dc6b4716be03d88d48eae";
 constexpr const char* kHashedSince = "oval4d:tokens_hashed_since";
 constexpr const char* kNoteSince = R"(#!lua flags=allow-oom
@@ -105,7 +106,7 @@ return redis.call('GET', KEYS[1]))";
 
 constexpr auto kConnectTimeout = 1000ms;
 
-// The part in braces, Redis's hash tag, keeps both keys of a session on the same node of a cluster.
+// The part of the keys in braces, a hash tag of Redis, keeps both keys of a session on one node of a Redis cluster.
 std::string sessionKey(const std::string& id) { return "oval4d:{" + id + "}"; }
 std::string objectsKey(const std::string& id) { return sessionKey(id) + ":polytopes"; }
 
@@ -117,7 +118,7 @@ std::string textOf(const redisReply& reply) {
     return reply.str == nullptr ? std::string() : std::string(reply.str, reply.len);
 }
 
-// Returns the record in the reply of kRead or kClaim.
+// Returns the session record in a reply to the scripts kRead or kClaim.
 std::optional<SessionRecord> recordIn(const redisReply& reply) {
     if (reply.type != REDIS_REPLY_ARRAY || reply.elements != 4) return std::nullopt;
     SessionRecord record{
@@ -128,8 +129,8 @@ std::optional<SessionRecord> recordIn(const redisReply& reply) {
     return record;
 }
 
-// Returns whether an error says that Redis has no memory for what a script writes, or that the value of a key has the
-// wrong type. After these errors, Redis still answers other requests on the same connection.
+// Returns whether an error means that Redis lacks memory for a write, or that a key has a value of the wrong type.
+// After such an error, Redis still answers requests on the same connection.
 bool isRefusedWrite(std::string_view error) { return error.starts_with("OOM ") || error.starts_with("WRONGTYPE "); }
 
 template <typename Number>
@@ -196,9 +197,9 @@ void RedisStore::connect() {
     updatePlainTokenDeadline();
 }
 
-// Sets plainUntil_, the time until which tokens are also stored as plain text, for oval4d servers of version 0.1.0 on
-// the same Redis: the time at which such servers were first noticed, plus the expiry period. If there are no such
-// servers, sets a time in the past.
+// Sets plainUntil_, the time until which tokens are also stored as plain text for servers of version 0.1.0. This is the
+// time at which such servers were first noticed, plus the expiry period. If there are no such servers, sets a time in
+// the past.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});
@@ -212,8 +213,8 @@ void RedisStore::updatePlainTokenDeadline() {
 
 bool RedisStore::alsoStoresPlainTokens() const { return now_() < plainUntil_; }
 
-/// Closes the connection, because its replies can no longer be matched with requests, and throws StoreError. The next
-/// operation opens a new connection.
+/// Closes the connection and throws StoreError. After a failure, replies on the connection can no longer be matched
+/// with requests. The next operation opens a new connection.
 void RedisStore::fail() {
     const std::string why = context_->errstr[0] != '\0' ? context_->errstr : "no reply";
     context_.reset();
@@ -234,7 +235,7 @@ void RedisStore::send(const CommandWords& command) {
     }
 }
 
-/// Returns the next reply, which may be an error.
+/// Returns the next reply, which may be an error reply.
 RedisStore::Reply RedisStore::receiveAny() {
     void* reply = nullptr;
     if (redisGetReply(context_.get(), &reply) != REDIS_OK || reply == nullptr) fail();
@@ -284,8 +285,8 @@ std::optional<SessionRecord> RedisStore::claim(const std::string& id) {
     return recordIn(*ask(claimScript_, id, {self_, std::to_string(expiry_.count()), id}));
 }
 
-/// Sends all updates before it reads the replies (pipelining), so that the batch takes one round trip. Throws
-/// NotWritable if Redis refuses an update but still answers requests. In that case, it has executed the other updates.
+/// Sends all updates before reading the replies (pipelining), so that the batch takes one round trip. Throws
+/// NotWritable if Redis refuses an update but still answers requests. The other updates have been executed then.
 std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) {
     if (!context_) connect();
     for (const RecordUpdate& update : updates) {
@@ -334,7 +335,7 @@ void RedisStore::remove(std::span<const std::string> ids) {
 
 void RedisStore::restartExpiry(std::span<const std::string> ids) {
     if (!context_) connect();
-    const bool hashed = !alsoStoresPlainTokens();  // if true, the tokens in plain text are deleted below
+    const bool hashed = !alsoStoresPlainTokens();  // if true, tokens stored as plain text are deleted below
     for (const std::string& id : ids) {
         send({"PEXPIRE", sessionKey(id), std::to_string(expiry_.count())});
         send({"PEXPIRE", objectsKey(id), std::to_string(expiry_.count())});

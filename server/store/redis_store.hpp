@@ -1,5 +1,5 @@
 #pragma once
-// A store in Redis: servers that use the same Redis share their sessions.
+// A session store in Redis. Servers that use the same Redis share their sessions.
 
 #include <chrono>
 #include <memory>
@@ -11,16 +11,17 @@ struct redisReply;    // NOLINT(readability-identifier-naming)
 
 namespace oval4d::store {
 
-/// Stores each session in one Redis hash and its objects in another; Redis itself expires both. Operations that must be
-/// atomic are Lua scripts, such as a claim, which increments the fence, and a save, which compares the fence. Each
-/// server has a Redis list, to which other servers add the ids of the sessions that they claim from this server. If
-/// this server has claimed a session back in the meantime, the id in its list is out of date; the fence in the record
-/// shows that. Requires Redis 7 or later.
+/// A session store in Redis. Each session is one Redis hash, and its objects are another; Redis itself expires both.
+/// Atomic operations are Lua scripts: for example, a claim increments the fence (the number of the claim), and a save
+/// compares the fence.
+/// Each server has a Redis list of the ids of sessions that other servers have claimed from it. If this server has
+/// claimed a session back since, the id in the list is out of date; the fence in the record shows this. Requires Redis
+/// 7 or later.
 class RedisStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// Does not connect; the first operation connects. Throws std::invalid_argument unless `options.url` is
+    /// Does not connect; the first operation connects. Throws std::invalid_argument unless `options.url` has the form
     /// redis://[user:password@]host[:port][/database]. The password is not percent-decoded.
     explicit RedisStore(const StoreOptions& options, ClockFunction<Clock> now = Clock::now);
     ~RedisStore() override;
@@ -31,7 +32,7 @@ class RedisStore final : public Store {
     std::optional<SessionRecord> read(const std::string& id) override;
     std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
-    /// Does nothing and returns 0: Redis has its own quota, `maxmemory`.
+    /// Does nothing and returns 0, because Redis has a quota of its own, `maxmemory`.
     std::size_t evict(std::span<const RecordUpdate> /*updates*/, const IsPinned& /*isPinned*/) override { return 0; }
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
@@ -60,12 +61,13 @@ class RedisStore final : public Store {
     std::string host_, user_, password_, database_;
     int port_ = 6379;
     const Milliseconds expiry_, timeout_;
-    const std::string self_;  // random name of this server in Redis
+    const std::string self_;  // random name that identifies this server in Redis
     const ClockFunction<Clock> now_;
     std::unique_ptr<redisContext, RedisDeleter> context_;
-    // SHA-1 digests of the loaded scripts.
+    // The SHA-1 digests of the loaded Lua scripts, by which Redis calls them.
     std::string readScript_, claimScript_, saveScript_, hashScript_, removeScript_, pollScript_;
-    // Until this time, tokens are also stored as plain text, for oval4d servers of version 0.1.0 on the same Redis.
+    // Until this time, tokens are also stored as plain text, because oval4d servers of version 0.1.0 use the same
+    // Redis.
     Clock::time_point plainUntil_;
     std::size_t size_ = 0;
 };

@@ -12,7 +12,7 @@ namespace oval4d::store {
 
 namespace {
 
-/// Initializes libsodium, which then uses its fastest implementation for this processor.
+/// Initializes libsodium, so that it uses its fastest implementation for this processor.
 void initializeLibsodium() {
     if (sodium_init() < 0) throw std::runtime_error("libsodium cannot be used");
 }
@@ -45,7 +45,7 @@ std::string hashToken(std::string_view token) {
     initializeLibsodium();
     std::array<unsigned char, crypto_generichash_BYTES> hash{};
     crypto_generichash(hash.data(), hash.size(), bytesIn(token), token.size(), nullptr, 0);
-    std::string text(2 * hash.size() + 1, '\0');  // with the terminating zero
+    std::string text(2 * hash.size() + 1, '\0');  // room for the terminating zero
     sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
     text.pop_back();
     return text;
@@ -70,7 +70,7 @@ std::string recordDigest(std::span<const std::string_view> parts) {
 }
 
 bool equalInConstantTime(std::string_view given, std::string_view expected) {
-    // Lengths are not secret: all tokens have the same length, and so do all hashes.
+    // Comparing lengths first reveals nothing, because all tokens have the same length, and so do all hashes.
     return given.size() == expected.size() && sodium_memcmp(given.data(), expected.data(), given.size()) == 0;
 }
 

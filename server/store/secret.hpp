@@ -8,20 +8,21 @@
 
 namespace oval4d::store {
 
-/// Returns an unguessable name: `bytes` random bytes from the system, encoded in lower-case base 32 (a–z, 2–7), whose
-/// characters are allowed in URLs and file names.
+/// Returns an unguessable name: `bytes` random bytes from the operating system, encoded in lowercase base 32 (a–z,
+/// 2–7). All characters are allowed in URLs and file names.
 std::string randomName(std::size_t bytes);
 
-/// Returns the hash that stores keep in place of a token: 256 bits of BLAKE2b in lower-case hexadecimal. A fast hash
-/// without salt is sufficient, because a token is 160 random bits and cannot be found by brute force, unlike a
-/// password.
+/// Returns the hash of a token: 256 bits of BLAKE2b in lowercase hexadecimal. Stores keep this hash in place of the
+/// token. A fast hash without salt is sufficient: a token is 160 random bits, so unlike a password, it cannot be
+/// guessed.
 std::string hashToken(std::string_view token);
 
-/// Returns a digest that detects damaged records: 128 bits of BLAKE2b over `parts` and their lengths, as 16 bytes.
+/// Returns a digest by which damage of a record is noticed: 128 bits of BLAKE2b over `parts` and their lengths, as 16
+/// bytes.
 std::string recordDigest(std::span<const std::string_view> parts);
 
-/// Returns whether two secrets are equal. For secrets of equal length, the running time does not depend on the position
-/// of the first difference, and therefore reveals nothing about the secrets.
+/// Returns whether two secrets are equal. For equal lengths, the running time does not depend on the position of the
+/// first difference. So an attacker cannot find a secret by measuring times.
 bool equalInConstantTime(std::string_view given, std::string_view expected);
 
 }  // namespace oval4d::store

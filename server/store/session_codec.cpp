@@ -12,10 +12,10 @@
 #include "store/object_list.hpp"
 #include "store/state_codec.hpp"
 
-// A session is encoded as two CBOR arrays, the whole and the head. The whole contains the members of the session with
-// their numbers as indices (see visitStoredMembers() in session/session.hpp); at the indices 0 and 2, the version and
-// the list of objects. The head consists of the first four elements of such an array: version, revision, objects,
-// current state. A version refuses arrays with members that it does not know.
+// A session is encoded as two CBOR arrays, the whole and the head. The whole contains the members of the session, whose
+// numbers are their indices (see visitStoredMembers() in session/session.hpp). Index 0 contains the version, and index
+// 2 the list of objects. The head has only four elements: version, revision, list of objects, current state. Arrays
+// with members that this version does not know are refused.
 
 namespace oval4d::store {
 
@@ -25,16 +25,16 @@ using session::State;
 
 namespace {
 
-constexpr std::size_t kVersion = 0, kObjects = 2;  // the indices of what is not a member of the session
+constexpr std::size_t kVersion = 0, kObjects = 2;  // the indices of elements that are not members of the session
 constexpr std::size_t kHeadMembers = 4;
 
-constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53: JSON readers represent integers exactly up to this one
+constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53; JSON readers represent all integers up to this one exactly
 
-/// A list of states: the undo steps or the redo steps.
+/// A list of states, such as the undo steps or the redo steps.
 template <typename T>
 concept StateList = std::same_as<typename T::value_type, State>;
 
-/// Finds out how many elements the record of a whole session has.
+/// A visitor that finds the number of elements in the record of a whole session.
 class SessionMemberCounter {
   public:
     template <typename T>
@@ -57,8 +57,8 @@ std::size_t memberCountOf(const Session& session) {
     return counter.count();
 }
 
-/// Writes the first `size` elements of the record of a session, with at most `maxHistory` states of each list of
-/// states: the last ones.
+/// A visitor that writes the first `size` elements of a session record. Of each list of states, writes only the last
+/// `maxHistory` states.
 class SessionWriter : public MemberWriter {
   public:
     SessionWriter(std::size_t size, std::size_t maxHistory, const ObjectKeyLookup& keyOf)
@@ -73,7 +73,7 @@ class SessionWriter : public MemberWriter {
         member(number, value);
     }
 
-    /// Returns the record, after the members have been written.
+    /// Returns the record. Called after all members have been visited.
     json takeRecord() {
         put(kVersion, kRecordVersion);
         put(kObjects, objects_.list());
@@ -100,8 +100,8 @@ class SessionWriter : public MemberWriter {
     ObjectListEncoder objects_;
 };
 
-/// Reads those members of a session that are among the first `size` elements of its record. States and loaded objects
-/// can be read only if there is a decoder of the list of objects.
+/// A visitor that reads the members of a session among the first `size` elements of its record. States and loaded
+/// objects require a decoder of the list of objects; `objects` may be null if there are none among these elements.
 class SessionReader : public MemberReader {
   public:
     SessionReader(const json& record, std::size_t size, ObjectListDecoder* objects)
@@ -171,7 +171,7 @@ Session decodeSession(std::string_view whole, std::string_view head, const Objec
         const json newerValue = parseRecord(head);
         refuseUnknownMembers(newerValue, kHeadMembers);
         Session newer;
-        decodeInto(newer, newerValue, kObjects, nullptr);  // only the revision
+        decodeInto(newer, newerValue, kObjects, nullptr);  // reads only the revision
         if (newer.revision <= session.revision) return session;
         ObjectListDecoder newerObjects(newerValue.at(kObjects), objectOf, cache);
         decodeInto(newer, newerValue, kHeadMembers, &newerObjects);

@@ -18,7 +18,7 @@ std::string_view bytesOf(sqlite3_value* value) {
     return bytes == nullptr ? std::string_view() : std::string_view(static_cast<const char*>(bytes), size);
 }
 
-/// Calls `make` and reports its exceptions to SQLite, because they must not propagate through SQLite's C code.
+/// Calls `make`, and reports its exceptions to SQLite, because exceptions must not pass through SQLite's C code.
 template <typename Make>
 void answer(sqlite3_context* context, Make make) {
     try {
@@ -50,15 +50,16 @@ Database::Database(std::string path) : path_(std::move(path)) {
     try {
         if (sqlite3_open_v2(path_.c_str(), &handle_, SQLITE_OPEN_READWRITE, nullptr) != SQLITE_OK) fail("opening it");
         sqlite3_extended_result_codes(handle_, 1);
-        sqlite3_busy_timeout(handle_, 2000);  // ms to wait for a lock: a server that was killed may still be exiting
+        sqlite3_busy_timeout(handle_, 2000);  // maximum wait for a lock, in ms, because a killed server may still be
+                                              // exiting
         constexpr int kFlags = SQLITE_UTF8 | SQLITE_DETERMINISTIC | SQLITE_DIRECTONLY;
         sqlite3_create_function(handle_, "hash_of", 1, kFlags, nullptr, hashFunction, nullptr, nullptr);
         sqlite3_create_function(handle_, "digest_of", -1, kFlags, nullptr, digestFunction, nullptr, nullptr);
         // The file may be damaged or forged: do not trust its schema.
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
-        // These statements do not read the file, so they do not fail if the file is damaged. The caller needs an open
-        // database even then, to copy the intact sessions.
+        // These statements do not read the file, so they also succeed on a damaged file. The caller needs the open
+        // database to copy the intact sessions.
         run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON;"
             "PRAGMA secure_delete = ON; PRAGMA foreign_keys = ON");
     } catch (...) {
@@ -122,7 +123,7 @@ Statement& Statement::text(std::string_view value) {
 }
 
 Statement& Statement::blob(std::string_view value) {
-    // For an empty view, data() may be a null pointer, which SQLite would bind as NULL, not as an empty blob.
+    // data() of an empty view may be null. SQLite would bind null as NULL, not as an empty blob.
     return checkBinding(
         sqlite3_bind_blob64(statement_, ++bound_, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC));
 }

@@ -1,11 +1,11 @@
 #pragma once
 // RAII wrappers of SQLite connections, statements and transactions. They report errors as StoreError.
 //
-// The library SQLiteCpp would replace Statement and Transaction, about sixty lines. The rest would still call SQLite:
-// to set options of the connection (sqlite3_db_config), to define functions that a forged schema cannot call
-// (SQLITE_DIRECTONLY), and to learn whether the disk is full or read-only (sqlite3_system_errno), which SQLiteCpp loses
-// if it cannot open a file, because it closes the connection before its caller sees the error. Its exceptions would
-// also have to be converted to StoreError wherever a statement is executed.
+// Why not the library SQLiteCpp? It would replace only Statement and Transaction, about sixty lines. The rest would
+// still call SQLite directly: to set options of the connection (sqlite3_db_config), to define functions that a forged
+// schema cannot call (SQLITE_DIRECTONLY), and to learn whether the disk is full or read-only (sqlite3_system_errno).
+// SQLiteCpp loses this last information if it cannot open a file. Its exceptions would also have to be converted to
+// StoreError wherever a statement is executed.
 
 #include <cstdint>
 #include <optional>
@@ -19,31 +19,32 @@ struct sqlite3_stmt;
 
 namespace oval4d::store {
 
-/// Thrown if the file is corrupt or is not an SQLite database.
+/// An error: the file is corrupt, or is not an SQLite database.
 class CorruptDatabase : public StoreError {
   public:
     using StoreError::StoreError;
 };
 
-/// A connection to a database file. Locks the file exclusively from the first read on. Provides two SQL functions,
-/// hash_of(token) and digest_of(part, …), which call hashToken() and recordDigest() of secret.hpp.
+/// A connection to a database file. Holds an exclusive lock on the file from the first read on. Defines two SQL
+/// functions, hash_of(token) and digest_of(part, …), which call hashToken() and recordDigest() of secret.hpp.
 class Database {
   public:
-    /// Opens an existing file; throws StoreError if there is none. Does not read the file, so it does not notice
-    /// damage; the first statement that is executed reads the file.
+    /// Opens an existing file. Throws StoreError if there is none. Does not read the file, so damage is noticed only
+    /// when the first statement is executed.
     explicit Database(std::string path);
     Database(const Database&) = delete;
     Database& operator=(const Database&) = delete;
     ~Database();
 
     const std::string& path() const { return path_; }
-    /// Executes one or more statements and ignores their results. Like all functions that execute a statement, throws
-    /// NotWritable if the file cannot be written, CorruptDatabase if it is damaged, and StoreError for any other error.
+    /// Executes one or more SQL statements and ignores their results. Throws NotWritable if the file cannot be written,
+    /// CorruptDatabase if the file is damaged, and StoreError for any other error. All functions here that execute a
+    /// statement throw these.
     void run(const char* sql);
-    /// Executes a query and returns the first value of its first row, or 0 if there are no rows.
+    /// Executes a query and returns the first value of its first row, or 0 if the query returns no rows.
     std::int64_t queryNumber(const char* sql);
-    /// Makes the destructor keep the write-ahead log file; without this call, it writes the log to the database file
-    /// and deletes the log. Must be called before a damaged file and its log are renamed.
+    /// Makes the destructor keep the write-ahead log file. Otherwise, the destructor writes the log to the database
+    /// file and deletes the log. Must be called before a damaged file and its log are renamed.
     void keepWriteAheadLog();
 
   private:
@@ -55,7 +56,7 @@ class Database {
     sqlite3* handle_ = nullptr;
 };
 
-/// A prepared statement that is executed once. Values bound to it are not copied and must outlive it.
+/// A prepared statement that is executed once. Bound values are not copied; they must outlive the statement.
 class Statement {
   public:
     Statement(Database& database, const char* sql);
@@ -63,17 +64,17 @@ class Statement {
     Statement& operator=(const Statement&) = delete;
     ~Statement();
 
-    /// These functions bind a value to the next parameter of the statement.
+    /// text(), blob() and number() bind a value to the next parameter of the statement.
     Statement& text(std::string_view value);
     Statement& blob(std::string_view value);
     Statement& number(std::int64_t value);
 
-    /// Executes the statement up to its next row; returns false if there are no more rows.
+    /// Executes the statement up to its next row. Returns false if there are no more rows.
     bool step();
-    /// These functions return a value of the current row; columns count from 0.
+    /// bytesAt() and numberAt() return a value of the current row. Columns count from 0.
     std::string bytesAt(int column) const;
     std::int64_t numberAt(int column) const;
-    /// Returns the number of rows that the statement has changed.
+    /// Returns the number of rows that the statement has inserted, changed or deleted.
     std::size_t changes() const;
 
   private:
@@ -84,7 +85,7 @@ class Statement {
     int bound_ = 0;
 };
 
-/// A transaction, which the destructor rolls back unless it was committed.
+/// A transaction. The destructor rolls it back, unless commit() was called.
 class Transaction {
   public:
     explicit Transaction(Database& database);

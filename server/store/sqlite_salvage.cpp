@@ -8,9 +8,9 @@ namespace oval4d::store {
 
 namespace {
 
-/// Finds the ids of all sessions. A scan of a table in order stops at a damaged page, but a scan that starts after this
-/// page may find further ids. If the first scan fails, the constructor therefore scans from many starting points in
-/// both directions. It also scans an index and the table of objects, which are stored on other pages.
+/// A search for the ids of all sessions in a damaged file. A scan of a table stops at a damaged page, but a scan that
+/// starts after this page may find further ids. So if the first scan fails, the constructor scans from many starting
+/// points in both directions. It also scans an index and the table of objects, which are on other pages.
 class IdScan {
   public:
     explicit IdScan(Database& from) : from_(from) {
@@ -37,7 +37,7 @@ class IdScan {
     bool complete = true;
 
   private:
-    /// Adds the ids that the query returns to `found`. Returns false if an error ended it early.
+    /// Adds the ids that a query returns to `found`. Returns false if an error ended the query early.
     bool walk(const char* sql, const std::vector<std::string>& bounds) {
         try {
             Statement statement(from_, sql);
@@ -57,8 +57,8 @@ struct SalvagedSession {
     std::vector<std::pair<std::string, std::string>> objects;
 };
 
-/// Reads a session. Returns an empty optional if it is missing, or if a part of it does not match its digest. Throws
-/// StoreError if a page is damaged. `hashed`: whether the file has the schema of version 2, with hashed tokens and
+/// Reads a session. Returns an empty optional if the session is missing, or if a part does not match its digest. Throws
+/// StoreError if a page is damaged. `hashed` says whether the file has schema version 2, with hashed tokens and
 /// digests.
 std::optional<SalvagedSession> readSession(Database& from, bool hashed, const std::string& id) {
     Statement session(from, hashed
@@ -115,7 +115,7 @@ SalvageResult salvage(Database& from, Database& to) {
         try {
             session = readSession(from, hashed, id);
         } catch (const StoreError&) {
-            session.reset();  // on StoreError: the session is on a damaged page
+            session.reset();  // the session is on a damaged page
         }
         if (!session) {
             result.lost.insert(id);

@@ -1,5 +1,5 @@
 #pragma once
-// The recovery of intact sessions from a damaged database file.
+// Copies the intact sessions out of a damaged database file.
 
 #include <cstddef>
 #include <set>
@@ -9,15 +9,15 @@
 
 namespace oval4d::store {
 
-/// The result of a salvage.
+/// The result of salvage().
 struct SalvageResult {
-    std::size_t saved = 0;       ///< number of sessions copied
-    std::set<std::string> lost;  ///< ids of sessions whose record is damaged
-    bool complete = true;        ///< whether all ids were found; if false, there may be further sessions
+    std::size_t saved = 0;       ///< number of copied sessions
+    std::set<std::string> lost;  ///< ids of sessions whose records are damaged
+    bool complete = true;        ///< whether all ids were found; if false, more sessions may be lost
 };
 
-/// Copies every intact session and its objects from a damaged file of schema version 1 or 2 into `to`, which must have
-/// the schema kSchema and empty tables. Throws StoreError if `to` cannot be written.
+/// Copies every intact session and its objects from a damaged file to the database `to`. The damaged file has schema
+/// version 1 or 2. `to` must have the schema kSchema and empty tables. Throws StoreError if `to` cannot be written.
 SalvageResult salvage(Database& from, Database& to);
 
 }  // namespace oval4d::store

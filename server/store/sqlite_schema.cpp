@@ -11,9 +11,9 @@ namespace oval4d::store {
 
 namespace {
 
-constexpr std::size_t kFirstPageSize = 4096;  // of a store's file
+constexpr std::size_t kFirstPageSize = 4096;  // size in bytes of the first page of a store's file
 
-// The bytes of application_id in the file's header, and their offset in bytes.
+// The bytes of application_id in the header of an SQLite file, and their offset from the start of the file.
 constexpr std::string_view kApplicationId = "ov4d";
 constexpr std::size_t kApplicationIdAt = 68;
 
@@ -25,7 +25,7 @@ void refuseForeignFile(const std::string& path) {
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
     constexpr std::string_view kMagic("SQLite format 3\0", 16);  // with the terminating zero
-    constexpr std::size_t kTableCount = 103;  // offset of two bytes: the number of rows of sqlite_schema on page 1
+    constexpr std::size_t kTableCount = 103;  // offset of two bytes on page 1: the number of rows of sqlite_schema
     const bool isDatabase = start.starts_with(kMagic);
     const bool hasNoTables =
         isDatabase && start.size() == kFirstPageSize && start.compare(kTableCount, 2, std::string_view("\0\0", 2)) == 0;

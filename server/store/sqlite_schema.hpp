@@ -1,11 +1,11 @@
 #pragma once
-// The schema of a store's database file, and how such a file is recognized.
+// The schema of a session store's database file, and a check that a file is such a store.
 
 #include <string>
 
 namespace oval4d::store {
 
-/// The version of the schema, which the file stores as user_version. Version 1 has no digests and stores tokens as
+/// The version of the schema. Files store the version as user_version. Version 1 has no digests, and stores tokens as
 /// plain text.
 inline constexpr int kSchemaVersion = 2;
 inline constexpr const char* kSchema = R"(
@@ -26,10 +26,10 @@ inline constexpr const char* kSchema = R"(
     PRAGMA application_id = 1870017636;
     PRAGMA user_version = 2;)";
 
-/// Throws StoreError if the file exists and is not a store of oval4d, so that the server neither changes nor renames
-/// it. The first page of a store contains the application_id of kSchema or, in version 1, the names of
-/// its tables. An empty file is accepted. So is a database without tables, because its tables may still be in the
-/// write-ahead log.
+/// Throws StoreError if the file exists and is not a session store of oval4d. The server must neither change nor rename
+/// such a file. The first page of a store contains the application_id of kSchema; in version 1, it contains the names
+/// of the tables instead. An empty file is accepted. A database without tables is accepted, too, because its tables may
+/// still be in the write-ahead log.
 void refuseForeignFile(const std::string& path);
 
 }  // namespace oval4d::store

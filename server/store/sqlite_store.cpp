@@ -16,14 +16,15 @@ namespace oval4d::store {
 namespace {
 
 constexpr std::size_t kPageSize = 4096;
-constexpr std::int64_t kMaxReleasedPages = 1024;  // maximum number of pages that one poll releases
-constexpr std::size_t kMaxListedIds = 20;         // maximum number of ids in a line of the log
+constexpr std::int64_t kMaxReleasedPages = 1024;  // maximum number of free pages that one poll returns to the file
+                                                  // system
+constexpr std::size_t kMaxListedIds = 20;         // maximum number of session ids in a log line
 
-// Returns the maximum number of pages of the database file: three quarters of the quota. The rest is for the
-// write-ahead log, which may grow to the size that triggers a checkpoint, plus the pages of one transaction.
+// Returns the maximum number of pages of the database file: three quarters of the quota. The rest of the quota is for
+// the write-ahead log. The log may grow to the size that triggers a checkpoint, plus the pages of one transaction.
 std::int64_t maxPagesFor(std::size_t quota) { return static_cast<std::int64_t>(quota / kPageSize * 3 / 4); }
 
-/// Returns an upper bound of the number of pages that updates need: short rows share pages that are at least half full,
+/// Returns an upper bound of the number of pages that updates need. Short rows share pages that are at least half full,
 /// and long values have pages of their own.
 std::int64_t pagesNeededFor(std::span<const RecordUpdate> updates) {
     std::size_t pages = 8;  // for the interior pages of tables and indices
@@ -49,7 +50,7 @@ std::string listed(const std::set<std::string>& ids) {
     return text;
 }
 
-/// Returns an unused path, to which the caller renames a damaged file.
+/// Returns an unused path. The caller renames a damaged file to this path.
 std::string damagedName(const std::string& path) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name =
@@ -75,7 +76,7 @@ SqliteStore::SqliteStore(std::string path, std::size_t quota, ClockFunction<Cloc
     spdlog::info("store opened store={} sessions={}", name(), size_);
 }
 
-/// Returns the current time in milliseconds since 1970, like the times in records.
+/// Returns the current time in milliseconds since 1970, the unit of all times in records.
 std::int64_t SqliteStore::nowMilliseconds() const {
     return std::chrono::duration_cast<Milliseconds>(now_().time_since_epoch()).count();
 }
@@ -94,7 +95,7 @@ void SqliteStore::open() {
         } catch (const CorruptDatabase& fault) {
             damage = fault.what();
         }
-        // Another server may have renamed the file after this one opened it.
+        // Another server may have replaced the file after this server opened it.
         if (fileIdentity(path_) != identity) {
             throw StoreError(path_ + " is in use by another server; each server needs its own file");
         }
@@ -109,13 +110,14 @@ void SqliteStore::open() {
     }
 }
 
-/// Throws CorruptDatabase if the file is damaged, and StoreError if it belongs to another program or was written by a
-/// later version. Changes nothing; after a StoreError, closing the database changes nothing, either.
+/// Throws CorruptDatabase if the file is damaged. Throws StoreError if the file belongs to another program or was
+/// written by a later version. Does not change the file; after a StoreError, closing the database does not change it,
+/// either.
 void SqliteStore::check() {
     const auto tables = database_->queryNumber("SELECT count(*) FROM sqlite_schema");
     const auto version = database_->queryNumber("PRAGMA user_version");
     const auto refuse = [&](const char* why) {
-        // Otherwise, closing the file would write the log that a killed server has left into it.
+        // Without this call, closing the file would write the log of a killed server to the file.
         database_->keepWriteAheadLog();
         throw StoreError(path_ + why);
     };
@@ -123,7 +125,7 @@ void SqliteStore::check() {
     const auto ours =
         database_->queryNumber("SELECT count(*) FROM sqlite_schema WHERE name IN ('session', 'polytope')");
     if (tables > 0 && ours == 0) refuse(" is the database of another program; it was not changed: give another path");
-    // Unlike quick_check, this also compares the indices with the tables.
+    // Use integrity_check: unlike quick_check, it also compares the indices with the tables.
     Statement check(*database_, "PRAGMA integrity_check(1)");
     const std::string result = check.step() ? check.bytesAt(0) : "the integrity check returned nothing";
     if (result != "ok") throw CorruptDatabase(path_ + ": " + result);
@@ -147,7 +149,7 @@ void SqliteStore::setUp() {
     {
         Statement statement(
             *database_,
-            "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay expiry
+            "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay the expiry
         statement.number(nowMilliseconds()).step();
     }
     if (const auto count = evictSessionsUntilFits(0, [](const std::string&) { return false; }); count > 0) {
@@ -158,8 +160,8 @@ void SqliteStore::setUp() {
     size_ = static_cast<std::size_t>(database_->queryNumber("SELECT count(*) FROM session"));
 }
 
-/// Migrates a file of schema version 1, in which tokens are plain text and records have no digests, in one transaction.
-/// A VACUUM follows; if it fails, it is repeated when the file is opened the next time.
+/// Converts a file of schema version 1, with tokens as plain text and records without digests, in one transaction. A
+/// VACUUM follows. If the VACUUM fails, it runs again when the file is opened the next time.
 void SqliteStore::migrate() {
     if (database_->queryNumber("PRAGMA user_version") < kSchemaVersion) {
         database_->run("PRAGMA foreign_keys = OFF");
@@ -179,16 +181,16 @@ void SqliteStore::migrate() {
         database_->run("PRAGMA foreign_keys = ON");
         spdlog::info("store migrated to version {} store={}", kSchemaVersion, name());
     }
-    // Once for each file, erase the plain-text tokens of schema version 1 from free pages and from the write-ahead log.
-    // auto_vacuum tells whether this is done: it becomes `incremental` only when VACUUM succeeds. After a failure,
-    // VACUUM runs again when the file is opened the next time.
+    // Once for each file, VACUUM erases the plain-text tokens of schema version 1 from free pages and from the
+    // write-ahead log. auto_vacuum becomes `incremental` only when VACUUM succeeds, so its value says whether this is
+    // done.
     constexpr std::int64_t kIncremental = 2;
     if (database_->queryNumber("PRAGMA auto_vacuum") != kIncremental) {
         database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
     }
 }
 
-/// Copies the intact sessions into a new file, which replaces the damaged one.
+/// Copies the intact sessions to a new file, which replaces the damaged file. `why` describes the damage for the log.
 void SqliteStore::salvageDamagedFile(const std::string& why) {
     spdlog::error("store damaged store={} damage=\"{}\"", name(), why);
     const std::string fresh = path_ + ".salvaged";
@@ -201,7 +203,7 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
         to.run(kSchema);
         salvaged = salvage(*database_, to);
     }
-    // The write-ahead log is renamed first: if it kept its name, SQLite would apply it to the new file.
+    // Rename the write-ahead log first. Otherwise, SQLite would apply it to the new file.
     const std::string aside = damagedName(path_);
     database_->keepWriteAheadLog();
     std::error_code missing;
@@ -209,14 +211,14 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
     renameIfExists(path_ + "-wal", aside + "-wal");
     renameIfExists(path_, aside);
     renameIfExists(fresh, path_);
-    database_.reset();  // the lock on the damaged file is held until the renames are done
+    database_.reset();  // releases the lock on the damaged file only after the renames
     spdlog::error("store salvaged store={} saved={} lost={}{} lost_sessions={} set_aside={}", name(), salvaged.saved,
                   salvaged.complete ? "" : "at least ", salvaged.lost.size(), listed(salvaged.lost), aside);
     damage_.clear();
     database_ = std::make_unique<Database>(path_);
     try {
-        // Another server that started at the same time may have locked the new file. That server gives up when it
-        // notices the renames, so wait for the lock.
+        // Another server that started at the same time may have locked the new file. That server exits when it notices
+        // the renames, so wait for the lock.
         database_->run("PRAGMA busy_timeout = 30000");
         setUp();
         database_->run("PRAGMA busy_timeout = 2000");
@@ -226,8 +228,8 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
     }
 }
 
-/// Logs the sessions whose records do not match their digests. check() does not detect them, because SQLite's integrity
-/// check does not notice bit errors within a record. The damaged records are kept for inspection.
+/// Logs the sessions whose records do not match their digests. check() does not find them, because SQLite's integrity
+/// check does not notice bit errors within a record. Damaged records are kept for inspection.
 void SqliteStore::logDamagedRecords() {
     std::set<std::string> damaged;
     Statement statement(
@@ -241,9 +243,9 @@ void SqliteStore::logDamagedRecords() {
                   all - std::min(all, damaged.size()), damaged.size(), listed(damaged));
 }
 
-/// Calls `work` and returns its result. If `work` finds that the file is damaged, this call throws, and the next call
-/// repairs the file first. The repair may lose sessions, but the exception makes WriteBehindStore save all open
-/// sessions again.
+/// Calls `work` and returns its result. If `work` finds damage in the file, this call throws, and the next call repairs
+/// the file first. The repair may lose sessions, but WriteBehindStore saves all open sessions again after the
+/// exception.
 template <typename Work>
 auto SqliteStore::runAfterPendingRepair(Work work) {
     if (!database_) {
@@ -280,7 +282,7 @@ std::optional<SessionRecord> SqliteStore::claim(const std::string& id) {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             statement.number(nowMilliseconds()).text(id).step();
         } catch (const NotWritable&) {
-            // The record can still be read. Its fence need not be incremented, because no other server uses this file.
+            // The record can still be read. Its fence may stay the same, because no other server uses this file.
         }
     });
     return read(id);
@@ -384,7 +386,7 @@ std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const 
         ++count;
         if (fits()) break;
     }
-    if (!fits()) return 0;  // without a commit, so the deleted sessions are restored
+    if (!fits()) return 0;  // no commit, so the transaction restores the deleted sessions
     all.commit();
     return count;
 }
@@ -431,7 +433,7 @@ std::int64_t SqliteStore::usedPages() {
     return database_->queryNumber("PRAGMA page_count") - database_->queryNumber("PRAGMA freelist_count");
 }
 
-/// Releases at most `maxPages` free pages to the file system, and keeps kReservedPages for the next updates.
+/// Returns at most `maxPages` free pages to the file system, but keeps kReservedPages free pages for the next updates.
 void SqliteStore::releasePages(std::int64_t maxPages) {
     constexpr std::int64_t kReservedPages = 64;
     const std::int64_t free = database_->queryNumber("PRAGMA freelist_count");

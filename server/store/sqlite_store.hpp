@@ -1,5 +1,5 @@
 #pragma once
-// A store in an SQLite file.
+// A session store in an SQLite file.
 
 #include <memory>
 #include <string>
@@ -9,23 +9,22 @@
 
 namespace oval4d::store {
 
-/// Keeps records in an SQLite file, which outlives the server. Only one server can use the file, and no other user of
-/// the system can read it. Saved records survive if the process is killed at any time, because each commit is in the
-/// write-ahead log. The log is not flushed to the disk at each commit (synchronous = NORMAL): a power failure may lose
-/// the latest commits, but does not damage the file.
+/// A session store in an SQLite file, which outlives the server. Only one server can use the file, and no other user of
+/// the system can read it. Each commit is in the write-ahead log, so saved records survive if the process is killed at
+/// any time. The log is not flushed to the disk at each commit (synchronous = NORMAL): a power failure may lose the
+/// latest commits, but does not damage the file.
 ///
-/// Records contain digests, and the whole file is checked when it is opened. If damaged pages are found at that time or
-/// later, the intact sessions are copied into a new file, and the damaged file is renamed to PATH.damaged-TIME. If a
-/// record does not match its digest, but its page is intact, the record is left unchanged. Both damaged pages and
-/// damaged records are logged.
+/// The whole file is checked when it is opened. If damaged pages are found, then or later, the intact sessions are
+/// copied to a new file, and the damaged file is renamed to PATH.damaged-TIME. Records contain digests. A record that
+/// does not match its digest, on an intact page, is left unchanged. Both kinds of damage are logged.
 class SqliteStore final : public Store {
   public:
     using Clock = std::chrono::system_clock;  ///< the wall clock, because records outlive the process
 
-    /// Opens or creates the file. `quota`: the maximum size, in bytes, of the file and its write-ahead log together;
-    /// only a single update of more than an eighth of the quota may exceed it temporarily. Throws StoreError if another
-    /// server uses the file, or if the file is not a store of oval4d, not owned by the server's user, or not a regular
-    /// file.
+    /// Opens or creates the file. `quota` is the maximum size, in bytes, of the file and its write-ahead log together.
+    /// Only an update larger than an eighth of the quota may exceed the quota for a short time. Throws StoreError if
+    /// another server uses the file, or if the file is not a session store of oval4d, is not a regular file, or is not
+    /// owned by the user of this process.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now);
 
     WritePolicy writePolicy() const override { return WritePolicy::soon; }
@@ -60,8 +59,9 @@ class SqliteStore final : public Store {
     const std::string path_;
     const std::int64_t maxPages_;
     const ClockFunction<Clock> now_;
-    std::unique_ptr<Database> database_;  // null after a failed repair: the next operation opens the file again
-    std::string damage_;                  // damage that the next operation must repair; empty if there is none
+    // The open database. Null after a failed repair: the next operation then opens the file again.
+    std::unique_ptr<Database> database_;
+    std::string damage_;  // damage that the next operation must repair; empty if none
     std::size_t size_ = 0;
 };
 

@@ -24,7 +24,7 @@ using session::State;
 
 namespace {
 
-/// Writes the members of a state. Its object becomes an index into the list of objects.
+/// A visitor that writes the members of a state. Writes an index into the list of objects instead of the object.
 class StateWriter : public MemberWriter {
   public:
     explicit StateWriter(ObjectListEncoder& objects) : objects_(objects) {}
@@ -35,7 +35,7 @@ class StateWriter : public MemberWriter {
     ObjectListEncoder& objects_;
 };
 
-/// Reads the members of a state. Its object is an index into the list of objects.
+/// A visitor that reads the members of a state. Reads an index into the list of objects instead of the object.
 class StateReader : public MemberReader {
   public:
     StateReader(const json& array, const ObjectListDecoder& objects) : MemberReader(array), objects_(objects) {}
@@ -48,13 +48,14 @@ class StateReader : public MemberReader {
 
 // --- Checks of a state whose members have been read
 //
-// The checks concern single members, and how members fit each other and the object. Their limits are at least as wide
-// as those that the server enforces for clients. Without them, a damaged record could produce, for example, a state
-// with a million slices instead of an error. A later version may allow more, or build an object with more elements, so
-// what exceeds a limit or is missing in the object throws LaterRecord: otherwise, clients would forget the session.
+// The checks concern single members, and how members fit each other and the object. Without them, a damaged record
+// could produce, for example, a state with a million slices instead of an error. All limits are at least as wide as the
+// limits for clients.
+// A later version may allow more, or build an object with more elements. So a value beyond a limit, or an element that
+// the object lacks, throws LaterRecord. After UnreadableRecord, clients would forget the session.
 
-// Spacing, offset and focus point are limited in proportion to the circumradius. Because of rounding errors, each may
-// exceed its limit by this fraction.
+// The fraction by which spacing, offset and focus point may exceed their limits, because of rounding errors. The limits
+// are proportional to the circumradius.
 constexpr double kSlack = 1e-9;
 
 void check(const session::HyperplaneSettings& slices, double circumradius) {
@@ -102,8 +103,8 @@ void check(const State& state) {
     if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
 }
 
-// Fits the settings to a field in a file of the data folder, which may have been replaced by a file with another box
-// since the state was stored.
+// Clamps the settings to the bounds of a field in the server's data folder. The file may have been replaced by a file
+// with another box since the state was stored.
 void fitToFile(State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) return;

@@ -1,5 +1,5 @@
 #pragma once
-// Encodes states as CBOR arrays and decodes them.
+// Encodes states of a session as CBOR arrays, and decodes them.
 
 #include <nlohmann/json.hpp>
 
@@ -8,12 +8,12 @@
 
 namespace oval4d::store {
 
-/// Encodes a state as an array, and adds the state's source object to `objects`.
+/// Encodes a state as an array. Adds the state's source object to `objects`, and encodes its index there.
 nlohmann::json encodeState(const session::State& state, ObjectListEncoder& objects);
 
-/// Decodes a state. A record of an earlier version may lack some members; these get their defaults. Throws
-/// UnreadableRecord if a member is invalid or does not fit another member; LaterRecord if a member is unknown, exceeds
-/// a limit, or refers to an element or a cell type that the object lacks.
+/// Decodes a state from an array. Members that a record of an earlier version lacks get their defaults. Throws
+/// UnreadableRecord if a member is invalid or does not fit another member. Throws LaterRecord if a member is unknown,
+/// exceeds a limit, or refers to an element or a cell type that the object lacks.
 session::State decodeState(const nlohmann::json& array, ObjectListDecoder& objects);
 
 }  // namespace oval4d::store

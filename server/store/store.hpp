@@ -1,5 +1,5 @@
 #pragma once
-// The interface of session stores, the records that they store, and the errors that they report.
+// The interface of session stores, their records, and their errors.
 
 #include <chrono>
 #include <cstddef>
@@ -21,72 +21,75 @@ using Milliseconds = std::chrono::milliseconds;
 template <typename Clock>
 using ClockFunction = std::function<typename Clock::time_point()>;
 
-/// The credentials that open a session: its public id and its secret token.
+/// The credentials with which a client opens a session: its public id and its secret token.
 struct SessionCredentials {
     std::string id, token;
 };
 
-/// A fencing token: a number that prevents a server from saving a session after another server has claimed it. Each
-/// claim increments the fence in the session's record. The store refuses a save whose fence is lower than the fence in
-/// the record.
+/// A fencing token: the number of a claim. It prevents a server from saving a session after another server has claimed
+/// the session (become its owner). Each claim increments the fence in the session's record. The store refuses a save
+/// with a lower fence than that in the record.
 using Fence = std::uint64_t;
 
-/// The fence of a session that no server has claimed since it was created.
+/// The fence of a new session, which no other server has claimed.
 inline constexpr Fence kFirstFence = 1;
 
-/// A session as read() and claim() return it from the store.
+/// The record of a session, as read() and claim() return it.
 struct SessionRecord {
-    /// `whole`: the whole session, encoded by encodeWhole() (session_codec.hpp). `head`: the state and the revision
-    /// after a later change, encoded by encodeHead(); empty if `whole` is the newest state.
+    /// `whole` is the whole session, encoded by encodeWhole() (session_codec.hpp). `head` is a later state with its
+    /// revision, encoded by encodeHead(); empty if `whole` contains the latest state.
     std::string whole, head;
-    /// The session's objects that cannot be rebuilt from their names, as pairs (key, encoded object).
+    /// The session's objects that cannot be built from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
     Fence fence = 0;
-    std::string damage;  ///< says which part of the record does not match its digest; empty if the record is intact
+    /// Which part of the record does not match its digest. Empty if the record is intact.
+    std::string damage;
 };
 
 /// A change to the record of a session.
 struct RecordUpdate {
     SessionCredentials credentials;
     Fence fence = 0;
-    std::string head;   ///< replaces SessionRecord::head, even if it is empty; must not be empty if `whole` is
-    std::string whole;  ///< replaces SessionRecord::whole, unless it is empty
-    std::vector<std::pair<std::string, std::string>> objects;  ///< (key, encoded object) pairs to add
-    std::vector<std::string> dropped;                          ///< keys of objects to remove
-    bool closed = false;                                       ///< whether no client has the session open anymore
-    bool changed = true;                                       ///< whether the session has changed since its creation
+    /// The new SessionRecord::head, which may be empty. Must not be empty if `whole` is empty.
+    std::string head;
+    std::string whole;  ///< the new SessionRecord::whole; empty if it stays the same
+    /// Objects to add, as pairs (key, encoded object).
+    std::vector<std::pair<std::string, std::string>> objects;
+    std::vector<std::string> dropped;  ///< keys of objects to remove
+    bool closed = false;               ///< whether no client has the session open anymore
+    bool changed = true;               ///< whether the session has changed since its creation
 };
 
 /// The result of saving one update.
 enum class SaveResult : std::uint8_t {
     saved,
-    claimed,  ///< not saved: another server has claimed the session
-    missing,  ///< not saved: the store does not have the session, and the update has no `whole`
+    claimed,  ///< not saved, because another server has claimed the session
+    missing,  ///< not saved, because the store lacks the session and the update has no `whole`
 };
 
-/// A session that another server has claimed.
+/// A session that another server has claimed from this server.
 struct TakenOverSession {
     std::string id;
-    Fence fence = 0;  ///< the fence in the session's record; 0 if it has no record anymore
+    Fence fence = 0;  ///< the fence in the session's record; 0 if the record was deleted
 
     bool operator==(const TakenOverSession&) const = default;
 };
 
-/// Thrown if a store operation fails because the store does not answer, cannot be used, or is full.
+/// An error of a store: the store does not answer, cannot be used, or is full.
 class StoreError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if the store can be read but not written: its quota is used up, or its disk is full or read-only.
+/// An error of a store that can be read but not written: its quota is used up, or its disk is full or read-only.
 class NotWritable : public StoreError {
   public:
     using StoreError::StoreError;
 };
 
-/// Stores the records of sessions by session id. Every function may block, and throws StoreError if the store is
-/// unavailable or reports an error. An operation that throws may already have taken effect, fully or in part; the
-/// caller may repeat it. Not thread-safe: one thread at a time may call its functions.
+/// A store of session records, by session id. Every function may block, and throws StoreError if the store is
+/// unavailable or reports an error. An operation that throws may have taken effect, fully or in part; the caller may
+/// repeat it. Not thread-safe: callers must not call functions concurrently.
 class Store {
   public:
     Store() = default;
@@ -106,55 +109,54 @@ class Store {
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
 
-    /// Returns the hash of a stored session's token (hashToken() in secret.hpp); an empty optional if the session is
-    /// not stored. No store keeps the token itself, except a Redis store that servers of version 0.1.0 may still use.
+    /// Returns the hash of a stored session's token, as hashToken() in secret.hpp computes it. Returns an empty
+    /// optional if the session is not stored. Only a Redis store that servers of version 0.1.0 may still use keeps the
+    /// token itself.
     virtual std::optional<std::string> tokenHash(const std::string& id) = 0;
 
-    /// Returns whether the record of a session is known to be damaged. If it is, the stored hash may be wrong, so that
-    /// even the correct token may not match it.
+    /// Returns whether the record of a session is known to be damaged. Then the stored hash may be wrong, so that even
+    /// the correct token does not match it.
     virtual bool isDamaged(const std::string& /*id*/) { return false; }
 
-    /// Returns the record of a session, and changes nothing; an empty optional if the session is not stored.
+    /// Returns the record of a session, or an empty optional if the session is not stored. Changes nothing.
     virtual std::optional<SessionRecord> read(const std::string& id) = 0;
 
-    /// Makes this server the owner of a session, taking it over from another server if necessary. Returns the session's
-    /// record; an empty optional if the session is not stored.
+    /// Makes this server the owner of a session, even if another server owns it. Returns the session's record, or an
+    /// empty optional if the session is not stored.
     virtual std::optional<SessionRecord> claim(const std::string& id) = 0;
 
-    /// Applies the updates as one batch, and returns one result for each update, in the same order. An update with
-    /// `whole` creates the record if the store has none for the session. Throws NotWritable if the batch would exceed
-    /// the quota.
+    /// Applies the updates as one batch. Returns one result for each update, in the same order. An update with `whole`
+    /// creates the session's record if the store lacks it. Throws NotWritable if the batch would exceed the quota.
     virtual std::vector<SaveResult> save(std::span<const RecordUpdate> updates) = 0;
 
-    /// A function that returns whether the session with this id must not be evicted.
+    /// A function that returns whether the session with this id must not be evicted (deleted to free space).
     using IsPinned = std::function<bool(const std::string& id)>;
-    /// Called after save() has thrown NotWritable. Evicts sessions that are not pinned until `updates` fit within the
-    /// quota, and returns the number of evicted sessions. Evicts first the sessions that were never changed, then those
-    /// whose expiry period began first. Evicts none if the updates already fit, because save() then failed for another
-    /// reason, such as a full disk. Evicts none, either, if the updates would not fit even if only the pinned sessions
-    /// were left.
+    /// Evicts sessions that are not pinned until `updates` fit within the quota, and returns the number of evicted
+    /// sessions. Called after save() has thrown NotWritable. Evicts sessions that were never changed first, then those
+    /// that have not been used for the longest time. Evicts none if the updates already fit, because save() then failed
+    /// for another reason, such as a full disk. Evicts none, either, if the updates would not fit next to the pinned
+    /// sessions alone.
     virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
 
-    /// Removes sessions, except those that another server has claimed.
+    /// Removes sessions from the store, except sessions that another server has claimed.
     virtual void remove(std::span<const std::string> ids) = 0;
 
-    /// Restarts the expiry period of sessions. Saving and claiming a session restart it, too.
+    /// Restarts the expiry period of sessions, as saving or claiming a session does.
     virtual void restartExpiry(std::span<const std::string> ids) = 0;
 
-    /// Removes the sessions whose expiry period began more than `age` ago, and returns their number. Does nothing and
+    /// Removes the sessions whose expiry period began more than `age` ago. Returns their number. Does nothing and
     /// returns 0 if the store expires records itself.
     virtual std::size_t expire(Milliseconds age) = 0;
 
-    /// Updates size(), and returns the sessions that other servers have claimed from this one since the last call. If
-    /// this server has claimed such a session back in the meantime, TakenOverSession::fence is the fence of this
-    /// server's own claim.
+    /// Updates size(). Returns the sessions that other servers have claimed from this server since the last call. If
+    /// this server has claimed such a session back, TakenOverSession::fence is the fence of this server's own claim.
     virtual std::vector<TakenOverSession> pollTakenOverSessions() = 0;
 
     /// Returns the approximate number of stored sessions, as of the last pollTakenOverSessions().
     virtual std::size_t size() const = 0;
 };
 
-/// Returns an estimate of the maximum number of bytes that an update adds to a store.
+/// Returns an estimate of the maximum number of bytes by which an update enlarges a store.
 inline std::size_t estimateStoredSize(const RecordUpdate& update) {
     constexpr std::size_t kOverhead = 640;  // id, hash, times and index entries of a row
     std::size_t bytes = kOverhead + update.head.size() + update.whole.size();
@@ -165,12 +167,13 @@ inline std::size_t estimateStoredSize(const RecordUpdate& update) {
 /// The default quota of a store: 1 GiB.
 inline constexpr std::size_t kDefaultQuota = std::size_t{1} << 30U;
 
-/// The options of a store, which the operator sets.
+/// The options of a session store. The operator of the server sets them.
 struct StoreOptions {
     std::string url = "memory";         ///< "memory", "sqlite:PATH", "redis://[user:password@]host[:port][/database]"
-    Milliseconds expiry{1'800'000};     ///< time after which a session that no client has open is deleted
+    Milliseconds expiry{1'800'000};     ///< time after which a session is deleted if no client has it open
     Milliseconds timeout{1000};         ///< maximum time to wait for a reply of a store on the network
-    std::size_t quota = kDefaultQuota;  ///< maximum bytes of the file, or of the records in memory; not used for Redis
+    std::size_t quota = kDefaultQuota;  ///< maximum size of the file, or of the records in memory, in bytes; not used
+                                        ///< for Redis
 };
 
 }  // namespace oval4d::store

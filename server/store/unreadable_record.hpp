@@ -4,14 +4,15 @@
 
 namespace oval4d::store {
 
-/// Thrown if bytes are not a valid record of a session or object, or are of a version that this program does not read.
+/// An error: bytes are not a valid record of a session or object, or have a version that this program does not read.
 class UnreadableRecord : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// Thrown if a record is well formed, but has a version, a member or a value that this program does not know or allow,
-/// because a later version of the program has stored it. Such a record must be kept: the later version can read it.
+/// An error: a record is well formed, but has a version, a member or a value that this program does not know or allow,
+/// because a later version of the program has stored the record. The record must be kept, because the later version can
+/// read it.
 class LaterRecord : public UnreadableRecord {
   public:
     using UnreadableRecord::UnreadableRecord;

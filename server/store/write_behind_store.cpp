@@ -1,5 +1,4 @@
-// The functions of the store thread and those of its callers are in one file, although it is long, because they share
-// one lock.
+// This file is long, because the functions of the store thread and the functions of its callers share one lock.
 
 #include "store/write_behind_store.hpp"
 
@@ -18,8 +17,9 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr std::size_t kIdBytes = 10, kTokenBytes = 20;
-constexpr std::size_t kBatch = 256;                         // maximum number of sessions in one write
-constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;  // bytes; a write of this size gets no further session
+constexpr std::size_t kBatch = 256;  // maximum number of sessions in one write
+// The size in bytes from which a write gets no further session.
+constexpr std::size_t kBatchBytes = std::size_t{8} << 20U;
 constexpr auto kPollInterval = 500ms;
 constexpr auto kMaxRefreshInterval = 60s;
 
@@ -49,8 +49,7 @@ void WriteBehindStore::stop(Milliseconds limit) {
     }
     wake_.notify_one();
     if (storeThread_.joinable()) storeThread_.join();
-    // The callbacks may own large objects, so destroy the callbacks before this function returns, but without holding
-    // the lock.
+    // The callbacks may own large objects. Destroy them before this function returns, but without holding the lock.
     CachedSessions cached;
     decltype(tasks_) tasks, requests;
     {
@@ -98,7 +97,7 @@ void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     const std::lock_guard lock(mutex_);
     tasks_.emplace_back([this, id, keys = std::move(keys)] {
         const std::lock_guard inner(mutex_);
-        // A session that is no longer in memory has been claimed by another server since it was fetched.
+        // If the session is no longer in memory, another server has claimed it since it was fetched.
         if (cached_.contains(id)) objects_.setStored(id, keys);
     });
 }
@@ -155,7 +154,7 @@ void WriteBehindStore::remove(const std::string& id) {
     {
         const std::lock_guard lock(mutex_);
         requests_.emplace_back([this, id] {
-            std::optional<CachedSession> removed;  // destroyed without holding the lock
+            std::optional<CachedSession> removed;  // destroyed after the lock is released
             {
                 const std::lock_guard inner(mutex_);
                 const CachedSession* const cached = cached_.find(id);
@@ -171,7 +170,7 @@ void WriteBehindStore::remove(const std::string& id) {
     wake_.notify_one();
 }
 
-/// Forgets the object keys of a session that was evicted from memory, unless a client has opened it again.
+/// Removes the object keys of a session that was evicted from memory, unless a client has opened the session again.
 void WriteBehindStore::dropKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!cached_.contains(id)) objects_.forget(id);
@@ -184,7 +183,7 @@ void WriteBehindStore::discardFetched(const std::string& id) {
 
 std::size_t WriteBehindStore::sessionCount() const {
     const std::lock_guard lock(mutex_);
-    // If servers share the store (at_once), the number of stored sessions says nothing about the load of this server.
+    // If servers share the store (at_once), the number of stored sessions does not describe the load of this server.
     return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : storedCount_ + neverSaved_;
 }
 
@@ -206,8 +205,8 @@ WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
 }
 
 void WriteBehindStore::runThread() {
-    // Whether a request was executed since the last write or poll. If so, a write or a poll that is due comes before
-    // the next request. Without this rule, clients that request many sessions could keep changes from being written.
+    // Whether a request was executed since the last write or poll. If so, a due write or poll comes before the next
+    // request. Otherwise, clients that request many sessions could delay writes forever.
     bool isOthersTurn = false;
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -238,8 +237,8 @@ void WriteBehindStore::runThread() {
     }
 }
 
-/// Calls `operation`, an operation of the store, and reports its duration and outcome to the listener. `name`: the name
-/// of the operation in the metrics.
+/// Calls `operation`, an operation of the store, and returns its result. Reports its duration and success to the
+/// listener under the metric name `name`.
 template <typename Operation>
 auto WriteBehindStore::runTimed(const char* name, Operation operation) {
     const auto start = Clock::now();
@@ -283,7 +282,7 @@ void WriteBehindStore::storeWorked() {
 
 // --- Writing
 
-/// Takes a batch of sessions from the queue, and encodes them as updates.
+/// Takes a batch of sessions from the queue, and encodes their changes as updates.
 void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates) {
     const std::size_t maxBytes = std::min(kBatchBytes, settings_.quota / 8);
     std::size_t bytes = 0;
@@ -326,8 +325,8 @@ void WriteBehindStore::write() {
     if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeWorked();
 }
 
-/// Saves the updates. If the store is full, evicts closed sessions from it. If updates do not fit even then, their
-/// results are empty optionals, and storeFailed() is called; the other updates are saved.
+/// Saves the updates. If the store is full, evicts closed sessions from the store to make room. For updates that still
+/// do not fit, returns empty optionals and calls storeFailed(); the other updates are saved.
 std::vector<std::optional<SaveResult>> WriteBehindStore::saveMakingRoom(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
@@ -347,8 +346,8 @@ std::vector<std::optional<SaveResult>> WriteBehindStore::saveMakingRoom(std::spa
     return results;
 }
 
-/// Saves one update. If the store is full, evicts closed sessions from it. Throws NotWritable if the update does not
-/// fit even then.
+/// Saves one update. If the store is full, evicts closed sessions from the store to make room. Throws NotWritable if
+/// the update still does not fit.
 SaveResult WriteBehindStore::saveOneMakingRoom(const RecordUpdate& update) {
     const std::span<const RecordUpdate> one(&update, 1);
     try {
@@ -359,7 +358,7 @@ SaveResult WriteBehindStore::saveOneMakingRoom(const RecordUpdate& update) {
     return store_->save(one).at(0);
 }
 
-/// Evicts closed sessions from the store, so that the updates fit. Returns the number of evicted sessions.
+/// Evicts closed sessions from the store until the updates fit. Returns the number of evicted sessions.
 std::size_t WriteBehindStore::evictFor(std::span<const RecordUpdate> updates) {
     const std::size_t count = store_->evict(updates, [this](const std::string& id) {
         const std::lock_guard lock(mutex_);
@@ -373,7 +372,7 @@ void WriteBehindStore::writeRemovals() {
     std::vector<std::string> ids;
     {
         const std::lock_guard lock(mutex_);
-        // Do not remove sessions that were reopened in the meantime.
+        // Keep sessions that a client has opened again in the meantime.
         std::erase_if(removals_, [&](const std::string& id) { return cached_.contains(id); });
         ids.assign(removals_.begin(), removals_.end());
     }
@@ -413,8 +412,8 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
     for (const SaveCallback& written : job.changes.waiting) written(result == SaveResult::saved);
 }
 
-/// Makes the changes of a failed job pending again, unless newer ones are pending already. While the store is
-/// unavailable, also queues the session and calls the waiting callbacks, so that no caller waits for the store.
+/// Makes the changes of a failed write pending again, unless newer changes are pending. If the store is unavailable,
+/// also queues the session and calls the waiting callbacks, so that no caller waits for the store.
 void WriteBehindStore::requeue(Job& job) {
     std::vector<SaveCallback> released;
     {
@@ -431,8 +430,8 @@ void WriteBehindStore::requeue(Job& job) {
     for (const SaveCallback& written : released) written(true);
 }
 
-/// Drops a session that another server has claimed with the fence `fence` or a later one, unless this server has
-/// claimed it since.
+/// Removes a session from memory if another server has claimed it with the fence `fence` or a later one. Keeps the
+/// session if this server has claimed it back.
 void WriteBehindStore::dropIfTakenOver(const std::string& id, Fence fence) {
     std::optional<CachedSession> dropped;
     {
@@ -458,7 +457,7 @@ void WriteBehindStore::poll() {
         if (now_() >= refreshAt_) renewAndExpireSessions();
         for (const auto& [id, fence] : runTimed("pulse", [&] { return store_->pollTakenOverSessions(); }))
             dropIfTakenOver(id, fence);
-        stored = store_->size();  // a store may wait for its own lock, so not while mutex_ is held
+        stored = store_->size();  // called without holding mutex_, because a store may wait for its own lock
     } catch (const std::exception& fault) {
         storeFailed(fault);
         return;
@@ -470,7 +469,7 @@ void WriteBehindStore::poll() {
         neverSaved_ = cached_.neverSaved();
         waiting = hasPendingChanges();
     }
-    // While changes wait, only a write shows whether the store works, because even a full store can be polled.
+    // While changes wait, only a write shows whether the store works: even a full store can be polled.
     if (!waiting) storeWorked();
 }
 
@@ -511,7 +510,7 @@ WriteBehindStore::FetchResult WriteBehindStore::fetch(const SessionCredentials& 
         if (CachedSession* const cached = cached_.find(credentials.id)) {
             if (!equalInConstantTime(credentials.token, cached->credentials.token)) return kBadToken;
             if (!cached->pending.whole)
-                return kNoAnswer;  // another client is opening the session, or it is being written
+                return kNoAnswer;  // another client is opening the session, or the session is being written
             cached->closed = false;
             FetchedSession found{*cached->pending.whole, {}};
             found.record.fence = cached->fence;
@@ -523,7 +522,7 @@ WriteBehindStore::FetchResult WriteBehindStore::fetch(const SessionCredentials& 
     const auto hash = runTimed("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;
     if (!equalInConstantTime(hashToken(credentials.token), *hash)) {
-        // The token may be correct, if the stored hash is damaged.
+        // If the stored hash is damaged, the token may be correct.
         return runTimed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
     }
     if (access == Access::read) {
