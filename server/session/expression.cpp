@@ -295,9 +295,8 @@ Result<double> evaluateAngle(std::string_view text) {
 Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
                                             std::string_view examples) {
     std::vector<std::string_view> names = text::splitAtCommas(planes);
-    if (planes.empty() || planes.ends_with(','))
-        names.emplace_back();  // an empty name, which is refused below as an
-                               // unknown plane
+    // An empty name is refused below, because it is not a plane.
+    if (planes.empty() || planes.ends_with(',')) names.emplace_back();
     std::vector<geometry::Plane> named;
     for (const std::string_view written : names) {
         const std::string_view name = text::trimmed(written);

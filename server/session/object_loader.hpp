@@ -28,8 +28,8 @@ using FileReader = std::function<Result<ObjectWithWarnings>(const LoadObject& lo
 
 /// Options of the search for critical values of w. At these values, the type of the section changes.
 struct CriticalSearchOptions {
-    slicing::CriticalSectionsCache* cache = nullptr;  ///< results of earlier searches; may be null; must outlive the
-                                                      ///< loader
+    /// The results of earlier searches. May be null; must outlive the loader.
+    slicing::CriticalSectionsCache* cache = nullptr;
     /// The maximum duration of a search.
     std::chrono::duration<double> time = slicing::CriticalSearchLimits{}.time;
 };

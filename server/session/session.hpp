@@ -65,10 +65,11 @@ void visitStoredMembers(serialization::ReadOrWritten<OngoingTurnToward> auto& tu
 /// Everything that determines a picture, except the viewport, the drawing quality and the viewer's color scheme. Undo
 /// restores all members except the camera's orbit.
 struct State {
-    static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};  ///< of alpha and beta,
-                                                                                                ///< in radians
-    static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};                    ///< of step, in radians
-    static constexpr geometry::Range kPlaySpeedRange{1.0 / 16, 16};                             ///< of playSpeed
+    /// The range of alpha and beta, in radians.
+    static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};
+    /// The range of step, in radians.
+    static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};
+    static constexpr geometry::Range kPlaySpeedRange{1.0 / 16, 16};  ///< of playSpeed
 
     slicing::Object source;  ///< the object as built or loaded, in its own coordinates; never null
     geometry::ReferenceFrame referenceFrame;

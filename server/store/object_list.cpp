@@ -78,8 +78,7 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
 /// `vertexBudget_`. Throws LaterRecord if no polytope has this name, or if it has more vertices than `vertexBudget_`.
 /// Throws UnreadableRecord if the polytope cannot be built.
 slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
-    constexpr std::size_t kMaxVertices = 1'000'000;  // maximum for one polytope; session::Limits allows clients far
-                                                     // less
+    constexpr std::size_t kMaxVertices = 1'000'000;  // for one polytope; clients may build far less
     const auto named = polytopes::designNamed(name, kMaxVertices);
     const auto* design = std::get_if<polytopes::Design>(&named);
     if (design == nullptr) throwLater("the catalogue has no polytope called " + text::inQuotes(name));

@@ -16,9 +16,9 @@ namespace oval4d::store {
 namespace {
 
 constexpr std::size_t kPageSize = 4096;
-constexpr std::int64_t kMaxReleasedPages = 1024;  // maximum number of free pages that one poll returns to the file
-                                                  // system
-constexpr std::size_t kMaxListedIds = 20;         // maximum number of session ids in a log line
+// The maximum number of free pages that one poll returns to the file system.
+constexpr std::int64_t kMaxReleasedPages = 1024;
+constexpr std::size_t kMaxListedIds = 20;  // maximum number of session ids in a log line
 
 // Returns the maximum number of pages of the database file: three quarters of the quota. The rest of the quota is for
 // the write-ahead log. The log may grow to the size that triggers a checkpoint, plus the pages of one transaction.
