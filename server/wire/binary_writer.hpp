@@ -1,6 +1,6 @@
 #pragma once
-// The base class of the writers of binary encodings. It chooses the type of each array of numbers; a derived writer
-// only encodes the array.
+// The base class of the writers of binary encodings. The base class chooses the type of each array of numbers, and a
+// derived class encodes the array.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,12 +14,12 @@
 
 namespace oval4d::wire {
 
-/// The types of the numbers in a typed array. The value of an enumerator is the tag of such an array in CBOR,
-/// little-endian (RFC 8746, section 2.1).
+/// The types of numbers in a typed array. The value of an enumerator is the tag of little-endian arrays of this type in
+/// CBOR (RFC 8746, section 2.1).
 enum class ArrayType : std::uint8_t { uint8 = 64, uint16 = 69, uint32 = 70, float32 = 85, float64 = 86 };
 
-/// Writes a message in a binary encoding. JsonWriter has functions of the same names, so that one template can write a
-/// message in any encoding.
+/// A writer of messages in a binary encoding. JsonWriter has functions with the same names, so that one template can
+/// write a message in any encoding.
 class BinaryWriter {
   public:
     virtual void beginObject() = 0;
@@ -36,9 +36,10 @@ class BinaryWriter {
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void value(const char* text) { value(std::string_view(text)); }
-    void id(double number);  ///< writes an integer within ±2^53 as an integer, other numbers like value()
-    /// Appends the members of `object`, a complete object that another writer of the same class has written, to the
-    /// object that is being written.
+    /// Writes an integer within ±2^53 as an integer, any other number like value().
+    void id(double number);
+    /// Appends the members of `object` to the object that is being written. `object` is a complete encoded object from
+    /// another writer of the same class.
     virtual void appendMembersOf(std::string_view object) = 0;
 
     template <typename T>
@@ -47,9 +48,9 @@ class BinaryWriter {
         value(content);
     }
 
-    // Typed arrays. doubles() writes double precision; vectors() and floatsForPictures() write single precision, to
-    // which vectors() rounds doubles; pairs(), triples() and numbers() write integers of 8, 16 or 32 bits, the smallest
-    // size that fits all numbers of the array. Vectors, pairs and triples are flattened.
+    // Typed arrays. doubles() writes double precision. vectors() and floatsForPictures() write single precision;
+    // vectors() rounds doubles to it. pairs(), triples() and numbers() write integers of 8, 16 or 32 bits: the smallest
+    // size that fits all numbers of the array. Vectors, pairs and triples become flat lists of numbers.
     void doubles(std::span<const double> list);
     void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);
@@ -57,15 +58,15 @@ class BinaryWriter {
     void pairs(std::span<const IndexPair> list);
     void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void floatsForPictures(std::span<const float> list);  ///< does not round the numbers; only JsonWriter does
+    void floatsForPictures(std::span<const float> list);  ///< writes all digits; only JsonWriter rounds
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< 8-bit values, row by row
 
   protected:
     ~BinaryWriter() = default;
 
   private:
-    /// Begins a typed array whose numbers take `bytes` bytes. Returns the address at which the caller must write the
-    /// numbers, little-endian.
+    /// Begins a typed array of numbers that take `bytes` bytes in total. Returns the address at which the caller must
+    /// write the numbers, in little-endian byte order.
     virtual char* beginTypedArray(ArrayType type, std::size_t bytes) = 0;
 
     template <typename Number>

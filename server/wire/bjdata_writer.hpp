@@ -1,6 +1,6 @@
 #pragma once
-// Writes messages as BJData (Binary JData, draft 2: https://neurojson.org/bjdata/draft2). Typed arrays are optimized
-// containers, which state the type of all their numbers and then their count.
+// Writes messages as BJData (Binary JData, draft 2: https://neurojson.org/bjdata/draft2). Typed arrays are "optimized
+// containers": they state the type and the count of all their numbers first.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,24 +13,24 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string with BJData. The string is complete after the writer is destroyed. Every object whose first name
-/// has at most 255 bytes begins with "{U", which distinguishes these messages from files (protocol/README.md, "Binary
-/// messages").
+/// A writer that overwrites a string with BJData. The string is complete after the writer is destroyed. An object
+/// begins with "{U" if its first name has at most 255 bytes. By these bytes, clients distinguish BJData messages from
+/// files (protocol/README.md, "Binary messages").
 class BjdataWriter final : public BinaryWriter {
   public:
     explicit BjdataWriter(std::string& out) : buffer_(out) {}
 
-    // Objects and ordinary arrays end with a marker, so that their sizes need not be known in advance.
+    // Objects and ordinary arrays end with a marker, so their sizes need not be known at the beginning.
     void beginObject() override { buffer_.put('{'); }
     void endObject() override { buffer_.put('}'); }
     void beginArray() override { buffer_.put('['); }
     void endArray() override { buffer_.put(']'); }
     void key(std::string_view name) override {
-        value(std::uint64_t{name.size()});  // begins with the marker U if the size is at most 255
+        value(std::uint64_t{name.size()});  // starts with the marker U if the size is at most 255
         buffer_.put(name);
     }
 
-    /// Writes single precision if that is exact, else double precision.
+    /// Writes single precision if it represents the number exactly, else double precision.
     void value(double number) override {
         const auto shorter = static_cast<float>(number);
         if (shorter == number) {
@@ -69,13 +69,13 @@ class BjdataWriter final : public BinaryWriter {
         key(text);
     }
     using BinaryWriter::value;
-    // The same functions as in BinaryWriter, but without a virtual call for each number of an ordinary array.
+    // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }
 
   private:
-    /// The marker of the numbers in an array, and their size in bytes.
+    /// The marker of a type of numbers, and the size of a number in bytes.
     struct NumberType {
         char marker;
         std::size_t bytes;
@@ -104,7 +104,8 @@ class BjdataWriter final : public BinaryWriter {
         value(std::uint64_t{bytes / numbers.bytes});
         return buffer_.append(bytes);
     }
-    /// Writes a marker, and a number as it is in memory: BJData is little-endian, as binary_writer.cpp requires.
+    /// Writes a marker, and a number as it is in memory. Both BJData and the memory are little-endian;
+    /// binary_writer.cpp checks the latter.
     template <typename Number>
     void put(char marker, Number number) {
         buffer_.put(marker);

@@ -1,5 +1,5 @@
 #pragma once
-// An output buffer that writes to a string.
+// An output buffer that writes to a std::string.
 
 #include <algorithm>
 #include <cstddef>
@@ -9,9 +9,9 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string through a pointer. Enlarges the string as needed; the destructor truncates it to the bytes that
-/// were written. A string that is overwritten again keeps its memory, which saves allocating it and filling it with
-/// zeros.
+/// A buffer that overwrites a string through a pointer. Enlarges the string as needed. The destructor truncates the
+/// string to the bytes that were written. A string that is overwritten again keeps its memory, so nothing is allocated
+/// or filled with zeros.
 class Buffer {
   public:
     explicit Buffer(std::string& out);
@@ -19,13 +19,13 @@ class Buffer {
     Buffer(const Buffer&) = delete;
     Buffer& operator=(const Buffer&) = delete;
 
-    /// Ensures that at least `size` bytes can be written to at(). Invalidates earlier results of at().
+    /// Ensures that the caller can write at least `size` bytes at at(). Invalidates earlier results of at().
     void reserveMore(std::size_t size) {
         if (static_cast<std::size_t>(end_ - at_) < size) grow(size);
     }
-    /// Returns a pointer to the current end of the text, where the caller may write as many bytes as it has reserved.
+    /// Returns a pointer to the current end of the text. The caller may write as many bytes there as it has reserved.
     char* at() { return at_; }
-    /// Sets the end of the text to `at`, after bytes were written directly.
+    /// Sets the end of the text to `at`, after the caller has written bytes there directly.
     void moveTo(char* at) { at_ = at; }
     /// Appends one character.
     void put(char c) {
@@ -37,8 +37,8 @@ class Buffer {
         reserveMore(text.size());
         at_ = std::copy(text.begin(), text.end(), at_);  // unlike memcpy, allows an empty text whose data() is null
     }
-    /// Appends `size` bytes with unspecified values. Returns a pointer to the first of them, which is valid until more
-    /// bytes are appended.
+    /// Appends `size` bytes with unspecified values. Returns a pointer to the first of them. The pointer is valid until
+    /// more bytes are appended.
     char* append(std::size_t size) {
         reserveMore(size);
         at_ += size;

@@ -6,12 +6,13 @@
 
 namespace oval4d::wire {
 
-/// Keeps the last value and the text that was written for it.
+/// A cache of one value and its text.
 template <typename Value>
 class CachedText {
   public:
-    /// Returns the text of `value`. At the first call, or if `value` differs from that of the previous call, calls
-    /// `write(out)`, which must overwrite the std::string `out` with the text. The result is valid until the next call.
+    /// Returns the text of `value`. Calls `write(out)` at the first call, and whenever `value` differs from the
+    /// previous call; `write` must overwrite the std::string `out` with the text. The result is valid until the next
+    /// call.
     template <typename Write>
     std::string_view textFor(const Value& value, Write write) {
         if (text_.empty() || value_ != value) {

@@ -6,7 +6,7 @@ namespace oval4d::wire {
 
 namespace {
 
-// Major types (RFC 8949, section 3.1).
+// Major types of CBOR (RFC 8949, section 3.1).
 constexpr std::uint8_t kUnsigned = 0, kNegative = 1, kBytes = 2, kText = 3;
 
 }  // namespace

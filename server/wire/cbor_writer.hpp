@@ -11,25 +11,26 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string with CBOR. The string is complete after the writer is destroyed.
+/// A writer that overwrites a string with CBOR. The string is complete after the writer is destroyed.
 class CborWriter final : public BinaryWriter {
   public:
     explicit CborWriter(std::string& out) : buffer_(out) {}
 
-    // Objects (maps in CBOR) and arrays have indefinite length, so that their sizes need not be known in advance.
+    // Objects (maps in CBOR) and arrays have indefinite length, so their sizes need not be known at the beginning.
     void beginObject() override { buffer_.put('\xBF'); }
     void endObject() override { buffer_.put('\xFF'); }
     void beginArray() override { buffer_.put('\x9F'); }
     void endArray() override { buffer_.put('\xFF'); }
     void key(std::string_view name) override { value(name); }
 
-    void value(double number) override;  ///< writes single precision if that is exact, else double precision
+    /// Writes single precision if it represents the number exactly, else double precision.
+    void value(double number) override;
     void value(std::uint64_t number) override { head(0, number); }
     void value(std::int64_t number) override;
     void value(bool flag) override { buffer_.put(flag ? '\xF5' : '\xF4'); }
     void value(std::string_view text) override;
     using BinaryWriter::value;
-    // The same functions as in BinaryWriter, but without a virtual call for each number of an ordinary array.
+    // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { head(0, number); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }

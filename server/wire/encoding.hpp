@@ -1,5 +1,5 @@
 #pragma once
-// The encodings of `slices` messages, and their writers.
+// The encodings of `slices` messages (the slices of a picture, sent to clients), and their writers.
 
 #include <array>
 #include <cstdint>
@@ -13,12 +13,12 @@
 
 namespace oval4d::wire {
 
-/// The encoding of `slices` messages.
+/// An encoding of `slices` messages.
 enum class Encoding : std::uint8_t { json, cbor, msgpack, bjdata };
 inline constexpr auto kEncodings = text::completeTable<text::NamedValue<Encoding>>(
     {{"json", Encoding::json}, {"cbor", Encoding::cbor}, {"msgpack", Encoding::msgpack}, {"bjdata", Encoding::bjdata}});
 
-/// Calls `write` with the writer of the encoding, which overwrites `out`.
+/// Calls `write` with a writer for the encoding. The writer overwrites `out`.
 template <typename Write>
 void writeEncoded(Encoding encoding, std::string& out, const Write& write) {
     switch (encoding) {

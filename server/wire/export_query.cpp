@@ -19,7 +19,7 @@ namespace oval4d::wire {
 
 namespace {
 
-/// Parses the values of options. There is a function for each type of an option.
+/// A parser of the values of export options. It has an overload for each type of options.
 struct OptionParser {
     const exports::Format& format;
     int maxSlices;
@@ -36,7 +36,7 @@ struct OptionParser {
                                                  text::inQuotes(value)};
     }
 
-    /// Parses a size.
+    /// Parses a size, within the bounds for the file format.
     Result<std::monostate> parse(std::string_view name, const std::string& text, double& size) const {
         const geometry::Range bounds = exports::sizeRangeOf(format);
         const char* const end = text.data() + text.size();
@@ -61,7 +61,7 @@ struct OptionParser {
         return std::monostate{};
     }
 
-    /// Parses a list of w.
+    /// Parses a list of values of w, separated by commas.
     Result<std::monostate> parse(std::string_view name, const std::string& text, std::vector<double>& at) const {
         auto list = session::evaluateList(text);
         if (!list) return Error{list.error().code, std::string(name) + ": " + list.error().message};
@@ -69,7 +69,7 @@ struct OptionParser {
         return std::monostate{};
     }
 
-    /// Parses a number of slices.
+    /// Parses a number of slices, from 1 to `maxSlices`.
     Result<std::monostate> parse(std::string_view name, const std::string& text, std::optional<int>& fit) const {
         const auto value = session::evaluate(text);
         if (!value) return Error{value.error().code, std::string(name) + ": " + value.error().message};

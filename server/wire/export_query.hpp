@@ -1,5 +1,5 @@
 #pragma once
-// The options of an export in the query of an address, or in the options of `oval4d export`.
+// Reads the options of an export from the query of an address, or from the options of `oval4d export`.
 
 #include <string>
 
@@ -9,16 +9,17 @@
 
 namespace oval4d::wire {
 
-/// Removes the options that exports::forEachOption() visits from `query`, and returns the export request that they
-/// describe. Missing parameters have their default values; with "at" or "fit", the default of "of" is "oval". Errors
-/// whose messages list the allowed values: `bad_message` for an unknown value of "of", "body", "label" or "exact";
-/// `out_of_range` for a size that is not allowed, or if "fit" is not a whole number from 1 to `maxSlices`. For "at" and
-/// "fit", also the errors of session::evaluate(). After an error, `query` must not be used.
+/// Removes the options of an export (those that exports::forEachOption() visits) from `query`. Returns the export
+/// request that they describe. Missing parameters have their default values. The default of "of" is "oval" if the query
+/// contains "at" or "fit". Errors, whose messages state what is allowed: `bad_message` for an unknown value of "of",
+/// "body", "label" or "exact"; `out_of_range` for a size that is not allowed, or if "fit" is not a whole number from 1
+/// to `maxSlices`; for "at" and "fit", also the errors of session::evaluate(). After an error, `query` must not be
+/// used.
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices);
 
-/// Returns the error `out_of_range`, which says that "fit" must be a whole number from 1 to `maxSlices`, and not
-/// `given`.
+/// Returns the error `out_of_range` for a wrong value `given` of "fit", which must be a whole number from 1 to
+/// `maxSlices`.
 Error wrongFit(int maxSlices, const std::string& given);
 
 }  // namespace oval4d::wire

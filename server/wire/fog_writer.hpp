@@ -1,6 +1,6 @@
 #pragma once
-// Writes the fog of a field's slices. The JSON encoding has one object per slice; binary encodings have one array per
-// property with the values of all slices.
+// Writes the fog of a field's slices (a volume rendering of values). In JSON, each slice is an object with its own fog.
+// In binary encodings, each property of the fog is an array with the values of all slices.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +16,12 @@ namespace oval4d::wire {
 class BinaryWriter;
 class JsonWriter;
 
-/// Writes the fog of slices. Keeps the memory of its arrays from one call to the next.
+/// A writer of the fog of slices. Keeps the memory of its arrays from one call to the next.
 class FogWriter {
   public:
-    /// Writes the member `fog` of slice i, or nothing if the slice has no fog.
+    /// Writes the member `fog` of slice i. Writes nothing if the slice has no fog.
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
-    /// Writes the member `fog` with the fog of all slices, or nothing if there is no fog.
+    /// Writes the member `fog` with the fog of all slices. Writes nothing if no slice has fog.
     void write(BinaryWriter& w, const scene::Scene& scene);
 
   private:
@@ -29,14 +29,15 @@ class FogWriter {
     void addWalls(const slicing::SliceFog& fog);
 
     std::vector<glm::dvec4> walls_;
-    std::vector<std::uint32_t> wallCounts_, sizes_;  // of each slice: the number of walls; x, y and z of SliceFog::size
+    // For each slice: the number of walls, and the three components of SliceFog::size.
+    std::vector<std::uint32_t> wallCounts_, sizes_;
     std::vector<glm::dvec3> mins_;
     std::vector<double> steps_;
     std::vector<std::uint8_t> values_;
 };
 
-/// Writes the member `fog` of the object `scene` in the message: the transfer function. Writes nothing if there is no
-/// fog.
+/// Writes the member `fog` of the object `scene` in the message: the transfer function, which gives each value its
+/// color and opacity. Writes nothing if there is no fog.
 template <typename W>
 void writeFogTable(W& w, const scene::FogTable& table) {
     if (table.empty()) return;

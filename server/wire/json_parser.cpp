@@ -18,11 +18,12 @@ namespace {
 
 using nlohmann::json;
 
-// The maximum number of values in a message. No valid message contains nearly as many. The limit also bounds the memory
-// that the validator needs if every value has an error.
+// The maximum number of values in a message, far above what valid messages contain. The limit also bounds the memory of
+// the validator if every value has an error.
 constexpr std::size_t kMaxValues = 10'000;
 
-// Builds a value from the events of nlohmann-json's parser. Stops if the text nests too deeply or has too many values.
+// A handler of nlohmann-json's parser events that builds a value. Stops parsing if the text is nested too deeply or has
+// too many values.
 class Builder {
   public:
     Builder(json& root, int maxDepth) : root_(root), maxDepth_(maxDepth) {}
@@ -38,7 +39,7 @@ class Builder {
         return whole ? add(static_cast<std::int64_t>(value)) : add(value);
     }
     bool string(std::string& value) { return add(std::move(value)); }
-    bool binary(json::binary_t& /*value*/) { return false; }  // not called: JSON text has no binary values
+    bool binary(json::binary_t& /*value*/) { return false; }  // never called, because JSON text has no binary values
 
     bool start_object(std::size_t /*size*/) { return open(json::object()); }
     bool start_array(std::size_t /*size*/) { return open(json::array()); }
@@ -51,11 +52,11 @@ class Builder {
     bool parse_error(std::size_t position, const std::string& token, const nlohmann::detail::exception& error) {
         position_ = position;
         token_ = token;
-        overflow_ = error.id == 406;  // nlohmann-json's error id for a number that overflows
+        overflow_ = error.id == 406;  // the error id of nlohmann-json for a number that is too large for a double
         return false;
     }
 
-    /// Returns a message about the limit that the text exceeds; empty if it exceeds none.
+    /// Returns the error message for the limit that the text exceeds; empty if it exceeds no limit.
     const std::string& refusal() const { return refusal_; }
     bool overflow() const { return overflow_; }
     std::size_t position() const { return position_; }
@@ -81,7 +82,7 @@ class Builder {
             refusal_ = "the message nests too deeply; at most " + std::to_string(maxDepth_) + " levels are allowed";
             return false;
         }
-        // The address of the new value stays valid, because an array grows only while none of its elements is open.
+        // The address of the new value stays valid: while one of its elements is open, an array does not grow.
         json* placed = place(std::move(empty));
         if (placed) open_.push_back(placed);
         return placed != nullptr;
@@ -104,7 +105,8 @@ class Builder {
 
 constexpr auto kNotFinite = std::to_array<std::string_view>({"NaN", "Infinity", "-Infinity"});
 
-// If the parser stopped at NaN, ±Infinity or a number too large for a double, returns this token; else an empty string.
+// Returns the token at which the parser stopped, if it is NaN, ±Infinity or a number too large for a double. Otherwise
+// returns an empty string.
 std::string_view badNumberAt(std::string_view text, const Builder& builder) {
     if (builder.position() == 0 || builder.position() > text.size()) return {};
     if (builder.overflow()) return text.substr(builder.position() - builder.token().size(), builder.token().size());
@@ -125,8 +127,8 @@ bool isBadNumber(std::string_view word) {
     return fault == std::errc::result_out_of_range && end == word.data() + word.size() && !tooSmall;
 }
 
-// Returns the length of the string that begins with the quotation mark at the start of the text, with both quotation
-// marks. If the string does not end, returns the length of the text.
+// Returns the length of the string literal at the start of the text, including both quotation marks. If the string does
+// not end, returns the length of the text.
 std::size_t lengthOfString(std::string_view text) {
     for (std::size_t i = 1; i < text.size(); ++i) {
         if (text[i] == '"') return i + 1;
@@ -143,8 +145,8 @@ std::size_t lengthOfWord(std::string_view text) {
     return static_cast<std::size_t>(std::ranges::find_if_not(text, inWord) - text.begin());
 }
 
-// Returns the text with null in place of each word outside of strings that is NaN, ±Infinity or a number too large for
-// a double. Takes time linear in the length of the text, which may come from an attacker.
+// Returns the text with null in place of NaN, ±Infinity and numbers too large for a double, outside of strings. Takes
+// linear time, because the text may come from an attacker.
 std::string withNulls(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
@@ -157,9 +159,9 @@ std::string withNulls(std::string_view text) {
     return out;
 }
 
-// Returns the UTF-16 code unit of the escape at the start of the text, which has six characters: a backslash, u and
-// four hexadecimal digits (RFC 8259, section 7). Returns 0 if the text does not begin with such an escape. The escape
-// of U+0000 also gives 0, which does not matter to callers that look for surrogates.
+// Returns the UTF-16 code unit of the escape at the start of the text: a backslash, u and four hexadecimal digits (RFC
+// 8259, section 7). Returns 0 if the text does not begin with such an escape. The escape of U+0000 also gives 0, which
+// does not matter here, because callers look for surrogates.
 unsigned escapedUnit(std::string_view text) {
     constexpr std::size_t kLength = 6;
     unsigned unit = 0;
@@ -168,8 +170,8 @@ unsigned escapedUnit(std::string_view text) {
     return fault == std::errc{} && end == text.data() + kLength ? unit : 0;
 }
 
-// Returns the text with the replacement character in place of each escape of a lone surrogate, which is no character
-// (RFC 8259, section 8.2). Sets `first` to the position of the first such escape, or to npos.
+// Returns the text with U+FFFD in place of each escape of a lone surrogate, which is not a character (RFC 8259, section
+// 8.2). Sets `first` to the position of the first such escape, or to npos if there is none.
 std::string withoutLoneSurrogates(std::string_view text, std::size_t& first) {
     constexpr std::size_t kLength = 6;
     const auto isBetween = [](unsigned unit, unsigned least, unsigned most) { return unit >= least && unit <= most; };
@@ -228,7 +230,7 @@ ParsedJson parseJson(std::string_view text, int maxDepth) {
     result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
                    " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
                    "); numbers must be finite";
-    // Although the message is refused, parse the whole text, so that the answer can contain the message's id.
+    // The message is refused, but parse all of it, so that the answer can contain the message's id.
     const std::string repaired = withNulls(characters);
     Builder again(result.value, maxDepth);
     result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);

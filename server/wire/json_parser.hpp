@@ -1,5 +1,5 @@
 #pragma once
-// Parses JSON text, with limits on nesting and size that nlohmann-json does not provide.
+// Parses JSON text with limits on nesting and size, which nlohmann-json does not have.
 
 #include <string>
 #include <string_view>
@@ -10,15 +10,16 @@ namespace oval4d::wire {
 
 /// The result of parseJson().
 struct ParsedJson {
-    nlohmann::json value;   ///< valid if `fault` is empty or `repaired` is true
-    std::string fault;      ///< the error message; empty if there is no error
-    bool notJson = false;   ///< whether the text is not JSON
-    bool repaired = false;  ///< whether the only errors are numbers like NaN and 1e999, which became null in `value`,
-                            ///< and lone surrogates in strings, which became U+FFFD
+    nlohmann::json value;  ///< the parsed value; valid if `fault` is empty or `repaired` is true
+    std::string fault;     ///< the error message; empty if there is no error
+    bool notJson = false;  ///< whether the text is not JSON at all
+    /// Whether all errors could be repaired in `value`: numbers such as NaN and 1e999 became null, and lone surrogates
+    /// in strings became U+FFFD.
+    bool repaired = false;
 };
 
-/// Parses JSON text. Allows at most `maxDepth` levels of nesting and at most 10,000 values. A number with an integral
-/// value, such as 21.0, becomes an integer, as in JSON Schema.
+/// Parses JSON text with at most `maxDepth` levels of nesting and at most 10,000 values. A number with an integral
+/// value, such as 21.0, becomes an integer, as JSON Schema defines integers.
 ParsedJson parseJson(std::string_view text, int maxDepth);
 
 }  // namespace oval4d::wire

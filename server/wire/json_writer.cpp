@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number in bytes
 
-// Returns the number of bytes to reserve for an array of this many coordinates or indices.
+// Returns the number of bytes to reserve for an array of `numbers` coordinates or indices.
 std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kBytesPerNumber; }
 
-// Writes each number, followed by a comma. Returns the end of the text.
+// Writes numbers, each with a comma after it. Returns the end of the text.
 char* putIntegers(char* at, std::span<const std::uint32_t> list) {
     for (const std::uint32_t number : list) {
         at = text::putInteger(at, number);
@@ -26,7 +26,7 @@ char* putIntegers(char* at, std::span<const std::uint32_t> list) {
     return at;
 }
 
-// Writes the separator of two arrays, and overwrites one byte after it. Returns the end of the separator.
+// Writes the separator of two arrays, three bytes, and returns its end. Overwrites the byte after the separator.
 char* putArraySeparator(char* at) {
     std::memcpy(at, "],[", 4);
     return at + 3;
@@ -49,7 +49,7 @@ void JsonWriter::value(double number) {
     separate();
     buffer_.reserveMore(kMaxNumberLength);
     char* const end = buffer_.at() + kMaxNumberLength;
-    // For an integer such as 1000000, to_chars of a double would write 1e+06.
+    // Convert integers separately: for 1000000, to_chars of a double would write 1e+06.
     buffer_.moveTo(text::isExactInteger(number)
                        ? std::to_chars(buffer_.at(), end, static_cast<std::int64_t>(number)).ptr
                        : std::to_chars(buffer_.at(), end, number).ptr);
@@ -108,7 +108,7 @@ void JsonWriter::vector(const glm::dvec3& v) {
     buffer_.moveTo(text::putVectorsAsJson(buffer_.at(), std::span(&v, 1)));
 }
 
-// Writes an array. `put(at)` writes the content, which consists of `numbers` numbers, and returns its end.
+// Writes an array of `numbers` numbers. `put(at)` writes the content at `at`, and returns its end.
 template <typename Put>
 void JsonWriter::array(std::size_t numbers, Put put) {
     separate();

@@ -1,6 +1,6 @@
 #pragma once
-// Writes messages as JSON. JsonWriter and BinaryWriter have functions of the same names, so that one template can write
-// a message in any encoding.
+// Writes messages as JSON. JsonWriter and BinaryWriter have functions with the same names, so that one template can
+// write a message in any encoding.
 
 #include <cstdint>
 #include <cstring>
@@ -16,7 +16,7 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string with JSON. The string is complete after the writer is destroyed.
+/// A writer that overwrites a string with JSON. The string is complete after the writer is destroyed.
 class JsonWriter {
   public:
     explicit JsonWriter(std::string& out) : buffer_(out) {}
@@ -25,7 +25,7 @@ class JsonWriter {
     void endObject() { close('}'); }
     void beginArray() { open('['); }
     void endArray() { close(']'); }
-    /// Writes a member's name without escaping it. The function is inline because most names are known at compile time.
+    /// Writes the name of a member, without escapes. Inline, because most names are known at compile time.
     void key(std::string_view name) {
         buffer_.reserveMore(name.size() + 4);
         char* at = buffer_.at();
@@ -39,7 +39,8 @@ class JsonWriter {
         comma_ = false;
     }
 
-    void value(double number);  ///< writes integers within ±2^53 without decimal point and exponent
+    /// Writes integers within ±2^53 without a decimal point or an exponent.
+    void value(double number);
     void value(std::uint64_t number);
     void value(std::int64_t number);
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
@@ -51,8 +52,8 @@ class JsonWriter {
     void null();
     /// Appends a value that is already encoded as JSON.
     void raw(std::string_view text);
-    /// Appends the members of `object`, a complete object with at least one member that another JsonWriter has written,
-    /// to the object that is being written.
+    /// Appends the members of `object` to the object that is being written. `object` is a complete object with at least
+    /// one member from another JsonWriter.
     void appendMembersOf(std::string_view object) { raw(object.substr(1, object.size() - 2)); }
 
     // Arrays of numbers. Coordinates of vectors are rounded to single precision.
@@ -65,7 +66,7 @@ class JsonWriter {
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
     void lists(JaggedArrayView view);                     ///< writes an array of arrays
-    /// Writes `pixels`, the rows of a table with this number of columns, as an array of arrays.
+    /// Writes `pixels`, a table with this number of columns, as an array of rows. Each row is an array.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 
     template <typename T>

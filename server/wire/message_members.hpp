@@ -1,5 +1,5 @@
 #pragma once
-// Writes members that several messages have.
+// Writes members that occur in several types of messages.
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace oval4d::wire {
 
-/// Begins a message: writes its type, and its id if there is one.
+/// Begins a message: writes its type, and its id if `id` is present.
 inline void beginMessage(JsonWriter& w, std::string_view type, std::optional<double> id) {
     w.beginObject();
     w.member("type", type);
@@ -44,7 +44,7 @@ inline void writeCountMembers(JsonWriter& w, const ElementCounts& counts) {
     w.member("cells", counts[3]);
 }
 
-/// Writes as JSON the value of a setting, or of a member that occurs in messages of several types.
+/// Writes a value as JSON: the value of a setting, or of a member that occurs in several types of messages.
 template <typename Number>
 void writeValue(JsonWriter& w, const Number& number) {
     w.value(number);
@@ -99,7 +99,7 @@ inline void writeValue(JsonWriter& w, const slicing::PartsShowingElement& parts)
     w.endObject();
 }
 
-/// Writes a member of an object.
+/// Writes a member of a JSON object: its name and its value.
 template <typename Value>
 void writeMember(JsonWriter& w, std::string_view name, const Value& value) {
     w.key(name);

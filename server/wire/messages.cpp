@@ -21,7 +21,7 @@ namespace oval4d::wire {
 
 namespace {
 
-// Returns a message. `writeMembers` writes its members, except the type and the id.
+// Returns a message with this type and this id. `writeMembers` writes all other members.
 template <typename WriteMembers>
 std::string message(std::string_view type, std::optional<double> id, const WriteMembers& writeMembers) {
     std::string out;
@@ -34,7 +34,7 @@ std::string message(std::string_view type, std::optional<double> id, const Write
     return out;
 }
 
-// Writes a member of an answer, unless it is an empty optional or an empty list.
+// Writes a member of an answer. Omits empty optionals and empty lists.
 template <typename Value>
 void writePresent(JsonWriter& w, std::string_view name, const Value& value) {
     writeMember(w, name, value);
@@ -57,7 +57,7 @@ void writePair(JsonWriter& w, std::string_view name, Number before, Number after
     w.endArray();
 }
 
-// Writes the members of `at` that describe an element; see atMessage().
+// Writes the members of an `at` message that describe an element. The parameters are those of atMessage().
 void writeElementMembers(JsonWriter& w, const slicing::Element& element, const scene::Scene& scene,
                          const slicing::Object& object, const slicing::Object& source) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;
@@ -85,7 +85,7 @@ void writeElementMembers(JsonWriter& w, const slicing::Element& element, const s
     }
 }
 
-// Writes the members of `at` that describe a point of a field.
+// Writes the members of an `at` message that describe a point of a field.
 void writeSampleMembers(JsonWriter& w, const slicing::FieldSample& sample) {
     writeMember(w, "place", sample.place);
     writePresent(w, "value", sample.value);
@@ -127,7 +127,7 @@ std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const
             w.member("level", std::uint64_t{at.level->level});
             w.member("cap", at.level->cap);
             slicing::FieldSample sample = *at.sample;
-            // On the surface, the function has this value up to rounding errors.
+            // On the surface, the function has exactly this value, apart from rounding errors.
             if (!at.level->cap) sample.value = scene.look.field.levels[at.level->level];
             writeSampleMembers(w, sample);
         }
@@ -194,7 +194,8 @@ std::string welcomeMessage(std::string_view session, std::string_view token, std
 
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded,
                              std::span<const std::string> data) {
-    constexpr ElementCounts kBox{16, 32, 24, 8};  // of a field's domain, a 4-D box
+    // The elements of a field's domain, which is a 4-D box: vertices, edges, 2-faces and cells.
+    constexpr ElementCounts kBox{16, 32, 24, 8};
     return message("catalogue", id, [&](JsonWriter& w) {
         w.key("polytopes");
         w.beginArray();

@@ -7,21 +7,21 @@ namespace oval4d::wire {
 
 namespace {
 
-constexpr std::size_t kContainerHead = 5;  // a byte for the format, and four for the size
+constexpr std::size_t kContainerHead = 5;  // a format byte, and four bytes for the size
 
-// Returns the least k for which an unsigned integer of 2^k bytes can represent `number`.
+// Returns the least k for which an unsigned integer with 2^k bytes can represent `number`.
 unsigned widthOf(std::uint64_t number) {
     return number <= 0xFF ? 0 : number <= 0xFFFF ? 1 : number <= 0xFFFFFFFF ? 2 : 3;
 }
 
-// Like widthOf(), for the length of a text or a typed array. Throws std::length_error if the length is 4 GiB or more.
+// Returns widthOf() of the length of a text or a typed array. Throws std::length_error if the length is 4 GiB or more.
 unsigned lengthWidthOf(std::size_t length) {
     const unsigned k = widthOf(length);
     if (k > 2) throw std::length_error("a text or an array is too long for MessagePack");
     return k;
 }
 
-// Writes an integer of 2^k bytes, the most significant one first.
+// Writes an integer as 2^k bytes, the most significant byte first.
 void writeBigEndian(char* at, unsigned k, std::uint64_t integer) {
     for (unsigned i = 1U << k; i-- > 0;) *at++ = static_cast<char>(integer >> (8U * i));
 }
@@ -82,7 +82,8 @@ void MsgpackWriter::value(std::int64_t number) {
         buffer_.put(static_cast<char>(number));
     } else {
         countItem();
-        const unsigned k = widthOf(2 * ~bits);  // ~bits is −1 − number; the factor 2 makes room for the sign bit
+        // ~bits is −1 − number. The factor 2 makes room for the sign bit.
+        const unsigned k = widthOf(2 * ~bits);
         head(0xD0 + k, k, bits);
     }
 }

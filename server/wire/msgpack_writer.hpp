@@ -1,6 +1,6 @@
 #pragma once
-// Writes messages as MessagePack (https://github.com/msgpack/msgpack/blob/master/spec.md). Typed arrays are extensions,
-// whose types are the values of ArrayType.
+// Writes messages as MessagePack (https://github.com/msgpack/msgpack/blob/master/spec.md). Typed arrays are extension
+// types, whose numbers are the values of ArrayType.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,27 +13,28 @@
 
 namespace oval4d::wire {
 
-/// Overwrites a string with MessagePack. The string is complete after the writer is destroyed. Functions throw
-/// std::length_error for a text or an array of 4 GiB or more, which MessagePack cannot contain.
+/// A writer that overwrites a string with MessagePack. The string is complete after the writer is destroyed. Functions
+/// throw std::length_error for a text or an array of 4 GiB or more, which MessagePack cannot represent.
 class MsgpackWriter final : public BinaryWriter {
   public:
     explicit MsgpackWriter(std::string& out) : out_(out), buffer_(out), open_(1) {}
 
-    // Objects (maps in MessagePack) and arrays begin with their sizes, which are known only at the end. So each size
-    // has 32 bits, however small it is, and is filled in last.
+    // Objects (maps in MessagePack) and arrays begin with their sizes, which are known only at their ends. So each size
+    // is written as 32 bits, and filled in at the end.
     void beginObject() override { begin('\xDF'); }
     void endObject() override { end(2); }
     void beginArray() override { begin('\xDD'); }
     void endArray() override { end(1); }
     void key(std::string_view name) override { value(name); }
 
-    void value(double number) override;  ///< writes single precision if that is exact, else double precision
+    /// Writes single precision if it represents the number exactly, else double precision.
+    void value(double number) override;
     void value(std::uint64_t number) override;
     void value(std::int64_t number) override;
     void value(bool flag) override;
     void value(std::string_view text) override;
     using BinaryWriter::value;
-    // The same functions as in BinaryWriter, but without a virtual call for each number of an ordinary array.
+    // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
     void value(std::uint32_t number) { value(std::uint64_t{number}); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override;
@@ -41,20 +42,21 @@ class MsgpackWriter final : public BinaryWriter {
   private:
     /// An object or an array that is being written.
     struct OpenContainer {
-        std::size_t sizeAt;   ///< the position of its size in the message
-        std::uint32_t items;  ///< the number of its values; in an object, names count as values, too
+        std::size_t sizeAt;   ///< the position of the container's size in the message
+        std::uint32_t items;  ///< the number of values in the container; names in an object count as values, too
     };
 
     char* beginTypedArray(ArrayType type, std::size_t bytes) override;
     void begin(char format);
     void end(std::uint32_t itemsPerElement);
     void countItem() { ++open_.back().items; }
-    /// Writes the first byte of a format, and an integer of 2^k bytes.
+    /// Writes a format byte, and then an integer of 2^k bytes.
     void head(unsigned format, unsigned k, std::uint64_t integer);
 
     std::string& out_;
     Buffer buffer_;
-    std::vector<OpenContainer> open_;  // the first only counts the message itself; the last is the innermost container
+    // The first entry counts the message itself. The last entry is the innermost container.
+    std::vector<OpenContainer> open_;
 };
 
 }  // namespace oval4d::wire

@@ -25,7 +25,7 @@ namespace {
 
 using nlohmann::json;
 
-// Thrown for a message with a fault that a JSON schema cannot describe.
+// An exception for a message with a fault that a JSON schema cannot describe.
 struct InvalidRequest {
     std::string message;
     ErrorCode code = ErrorCode::bad_message;
@@ -61,8 +61,8 @@ std::optional<scene::Viewport> viewportOf(const json& message) {
     return viewport;
 }
 
-// Returns the value with this name in a table of choices. Throws std::logic_error for a name that the schema allows but
-// the table lacks, which is a bug.
+// Returns the value called `name` in a table of choices. Throws std::logic_error for a name that the schema allows but
+// the table lacks, which is a bug in this program.
 template <typename Choices>
 auto choiceOf(const json& name, const Choices& choices) {
     const auto value = text::valueNamed(choices, name.get_ref<const std::string&>());
@@ -75,7 +75,7 @@ void choose(const json& message, const char* member, const Choices& choices, Val
     if (const auto name = message.find(member); name != message.end()) into = choiceOf(*name, choices);
 }
 
-// Reads the value of a member or of a setting, whose type the schema has checked.
+// Reads the value of a member or of a setting. The schema has already checked its type.
 template <typename Value>
 void readValue(const json& value, Value& into) {
     into = value.get<Value>();
@@ -103,7 +103,7 @@ void readValue(const json& value, std::optional<Value>& into) {
     readValue(value, into.emplace());
 }
 
-// Returns the body of a valid message. A member that the message lacks keeps its default.
+// Returns the body of a valid message. Members that the message lacks keep their defaults.
 template <typename T>
 T bodyOf(const json& message) {
     T body;
@@ -135,7 +135,7 @@ fields::Box boxOf(const json& ranges) {
     return box;
 }
 
-/// Returns the command that loads a field that is given by a formula. `field` is the member `field` of a state, and
+/// Returns the command that makes a field from its formula. `field` is the member `field` of a `state` message, and
 /// `name` the name of the field. Returns an empty optional if the field is an array.
 std::optional<session::LoadObject> formulaOf(const json& field, const std::string& name) {
     if (!field.contains("formula")) return {};
@@ -146,7 +146,7 @@ std::optional<session::LoadObject> formulaOf(const json& field, const std::strin
     return load;
 }
 
-/// Returns the value of a setting in a `set` message, or nullptr if the message does not contain the setting.
+/// Returns the value of a setting in a `set` message, or nullptr if the message lacks the setting.
 const json* memberOf(const json& message, const session::SettingName& name) {
     const json* object = &message;
     if (!name.object.empty()) {
@@ -209,7 +209,7 @@ session::LoadObject bodyOf(const json& message) {
     if (message.contains("data") && message.contains("path"))
         throw InvalidRequest{"load: give either /data or /path, not both"};
     if (message.contains("data") && !message.contains("format")) throw InvalidRequest{"load: /format is missing"};
-    // parse() adds the member `data`.
+    // parse() sets the member `data` later.
     session::LoadObject load{message.at("name"), {}, {}, message.value("continues", false)};
     for (const auto& [name, member] : session::kLoadTexts) {
         if (const auto text = message.find(name); text != message.end()) text->get_to(load.*member);
@@ -222,7 +222,8 @@ session::LoadObject bodyOf(const json& message) {
     return load;
 }
 
-/// Returns numbers from a JSON array of numbers, or from a text with expressions separated by commas.
+/// Returns the numbers in `value`: a JSON array of numbers, or a text with expressions, separated by commas. Error
+/// messages call the value `where`.
 std::vector<double> numbersOf(const json& value, const std::string& where) {
     if (value.is_array()) return value.get<std::vector<double>>();
     auto list = session::evaluateList(value.get_ref<const std::string&>());
@@ -277,8 +278,8 @@ Get bodyOf(const json& message) {
 
 using RequestBody = decltype(Request::body);
 
-// A type of messages, and the function that parses a valid message of this type. The function may move strings out of
-// the message.
+// A message type, and the function that parses valid messages of this type. The function may move strings out of the
+// message.
 struct RequestType {
     std::string_view name;
     RequestBody (*parse)(json& message);
@@ -287,7 +288,7 @@ template <typename T>
 RequestBody parse(json& message) {
     if constexpr (std::is_same_v<T, session::LoadObject>) {
         auto load = bodyOf<session::LoadObject>(message);
-        // The text of a file may have many megabytes, so it is not copied.
+        // Move the text of the file, because it may have many megabytes.
         if (const auto data = message.find("data"); data != message.end())
             load.data = std::move(data->get_ref<std::string&>());
         return session::Command{std::move(load)};
@@ -301,10 +302,10 @@ template <typename... T>
 constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
     return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
 }
-// mp_flatten replaces session::Command, a variant in RequestBody, by its alternatives, the types of commands.
+// mp_flatten replaces the variant session::Command in RequestBody by its alternatives, the types of commands.
 constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<RequestBody>>{});
 
-// A listener of the JSON parser that records the type and the id of a message, without building a value.
+// A handler of JSON parser events that records the type and the id of a message, and builds no value.
 class TypeAndIdListener : public nlohmann::json_sax<json> {
   public:
     explicit TypeAndIdListener(RequestPeek& seen) : seen_(seen) {}
@@ -414,7 +415,7 @@ RequestPeek peekRequest(std::string_view beginning) {
 Result<session::Set> setCommandFromState(std::string_view text) {
     constexpr int kDepth = 8;
     ParsedJson read = parseJson(text, kDepth);
-    // If the text is not JSON, the value contains only what precedes the fault, and may lack the type.
+    // If the text is not JSON, the value contains only what precedes the fault. The type may then be missing.
     if (read.value.is_object() && (read.fault.empty() || read.repaired)) {
         const auto type = read.value.find("type");
         if (type == read.value.end() || *type != "state") {

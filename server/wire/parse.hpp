@@ -1,5 +1,5 @@
 #pragma once
-// Parses the messages from clients, which are JSON.
+// Parses the messages from clients. All of them are JSON.
 
 #include <cstddef>
 #include <limits>
@@ -14,21 +14,22 @@
 
 namespace oval4d::wire {
 
-/// Returns the types of all messages that clients may send.
+/// Returns the types of messages that clients may send.
 std::span<const std::string_view> requestTypes();
 
-/// The error for a message that was refused.
+/// The error for a refused message.
 struct BadRequest {
     std::optional<double> id;  ///< the id of the message, if it could be read
     Error error;
-    bool notJson = false;  ///< whether the text is not JSON; the connection must then be closed with code 1007
+    bool notJson = false;  ///< whether the text is not JSON; the connection must then be closed with WebSocket code
+                           ///< 1007
 };
 
-/// Parses one message, with at most `maxDepth` levels of nesting, and validates it against its schema. Errors:
+/// Parses one message with at most `maxDepth` levels of nesting, and validates it against its JSON schema. Errors:
 /// `bad_json`, `bad_message`, `unknown_type`, `out_of_range`.
 std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth = 32);
 
-/// The type and the id of a message, if they could be read.
+/// The type and the id of a message, as far as they could be read.
 struct RequestPeek {
     std::optional<std::string> type;
     std::optional<double> id;
@@ -36,17 +37,17 @@ struct RequestPeek {
 /// Reads the type and the id from the beginning of a message. The rest of the message may be missing or invalid.
 RequestPeek peekRequest(std::string_view beginning);
 
-/// Parses a `state` message, such as the one in the iTXt chunk of a frame's PNG file. Returns the command that restores
-/// this state. Errors: `bad_json`, `bad_message`, `out_of_range`.
+/// Parses a `state` message, such as the one in the iTXt chunk of a picture's PNG file. Returns the command that
+/// restores the state. Errors: `bad_json`, `bad_message`, `out_of_range`.
 Result<session::Set> setCommandFromState(std::string_view text);
 
-/// Parses the `state` message in a file: either a picture that oval4d has made, or a JSON file that is this message.
-/// Errors: `bad_message` if the file is a PNG file without a state; `too_large` if the message has more than
-/// `maxMessage` bytes; those of setCommandFromState().
+/// Parses the `state` message in a file: a picture made by oval4d, or a JSON file with only this message. Returns the
+/// command that restores the state. Errors: `bad_message` if the file is a PNG file without a state; `too_large` if the
+/// message has more than `maxMessage` bytes; the errors of setCommandFromState().
 Result<session::Set> setCommandFromFile(std::string_view file,
                                         std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
 
-/// Returns whether a file is meant for setCommandFromFile(): it starts like a PNG file or a JSON object.
+/// Returns whether setCommandFromFile() may be able to read a file: it starts like a PNG file or a JSON object.
 bool mayContainState(std::string_view file);
 
 }  // namespace oval4d::wire

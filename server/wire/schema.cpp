@@ -33,8 +33,8 @@ struct MessageSchema {
     valijson::Schema compiled;
 };
 
-// Adds the keywords of `more` to `schema`. If both have a keyword, the value in `more` replaces the one in `schema`,
-// except that `properties`, `items` and `required` are combined.
+// Adds the keywords of `more` to `schema`. If both have a keyword, the value from `more` wins; but `properties`,
+// `items` and `required` are combined.
 void addKeywords(const json& more, json& schema) {
     for (const auto& [keyword, value] : more.items()) {
         const auto own = schema.find(keyword);
@@ -60,10 +60,10 @@ void addKeywords(const json& more, json& schema) {
     }
 }
 
-// Reads schemas, each file once.
+// A reader of schemas, which reads each file only once.
 class SchemaReader {
   public:
-    // Returns what a reference of the form "<file>" or "<file>#<JSON pointer>" refers to.
+    // Returns the schema at a reference of the form "<file>" or "<file>#<JSON pointer>".
     json read(const std::string& reference) {
         const std::size_t end = std::min(reference.find('#'), reference.size());
         auto& file = files_[reference.substr(0, end)];
@@ -74,9 +74,9 @@ class SchemaReader {
     }
 
   private:
-    // Replaces references to other files by the schemas to which they refer. (valijson resolves references within a
-    // file, "#/…".) Also replaces the keyword unevaluatedProperties, which valijson does not know, by
-    // additionalProperties: once the reference is replaced, both keywords mean the same.
+    // Replaces references to other files by the schemas in these files. Leaves references within a file ("#/…") to
+    // valijson. Also replaces the keyword unevaluatedProperties, which valijson does not know, by additionalProperties.
+    // Both keywords mean the same after the reference is replaced.
     void resolveReferences(json& schema) {
         if (!schema.is_structured()) return;
         for (json& part : schema) resolveReferences(part);
@@ -96,7 +96,7 @@ class SchemaReader {
     std::map<std::string, json> files_;
 };
 
-// Returns the schemas of all messages: those that describe an object with a constant "type".
+// Returns the schemas of all messages: the schemas of objects with a constant member "type".
 std::map<std::string, std::unique_ptr<const MessageSchema>, std::less<>> readSchemas() {
     std::map<std::string, std::unique_ptr<const MessageSchema>, std::less<>> schemas;
     SchemaReader reader;
@@ -121,10 +121,10 @@ const MessageSchema& schemaOf(std::string_view type) {
     return *schema->second;
 }
 
-// Returns the name in one step of valijson's path to an error. Steps have the form "<root>", "[angles]" or "[0]".
+// Returns the name in a step of valijson's path to an error. Steps have the form "<root>", "[angles]" or "[0]".
 std::string stepName(const std::string& step) { return step.substr(1, step.size() - 2); }
 
-// Returns the error with the longest path, which is the most specific one; nullptr if there is none.
+// Returns the error with the longest path, because this is the most specific error. Returns nullptr if there is none.
 const valijson::ValidationResults::Error* innermost(const valijson::ValidationResults& results) {
     const valijson::ValidationResults::Error* deepest = nullptr;
     for (const auto& error : results) {
@@ -133,9 +133,9 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
     return deepest;
 }
 
-// Returns how an error message continues after "must be": the schema's title, such as "a finite number of radians".
-// Without a title, returns "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both bounds, and
-// otherwise "different".
+// Returns the end of an error message after "must be". This is the title of the schema, such as "a finite number of
+// radians". Without a title, this is "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both
+// bounds; otherwise, "different".
 std::string expected(const json& schema) {
     if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
         return schema.value("title", "different");
@@ -144,7 +144,7 @@ std::string expected(const json& schema) {
            text::roundedDecimal(schema.at("maximum").get<double>());
 }
 
-// Returns the description of a missing or unknown member of an object; empty if there is none.
+// Returns the description of a missing or unknown member of an object; an empty string if there is no such member.
 std::string membersFault(const json& schema, const json& value, const std::string& path) {
     if (!value.is_object() || !schema.contains("properties")) return {};
     const json& properties = schema.at("properties");
@@ -165,7 +165,7 @@ std::string membersFault(const json& schema, const json& value, const std::strin
     return {};
 }
 
-// Returns whether the value is a number of the right type that is outside the bounds of its schema.
+// Returns whether a value is a number of the right type, but outside the bounds of its schema.
 bool outOfBounds(const json& schema, const json& value) {
     if (!value.is_number()) return false;
     const json type = schema.value("type", json());
@@ -176,7 +176,8 @@ bool outOfBounds(const json& schema, const json& value) {
            (schema.contains("exclusiveMinimum") && number <= schema.at("exclusiveMinimum").get<double>());
 }
 
-// Returns a number rounded for a reader, but with all digits if rounding makes it equal to a bound of its schema.
+// Returns a number as text, rounded for readability. Returns all digits if rounding would make the number equal to a
+// bound of its schema.
 std::string numberText(const json& schema, const json& value) {
     const auto number = value.get<double>();
     std::string rounded = text::roundedDecimal(number);
@@ -188,8 +189,8 @@ std::string numberText(const json& schema, const json& value) {
     return rounded;
 }
 
-// Returns the end of an error message: ", not " and the value. Returns an empty string for an array or object, because
-// its text may be long.
+// Returns the end of an error message: ", not " and the value. Returns an empty string for an array or object, whose
+// text may be long.
 std::string notThis(const json& schema, const json& value) {
     if (value.is_structured()) return {};
     if (value.is_number()) return ", not " + numberText(schema, value);
@@ -203,7 +204,7 @@ json readSchema(const std::string& reference) { return SchemaReader().read(refer
 std::optional<Error> validationError(std::string_view type, const json& message) {
     const MessageSchema& schema = schemaOf(type);
     valijson::Validator validator;
-    // Most messages are valid: the first pass collects no errors, which is fast.
+    // The first pass collects no errors, because most messages are valid and this pass is faster.
     if (validator.validate(schema.compiled, NlohmannJsonAdapter(message), nullptr)) return {};
 
     valijson::ValidationResults results;

@@ -19,8 +19,8 @@ std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uin
     return std::span<const T>(all).subspan(begin, end - begin);
 }
 
-// The sources of the elements of one or several slices: for each element, the index of the polytope's element that it
-// was cut from (see SliceSet).
+// The sources of the elements of one slice or several. The source of an element is the index of the element of the
+// object from which it was cut (see SliceSet).
 struct ElementSources {
     NumberSpan vertices, edges, faces;
 };
@@ -44,7 +44,7 @@ void writeSources(W& w, const ElementSources& of) {
     w.endObject();
 }
 
-// Writes the cells that determine the colors of the faces, unless these cells are equal to the sources of the faces.
+// Writes the cells that determine the colors of faces. Writes nothing if these cells are the sources of the faces.
 template <typename W>
 void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
                      std::size_t to) {
@@ -56,7 +56,7 @@ void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32
     w.numbers(cells);
 }
 
-// Writes the visibility of each element, unless all elements are fully visible.
+// Writes the visibility of each element. Writes nothing if all elements are fully visible.
 template <typename W>
 void writeVisibilities(W& w, const slicing::VisibilityBySource& visibilities, const ElementSources& of) {
     if (visibilities.allVisible()) return;
@@ -74,7 +74,7 @@ void writeVisibilities(W& w, const slicing::VisibilityBySource& visibilities, co
     w.endObject();
 }
 
-// Writes the sizes and opacities of the balls of slices `from` … `to` − 1, if balls differ from each other.
+// Writes the sizes and opacities of the balls of slices `from` … `to` − 1. Writes nothing if all balls are equal.
 template <typename W>
 void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) {
     if (slices.ballScale.empty()) return;
@@ -88,16 +88,17 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.endObject();
 }
 
-// The triangles that clients draw in place of faces that may cross each other or themselves (see Scene::fill and
-// ObjectProjection::fill). Indices in a triangle count from the first point of the triangle's slice or part.
+// The triangles that clients draw instead of faces that may cross each other or themselves (see Scene::fill and
+// ObjectProjection::fill). A "part" is a part of the projection. Indices in a triangle count from the first point of
+// the triangle's slice or part.
 struct FillTriangles {
     std::vector<glm::dvec3> points;
     std::vector<IndexTriple> triangles;
     std::vector<std::uint32_t> colorCells, visibilities;
 };
 
-// Adds the triangles of one slice or part, except those of hidden faces. `colorCells` has the cell that determines the
-// color of each face.
+// Adds the triangles of the visible faces of one slice or part. `colorCells` contains, for each face, the cell that
+// determines its color.
 void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>& colorCells,
              const slicing::VisibilityBySource& visibilities, std::size_t slice, FillTriangles& fill) {
     const std::size_t begin = fill.points.size();
@@ -131,7 +132,7 @@ void writeTriangles(W& w, const FillTriangles& fill, const slicing::VisibilityBy
     }
 }
 
-// Writes the triangles of one slice or part, unless it has no filled faces.
+// Writes the triangles of one slice or part. Writes nothing if there are no filled faces.
 void writeFill(JsonWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
                const slicing::VisibilityBySource& visibilities, std::size_t i) {
     if (faces.empty() || faces.faceBegin[i] == faces.faceBegin[i + 1]) return;
@@ -158,7 +159,7 @@ void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
     w.endObject();
 }
 
-// Writes the elements of one slice, or of one part of a projection.
+// Writes the elements of one slice, or of one part of the projection.
 void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
                    const slicing::VisibilityBySource& visibilities, std::size_t i) {
     const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
@@ -187,7 +188,7 @@ void writeSlice(JsonWriter& w, std::string_view placement, const Scene& scene, s
     w.endObject();
 }
 
-// Writes one property of all placements: vectors and doubles as a typed array, other values as an ordinary array.
+// Writes one property of all placements. Vectors and doubles become a typed array, other values an ordinary array.
 template <typename Property>
 void writeColumn(BinaryWriter& w, std::string_view name, const std::vector<SlicePlacement>& placements,
                  Property property) {

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the slices of a `slices` message. The JSON encoding has one object per slice. Binary encodings have one array
-// per property with the values of all slices, because otherwise a small message would consist mostly of property names.
+// Writes the slices in a `slices` message. In JSON, each slice is an object. In binary encodings, each property is an
+// array with the values of all slices. Otherwise, a small message would consist mostly of the names of properties.
 
 #include <concepts>
 #include <cstdint>
@@ -19,14 +19,14 @@ namespace oval4d::wire {
 
 class JsonWriter;
 
-/// Cached texts of the placements of slices, in one encoding. Placements often stay the same from one message to the
-/// next. Each text is one encoded object.
+/// The cached texts of slice placements (positions and sizes of slices in the picture), in one encoding. Placements
+/// often stay the same from one message to the next. Each text is one encoded object.
 struct PlacementTexts {
-    std::vector<CachedText<scene::SlicePlacement>> perSlice;     ///< in JSON
-    CachedText<std::vector<scene::SlicePlacement>> ofAllSlices;  ///< in a binary encoding
+    std::vector<CachedText<scene::SlicePlacement>> perSlice;     ///< for JSON: one text per slice
+    CachedText<std::vector<scene::SlicePlacement>> ofAllSlices;  ///< for a binary encoding: one text for all slices
 };
 
-/// Writes the slices and the projection of a scene. `texts`: the texts of placements in the encoding of the writer `w`.
+/// A writer of the slices and the projection of a scene. `texts` must have the encoding of the writer `w`.
 class SliceListWriter {
   public:
     void write(JsonWriter& w, const scene::Scene& scene, PlacementTexts& texts);
@@ -39,14 +39,14 @@ class SliceListWriter {
         writeAllSlices(w, placements, scene);
     }
     /// Writes the projection of the whole object: each ProjectionPartLook with its vertices, edges and faces. In binary
-    /// encodings, as for slices, one array per property has the values of all parts.
+    /// encodings, each property is an array with the values of all parts.
     void writeProjection(JsonWriter& w, const scene::Scene& scene);
     void writeProjection(BinaryWriter& w, const scene::Scene& scene);
 
   private:
     static void writePlacements(BinaryWriter& w, const std::vector<scene::SlicePlacement>& placements);
-    // Writes all slices as one object. `placements`: the encoded object from writePlacements(), whose members
-    // become members of this object.
+    // Writes all slices as one object. `placements` is the encoded object from writePlacements(). Its members become
+    // members of this object.
     void writeAllSlices(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
     // Writes the elements of all slices, or of all parts of a projection.
     void writeElements(BinaryWriter& w, const slicing::SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
@@ -54,8 +54,8 @@ class SliceListWriter {
     // Writes the triangles of the faces of all slices, or of all parts of a projection.
     void writeFills(BinaryWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
                     const slicing::VisibilityBySource& visibilities);
-    // Writes the lengths of consecutive ranges as an array with this name. `begin`: the start of each range, and then
-    // the end of the last range.
+    // Writes the lengths of consecutive ranges as an array called `name`. `begin` contains the start of each range, and
+    // finally the end of the last range.
     void writeRangeLengths(BinaryWriter& w, std::string_view name, std::span<const std::uint32_t> begin);
 
     std::vector<std::uint32_t> sizes_;

@@ -18,7 +18,7 @@ namespace {
 
 using scene::Scene;
 
-// Writes an array of pairs of numbers. In all encodings, each pair is an ordinary array in an ordinary array.
+// Writes an array of pairs of numbers. In all encodings, each pair is an ordinary array, not a typed array.
 template <typename W, typename Pairs>
 void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.key(name);
@@ -31,8 +31,7 @@ void writePairs(W& w, std::string_view name, const Pairs& list) {
     w.endArray();
 }
 
-// Writes a member that is an array of numbers. In binary encodings, too, it is an array of single numbers, not a typed
-// array.
+// Writes a member that is an ordinary array of numbers. Binary encodings do not use a typed array here, either.
 template <typename W, typename Numbers = std::initializer_list<double>>
 void writeNumbers(W& w, std::string_view name, const Numbers& list) {
     w.key(name);
@@ -81,7 +80,7 @@ void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color
     w.endObject();
 }
 
-// Writes the contours of the levels of a field in a plane.
+// Writes the contours (level curves) of a field in a plane.
 template <typename W>
 void writeContours(W& w, const slicing::PlanarContours& contours) {
     w.key("contours");
@@ -95,7 +94,7 @@ void writeContours(W& w, const slicing::PlanarContours& contours) {
     w.endArray();
 }
 
-// Returns the number of columns of the plot in Scene::plotTones; 0 if there is no plot.
+// Returns the number of columns of the image in Scene::plotTones; 0 if there is no image.
 int columnsOf(const scene::CoordinatesLayout& layout) {
     if (layout.panel > 0) return slicing::CoordinateValueHistograms::kColumns;
     return layout.isDensityStrip ? scene::DensityPlot::kColumns : 0;
@@ -120,7 +119,7 @@ void writeHistogram(W& w, const scene::HistogramAxes& histogram) {
     w.endObject();
 }
 
-// Writes the member `units` with the known units of the axes. Writes nothing if all units are unknown.
+// Writes the member `units` with the units of those axes whose units are known. Writes nothing if none is known.
 template <typename W>
 void writePictureUnits(W& w, const fields::PictureUnits& units) {
     if (std::ranges::all_of(units, &std::string::empty, &fields::PictureAxisUnit::text)) return;
@@ -217,8 +216,8 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedTexts& texts, const Scene& s
     writePictureUnits(w, scene.axisUnits);
     w.endObject();
     if (scene.look.parts.coordinates) {
-        // A field shows histograms instead of parallel coordinates, because its vertices are only the corners of its
-        // domain.
+        // The vertices of a field are only the corners of its domain, so a field has histograms instead of parallel
+        // coordinates.
         if (!scene.showsHistogram()) {
             w.key("coordinates");
             w.vectors(std::span<const glm::dvec4>(scene.slices->rotatedVertices));

@@ -1,6 +1,6 @@
 #pragma once
-// Writes the `slices` message. It contains everything that a client needs to draw the picture, so the client need not
-// compute slices, colors or positions.
+// Writes the `slices` message. The message contains everything that a client needs to draw the picture. The client need
+// not compute slices, colors or positions.
 
 #include <array>
 #include <cstdint>
@@ -16,16 +16,16 @@
 
 namespace oval4d::wire {
 
-/// Writes `slices` messages. Caches the parts that stay the same from one message to the next. A writer may be used by
-/// one thread at a time.
+/// A writer of `slices` messages. Caches the parts that stay the same from one message to the next. Only one thread at
+/// a time may use a writer.
 class SlicesMessageWriter {
   public:
-    /// Writes the message of this scene. Overwrites `out` and reuses its memory.
+    /// Writes the message for a scene. Overwrites `out` and reuses its memory.
     void write(const scene::Scene& scene, std::uint64_t revision, std::optional<double> id, Encoding encoding,
                std::string& out, slicing::Quality quality = slicing::Quality::full);
 
-    /// The values of a scene that stay the same while the object turns. The placements of slices also stay the same,
-    /// but are not included, because SliceListWriter caches their texts.
+    /// The values of a scene that stay the same while the object turns. Placements of slices are not included, although
+    /// they also stay the same, because SliceListWriter caches their texts.
     struct StaticScene {
         scene::View view{};
         scene::ShownParts shown;
@@ -39,9 +39,9 @@ class SlicesMessageWriter {
     };
 
   private:
-    // The cached texts of the parts that stay the same from one message to the next, in one encoding.
+    // The cached texts of those parts of a message that rarely change, in one encoding.
     struct CachedTexts {
-        CachedText<StaticScene> staticScene;  // an object whose members become members of `scene`
+        CachedText<StaticScene> staticScene;  // an encoded object, whose members become members of `scene`
         PlacementTexts placements;
     };
 
@@ -53,7 +53,7 @@ class SlicesMessageWriter {
     template <typename W>
     void writeMatrix(W& w, const scene::Scene& scene);
 
-    std::array<CachedTexts, kEncodings.size()> texts_;  // for each Encoding
+    std::array<CachedTexts, kEncodings.size()> texts_;  // one entry for each Encoding
     SliceListWriter list_;
 };
 

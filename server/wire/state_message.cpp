@@ -66,7 +66,8 @@ void writeLastTurn(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
     w.endObject();
 }
 
-// Writes the member `quantity` with the known ones of `name` and `unit`. Writes nothing if both are unknown.
+// Writes the member `quantity` with the name and the unit, as far as they are known. Writes nothing if both are
+// unknown.
 void writeQuantity(JsonWriter& w, const fields::Quantity& quantity) {
     if (!quantity.isKnown()) return;
     w.key("quantity");
@@ -76,7 +77,7 @@ void writeQuantity(JsonWriter& w, const fields::Quantity& quantity) {
     w.endObject();
 }
 
-// Writes the member `units` with the known units. Writes nothing if all units are unknown.
+// Writes the member `units` with the units of those axes whose units are known. Writes nothing if none is known.
 void writeUnits(JsonWriter& w, const fields::AxisUnits& units) {
     if (std::ranges::all_of(units, &std::string::empty)) return;
     w.key("units");
@@ -100,7 +101,8 @@ void writeBox(JsonWriter& w, std::string_view name, const fields::Box& box) {
     w.endArray();
 }
 
-// Writes the members `region` and `resolution` of a part of an array in the data folder. Omits what does not apply.
+// Writes the member `region` if the field is a part of an array in the data folder, and the member `resolution` if it
+// is a level of a multiscale image.
 void writePart(JsonWriter& w, const fields::Field& field) {
     if (!field.source) return;
     if (field.source->region) writeBox(w, "region", *field.source->region);
@@ -114,7 +116,7 @@ void writePart(JsonWriter& w, const fields::Field& field) {
     w.endObject();
 }
 
-// Writes the member `values`: the second function, if there is one, and the color scale of values.
+// Writes the member `values`: the second function of a field, if it has one, and the color scale of its values.
 void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
     constexpr int kColors = 9;
     const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->typicalRange(), scheme);
@@ -166,7 +168,8 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
     w.endObject();
 }
 
-// Writes the coordinate in the box of a field that all points of the focus slice have in common, if there is one.
+// Writes the coordinate that all points of the focus slice have in common, along an axis of the field's box. Writes
+// nothing if there is no such coordinate.
 void writeCommonCoordinate(JsonWriter& w, const session::State& state) {
     const fields::Field* const field = slicing::fieldIn(state.object);
     const auto common = field == nullptr ? std::nullopt : fields::commonCoordinate(*field, state.orientation);
@@ -181,7 +184,7 @@ void writeCommonCoordinate(JsonWriter& w, const session::State& state) {
 }
 
 void writeSettings(JsonWriter& w, const session::State& state) {
-    std::string_view object;  // the name of the JSON object that has been begun; empty for none
+    std::string_view object;  // the name of the JSON object that is being written; empty for none
     const auto continueIn = [&](std::string_view next) {
         if (next == object) return;
         if (!object.empty()) w.endObject();
@@ -201,7 +204,7 @@ void writeSettings(JsonWriter& w, const session::State& state) {
     continueIn({});
 }
 
-// Writes the message to `out`, without the serial number of the object if `serial` is empty.
+// Writes the `state` message to `out`. Omits the serial number of the object if `serial` is empty.
 void writeState(std::string& out, const session::State& state, const slicing::SectionNamePair& section,
                 std::uint64_t revision, std::optional<std::uint64_t> serial, std::optional<double> id,
                 slicing::Quality quality, scene::Scheme viewer) {

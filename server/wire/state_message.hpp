@@ -12,13 +12,13 @@
 
 namespace oval4d::wire {
 
-/// Returns the `state` message of a state. `section` has the names of the section in the state's focus slice, and
-/// `quality` is the quality of the picture that follows. `viewer` is the color scheme of this picture if the background
-/// is scene::Background::automatic; it determines the colors of cell types and of values in the message. The PNG files
-/// of frames contain the same text.
+/// Returns the `state` message of a state. `section` contains the names of the section in the focus slice, and
+/// `quality` is the quality of the next picture. `viewer` is the color scheme that the viewer prefers. With
+/// scene::Background::automatic, it determines the colors of cell types and of values in the message. The PNG files of
+/// pictures contain the same text.
 ///
-/// The serial number of the object in the message is that of State::source, because the frame of reference is a setting
-/// of the message.
+/// The message contains the serial number of State::source (the object in its own coordinates), because the frame of
+/// reference is one of the settings in the message.
 std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                          std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
                          scene::Scheme viewer = scene::Scheme::dark);
@@ -27,8 +27,8 @@ void stateMessage(const session::State& state, const slicing::SectionNamePair& s
                   std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full,
                   scene::Scheme viewer = scene::Scheme::dark);
 
-/// Returns the `state` message for a picture that belongs to no session: with revision 0, for viewers who prefer dark
-/// pictures, and without the serial number of the object, so that equal pictures are equal files.
+/// Returns the `state` message for a picture outside of sessions: with revision 0, in the dark color scheme, and
+/// without the serial number of the object. So equal pictures are equal files.
 std::string stateMessageOutsideSessions(const session::State& state, const slicing::SectionNamePair& section);
 
 }  // namespace oval4d::wire

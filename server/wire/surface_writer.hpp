@@ -1,6 +1,6 @@
 #pragma once
-// Writes the surfaces of a field's slices. The JSON encoding has one object per slice; binary encodings have one array
-// per property with the values of all slices.
+// Writes the surfaces of a field's slices (isosurfaces of the levels). In JSON, each slice is an object with its own
+// surfaces. In binary encodings, each property is an array with the values of all slices.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +16,12 @@ namespace oval4d::wire {
 class BinaryWriter;
 class JsonWriter;
 
-/// Writes the surfaces of slices. Keeps the memory of its arrays from one call to the next.
+/// A writer of the surfaces of slices. Keeps the memory of its arrays from one call to the next.
 class SurfaceWriter {
   public:
-    /// Writes the member `surface` of slice i, or nothing if the slice has no surface.
+    /// Writes the member `surface` of slice i. Writes nothing if the slice has no surface.
     void write(JsonWriter& w, const scene::Scene& scene, std::size_t i);
-    /// Writes the member `surface` with the surfaces of all slices, or nothing if the object has no surfaces.
+    /// Writes the member `surface` with the surfaces of all slices. Writes nothing if the object has no surfaces.
     void write(BinaryWriter& w, const scene::Scene& scene);
     /// Writes the member `surfaces` of the object `scene` in the message: how each level is drawn. Writes nothing if
     /// there are no levels.
@@ -49,9 +49,10 @@ class SurfaceWriter {
 
     std::vector<glm::vec3> points_, normals_;
     std::vector<IndexTriple> triangles_;
-    // level_, cap_: one number for each triangle. colors_, capColors_: one number for each point.
+    // level_ and cap_ have one number for each triangle; colors_ and capColors_ have one number for each point.
     std::vector<std::uint32_t> level_, cap_, colors_, capColors_;
-    std::vector<std::uint32_t> pointCounts_, triangleCounts_;  // one number for each slice
+    // One number for each slice.
+    std::vector<std::uint32_t> pointCounts_, triangleCounts_;
 };
 
 }  // namespace oval4d::wire
