@@ -1,4 +1,4 @@
-// Parses the command line, and runs the server or a subcommand.
+// The main program: parses the command line, and runs the server or a subcommand.
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -44,7 +44,7 @@ int main(int argc, char** argv) {
     oval4d::ExportOutputOptions exportOptions;
     CLI::App* exporting = app.add_subcommand("export", "Write a slice or the oval as a file for other programs");
     oval4d::addExportOptions(*exporting, exportOptions);
-    // Hidden subcommands, with which the server starts this program as a child process. Child processes read their
+    // The server starts this program as a child process with these hidden subcommands. Child processes read their
     // options from environment variables.
     const CLI::App* draw = app.add_subcommand(oval4d::raster::kRasterizerCommand)->group("");
     const CLI::App* read = app.add_subcommand(oval4d::file_reading::kFileReaderCommand)->group("");

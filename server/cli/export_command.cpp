@@ -27,7 +27,7 @@ const exports::Format& formatOf(const ExportOutputOptions& options) {
                                  : "no format is called " + text::inQuotes(name) + "; the formats are " + known);
 }
 
-/// Returns the names in a table of choices, without the aliases, separated by "|": "solid|skeleton".
+/// Returns the names in a table of choices, separated by "|", such as "solid|skeleton". Leaves out aliases.
 template <typename Choices>
 std::string alternativesOf(const Choices& choices) {
     std::string out;
@@ -39,8 +39,9 @@ std::string alternativesOf(const Choices& choices) {
     return out;
 }
 
-/// Returns limits on triangles, bytes and time that are far above those of the server, because the user of a command
-/// line decides how much time and memory to spend. The limit on slices is the server's default.
+/// Returns the limits of an export from the command line. The limits on triangles, bytes and time are far above those
+/// of the server, because here the user decides how much time and memory to spend. The limit on slices is the server's
+/// default.
 exports::ExportLimits commandLineLimits() {
     exports::ExportLimits limits;
     limits.triangles = 50'000'000;

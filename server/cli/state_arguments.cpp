@@ -41,8 +41,8 @@ session::QueryParameters queryOf(const std::vector<std::string>& words) {
 
 namespace {
 
-/// Removes the parameter `name` from the query, and returns its value; an empty optional if the query does not contain
-/// it. Throws std::runtime_error if the query contains it more than once.
+/// Removes the parameter `name` from the query and returns its value. Returns an empty optional if the query lacks the
+/// parameter. Throws std::runtime_error if the query contains it more than once.
 std::optional<std::string> take(session::QueryParameters& query, std::string_view name) {
     const auto found = std::ranges::find(query, name, &session::QueryParameters::value_type::first);
     if (found == query.end()) return {};
@@ -62,9 +62,9 @@ bool isZarr(const std::filesystem::path& folder) {
                                [&](std::string_view file) { return std::filesystem::exists(folder / file); });
 }
 
-/// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps the files of an array, which may
-/// be larger than the main memory. Removes from the query the options that say how to read an object of this kind, such
-/// as "axes" for an array or "center" for a polytope.
+/// Reads the object in a file, a Zarr folder, or a folder with a series of files. Maps files of arrays, which may be
+/// larger than the main memory. Removes the options that say how to read such an object from the query, for example
+/// "axes" for an array or "center" for a polytope.
 Result<session::ObjectWithWarnings> readFile(const std::string& path, session::QueryParameters& query) {
     const std::string fileName = std::filesystem::path(path).filename().string();
     const std::string name = session::objectNameFor(fileName, session::Limits{});
@@ -113,8 +113,8 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     return session::readObject(load, session::Limits{});
 }
 
-/// Returns the state in a file that is a picture made by oval4d, or a state as JSON; an empty optional if the file is
-/// of another kind. Throws std::runtime_error if the state is invalid.
+/// Returns the state in a picture made by oval4d, or in a JSON file with a `state` message. Returns an empty optional
+/// for any other file. Throws std::runtime_error if the state is invalid.
 std::optional<session::State> readState(const std::string& path, session::ObjectLoader& loader) {
     if (std::filesystem::is_directory(path)) return {};
     const auto file = fields::FileContents::map(std::filesystem::path(path));
@@ -129,8 +129,8 @@ std::optional<session::State> readState(const std::string& path, session::Object
     return session.current;
 }
 
-/// Returns the state in a file or, if the file contains an object, the initial state with this object. Prints warnings
-/// about the object to standard error. Throws std::runtime_error with a message for the user.
+/// Returns the state in a file. If the file contains an object, returns the initial state with this object, and prints
+/// warnings about the object to standard error. On failure, throws std::runtime_error with a message for the user.
 session::State stateFromFile(const std::string& path, session::QueryParameters& query, session::ObjectLoader& loader) {
     if (const auto state = readState(path, loader)) return *state;
     if (std::ranges::find(query, session::kFormula, &session::QueryParameters::value_type::first) != query.end())
@@ -143,8 +143,8 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
     return state;
 }
 
-/// An option that only applies to files of one kind, and says how to read them. `files` names this kind for an error
-/// message. Not listed are "box" and "values", which also apply to formulas.
+/// An option that says how to read files of one kind; `files` is the name of this kind in error messages. The options
+/// "box" and "values" are not in the list, because they also apply to formulas.
 struct ReadingOption {
     std::string_view name;
     std::string_view files;
@@ -157,8 +157,8 @@ constexpr auto kReadingOptions = std::to_array<ReadingOption>({
     {"center", "polytopes, surfaces and points"},
 });
 
-/// Throws std::runtime_error if the query still contains an option that says how to read a file. Such an option is for
-/// files of another kind, because readFile() has removed the options for files of this kind.
+/// Throws std::runtime_error if the query still contains an option that says how to read a file. readFile() has removed
+/// the options for the kind of file that was read, so the option is for another kind.
 void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
     for (const ReadingOption& option : kReadingOptions) {
         if (std::ranges::find(query, option.name, &session::QueryParameters::value_type::first) == query.end())

@@ -1,5 +1,5 @@
 #pragma once
-// Error codes and messages, and a result type that holds a value or an error.
+// Error codes, errors with messages, and a result type that holds a value or an error.
 
 #include <string>
 #include <string_view>
@@ -9,7 +9,7 @@
 namespace oval4d {
 
 /// The codes of all errors that a client can receive. protocol/errors.json and protocol/README.md list their names and
-/// meanings; a test compares the names with this enum.
+/// meanings. A test compares the names with this enum.
 enum class ErrorCode {
     bad_json,            ///< the text is not JSON, is nested too deeply, or has too many values
     bad_message,         ///< the message does not match its schema, or a request has a malformed or unexpected part
@@ -23,30 +23,31 @@ enum class ErrorCode {
     bad_polytope,        ///< a loaded polytope is invalid
     bad_field,           ///< a loaded field (an array or a formula) is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
-    no_body,             ///< what is to be exported is empty or flat, has no room for its label, is not highlighted,
-                         ///< or does not fit the file format
-    nothing_to_undo,     ///< there is nothing to undo, redo, repeat or keep turning
-    hello_first,         ///< a message was sent before hello
-    not_found,           ///< the session or resource does not exist
-    bad_token,           ///< the token does not open this session
-    too_many,            ///< a limit on sessions, connections, requests, loaded objects or bytes is reached
-    too_large,           ///< a message, frame, file, polytope or field exceeds a limit on its size
-    canceled,            ///< a search was stopped, because its result was no longer needed
-    later_version,       ///< a later version has stored the session; this server keeps it, but cannot open it
-    internal,            ///< an internal error of the server; the session is unchanged
+    /// What is to be exported is empty or flat, has no room for its label, is not highlighted, or does not fit the file
+    /// format.
+    no_body,
+    nothing_to_undo,  ///< there is nothing to undo, redo, repeat or keep turning
+    hello_first,      ///< a message was sent before hello
+    not_found,        ///< the session or resource does not exist
+    bad_token,        ///< the token does not open this session
+    too_many,         ///< a limit on sessions, connections, requests, loaded objects or bytes is reached
+    too_large,        ///< a message, frame, file, polytope or field exceeds a limit on its size
+    canceled,         ///< a search was stopped, because its result was no longer needed
+    later_version,    ///< a later version has stored the session; this server keeps it, but cannot open it
+    internal,         ///< an internal error of the server; the session is unchanged
 };
 
-/// Returns the name of the code in protocol messages, which is spelled like the enumerator.
+/// Returns the name of the code in protocol messages. The name is spelled like the enumerator.
 std::string_view protocolName(ErrorCode code);
 
-/// An error to report to a client. `message` tells the user what was wrong, where, and what is allowed.
+/// An error to report to a client. `message` tells the user what is wrong, where, and what is allowed.
 struct Error {
     ErrorCode code;
     std::string message;
 };
 
-/// Holds a value, or the error that explains why there is none. Converts to true if it holds a value. Accessing the
-/// value when it holds an error, or the error when it holds a value, throws std::bad_variant_access.
+/// A value, or the error that explains why there is none. Converts to true if it holds a value. Accessing the one that
+/// it does not hold throws std::bad_variant_access.
 template <typename T>
 class [[nodiscard]] Result {
   public:

@@ -1,6 +1,6 @@
 #pragma once
-// Serializes values for messages between processes of the same program on the same machine, in the machine's byte
-// order.
+// Converts values to bytes and back, for messages between processes of this program on the same machine. Numbers have
+// the machine's byte order.
 
 #include <cstddef>
 #include <cstring>
@@ -15,18 +15,18 @@
 
 namespace oval4d::serialization {
 
-/// Types whose values are copied byte by byte. Classes among these types must not contain pointers or references; the
-/// concept cannot check this.
+/// Satisfied by types whose values can be copied byte by byte. Classes among these types must not contain pointers or
+/// references; the concept cannot check this.
 template <typename T>
 concept BytewiseCopyable = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Aggregates (structs without constructors) that are not BytewiseCopyable. Their members are written and read one by
-/// one.
+/// Satisfied by aggregates (structs without constructors) that are not BytewiseCopyable. Their members are written and
+/// read one by one.
 template <typename T>
 concept Memberwise = std::is_aggregate_v<T> && !BytewiseCopyable<T>;
 
-/// Appends values to a string of bytes. A string or vector is written as its number of elements, followed by the
-/// elements.
+/// A function object that appends values to a string of bytes. Writes a string or vector as the number of its elements,
+/// followed by the elements.
 class ByteWriter {
   public:
     explicit ByteWriter(std::string& out) : out_(out) {}
@@ -63,9 +63,9 @@ class ByteWriter {
     std::string& out_;
 };
 
-/// Reads values. They must be read in the order and with the types in which a ByteWriter wrote them. Throws
-/// std::runtime_error if bytes are missing, or if a Boolean is neither 0 nor 1. Does not check the Booleans that are
-/// members of a BytewiseCopyable class.
+/// A function object that reads values from bytes. Values must be read in the order, and with the types, in which a
+/// ByteWriter wrote them. Throws std::runtime_error if bytes are missing, or if a Boolean is neither 0 nor 1. Does not
+/// check Booleans in BytewiseCopyable classes.
 class ByteReader {
   public:
     explicit ByteReader(std::string_view bytes) : rest_(bytes) {}
@@ -90,7 +90,7 @@ class ByteReader {
     }
     template <Memberwise T>
     void operator()(T& value) {
-        // A lambda, because for_each_field() would copy *this and advance only the copy.
+        // Pass a lambda, because for_each_field() would copy *this and advance only the copy.
         boost::pfr::for_each_field(value, [this](auto& member) { (*this)(member); });
     }
     template <Memberwise T>
@@ -100,15 +100,15 @@ class ByteReader {
     }
 
   private:
-    // Reads the number of elements of a string or vector. Throws if fewer bytes are left than these elements take.
-    // `each`: the size of an element in bytes.
+    // Reads the number of elements of a string or vector. Throws std::runtime_error if too few bytes are left for these
+    // elements. `each` is the size of an element in bytes.
     std::size_t count(std::size_t each) {
         std::size_t number = 0;
         (*this)(number);
         if (number > rest_.size() / each) throw std::runtime_error("a message between processes is cut short");
         return number;
     }
-    // Returns the next `size` bytes and skips them.
+    // Returns a pointer to the next `size` bytes, and skips them. Throws std::runtime_error if too few bytes are left.
     const char* take(std::size_t size) {
         if (size > rest_.size()) throw std::runtime_error("a message between processes is cut short");
         const char* at = rest_.data();
