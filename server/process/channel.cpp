@@ -20,16 +20,16 @@ struct Header {
     std::uint64_t size;
 };
 
-// The ancillary data of a message on a Unix socket (unix(7)) that carries one file descriptor.
+// Memory for the ancillary data of a message on a Unix socket (see unix(7)), which carries one file descriptor.
 struct alignas(cmsghdr) AncillaryData {
     char bytes[CMSG_SPACE(sizeof(int))];
 };
 
-// The interval at which waitFor() checks whether a stop has been requested.
+// The interval at which waitFor() checks whether a stop was requested.
 constexpr std::chrono::milliseconds kStopCheckInterval{100};
 
-/// Waits until `event`, an event of poll(2), happens. Returns false if the time limit passes or a stop is requested
-/// first.
+/// Waits until `event`, an event of poll(2), happens at the socket. Returns false if the time limit is reached, or a
+/// stop is requested, first.
 bool waitFor(int socket, short event, const WaitLimit& limit) {
     using std::chrono::milliseconds;
     const milliseconds longest =
@@ -41,8 +41,8 @@ bool waitFor(int socket, short event, const WaitLimit& limit) {
     }
 }
 
-/// Repeats `call`, a nonblocking system call that sends or receives, until it succeeds, and sets `moved` to the number
-/// of bytes that were sent or received. Waits for `event` whenever the call would block.
+/// Calls `call`, a nonblocking system call that sends or receives, until it succeeds. Waits for `event` whenever the
+/// call would block. Sets `moved` to the number of bytes that were sent or received.
 template <typename Call>
 TransferResult moveSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
     for (;;) {
@@ -96,7 +96,7 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
 
 TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const WaitLimit& limit,
                                 std::size_t maxBytes) const {
-    // moveSome() checks the limit only when it must wait, which never happens if the sender is fast enough.
+    // Check the limit here, because moveSome() checks it only when it must wait. It never waits if the sender is fast.
     if (WaitLimit::Clock::now() > limit.until) return TransferResult::timed_out;
     if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {

@@ -25,11 +25,11 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = WaitLimit::Clock;
 
-// The maximum size in bytes of the text in which a child process says why it failed (MessageType::failed).
+// The maximum size, in bytes, of the reason for which a child process failed (the body of MessageType::failed).
 constexpr std::size_t kMaxReason = 64U << 10U;
 
-/// The environment of a child process: the variables of this process, without those named OVAL4D_… except OVAL4D_FONT,
-/// followed by the variables in `added` whose names are not yet present.
+/// The environment variables of a child process: those of this process, without the variables OVAL4D_… except
+/// OVAL4D_FONT, followed by those variables in `added` whose names are not present yet.
 class Environment {
   public:
     explicit Environment(const std::vector<std::string>& added) {
@@ -40,7 +40,7 @@ class Environment {
         for (const std::string& entry : added) {
             const std::string_view name = std::string_view(entry).substr(0, entry.find('=') + 1);
             const auto isSame = [&](const char* other) { return std::string_view(other).starts_with(name); };
-            // posix_spawn does not modify the strings.
+            // posix_spawn() takes pointers to non-const strings, but does not modify the strings.
             if (std::ranges::none_of(entries_, isSame)) entries_.push_back(const_cast<char*>(entry.c_str()));
         }
         entries_.push_back(nullptr);
@@ -55,13 +55,12 @@ class Environment {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
-// How long a process may take to exit after its channel was closed; after this time, it is killed. This is also how
-// long the server then waits for the end of the killed process, because something, such as a debugger, may delay the
-// end.
+// The time in which a process must exit after its channel was closed; after this time, the process is killed. The
+// server then waits at most the same time for its end, because a debugger, for example, may delay it.
 constexpr auto kExitTimeout = 1s;
 
-/// Waits until a process has exited, and sets `status` as waitpid(2) does. Returns false if the process has not exited
-/// after kExitTimeout.
+/// Waits until a process has exited, and sets `status` as waitpid(2) does. Returns false if the process is still
+/// running after kExitTimeout.
 bool waitForExit(pid_t process, int& status) {
     const auto limit = Clock::now() + kExitTimeout;
     for (auto pause = 100us;; pause *= 2) {
@@ -87,8 +86,8 @@ void ChildProcess::start() {
     channel_ = std::make_unique<Channel>(sockets[0]);
     const Channel theirs(sockets[1]);
 
-    // The child gets no file descriptors of the server above kChildSocket; otherwise the server's connections would
-    // stay open as long as the child runs.
+    // Close all file descriptors above kChildSocket in the child. Otherwise, the server's connections would stay open
+    // while the child runs.
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, sockets[1], kChildSocket);
@@ -101,8 +100,8 @@ void ChildProcess::start() {
     const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
     posix_spawn_file_actions_destroy(&files);
     if (error == 0) {
-        // The parent sets the child's priority, so that the priority applies already while the child starts. For many
-        // child processes, starting is most of the work.
+        // The parent sets the child's priority, so that the priority already applies while the child starts. Starting
+        // is most of the work of many child processes.
         if (options_.niceness > 0) setpriority(PRIO_PROCESS, static_cast<id_t>(process_), options_.niceness);
         return;
     }
@@ -114,8 +113,8 @@ void ChildProcess::kill() {
     if (channel_) endProcess(true);
 }
 
-/// Closes the channel and ends the process. Kills the process immediately if `atOnce` is true; otherwise, kills it only
-/// if it has not exited after kExitTimeout. Returns the signal or exit status of the process as text.
+/// Closes the channel and ends the process. If `atOnce` is true, kills the process immediately; otherwise, only if it
+/// has not exited after kExitTimeout. Returns a text with the signal or exit status of the process.
 std::string ChildProcess::endProcess(bool atOnce) {
     channel_.reset();
     ready_ = false;
@@ -148,13 +147,14 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
         auto transfer = TransferResult::complete;
         bool talked = false;
         try {
-            // If the process hangs while it starts, the conversation is not the cause. Therefore `talked` stays false
-            // in this case.
+            // `talked` stays false if the process hangs while it starts, because the conversation is then not the
+            // cause.
             if (!ready_) awaitReadyMessage(transfer, waitLimit(stop));
             talked = ready_;
             if (talked) transfer = conversation(*channel_, waitLimit(stop));
         } catch (...) {
-            endProcess(true);  // kills the process, whose late reply could disturb the next conversation
+            // Kill the process, because its late reply could disturb the next conversation.
+            endProcess(true);
             throw;
         }
         if (transfer == TransferResult::complete) return;
@@ -171,11 +171,12 @@ void ChildProcess::converseWithRetry(const ConversationFunction& conversation, c
 }
 
 void initializeChild() {
-    // A terminal or a container sends SIGINT and SIGTERM to all processes, but the server decides when its children
-    // end.
+    // Ignore these signals, because a terminal or a container sends them to all processes, but the server decides when
+    // its children end.
     std::signal(SIGINT, SIG_IGN);
     std::signal(SIGTERM, SIG_IGN);
-    prctl(PR_SET_PDEATHSIG, SIGKILL);  // otherwise, a child that hangs or is stopped would outlive the server
+    // Without this call, a child that hangs or is stopped would outlive the server.
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
 }
 
 }  // namespace oval4d::process

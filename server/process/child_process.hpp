@@ -1,5 +1,5 @@
 #pragma once
-// Child processes that do risky work for the server. The server survives if they crash or hang.
+// Child processes that do risky work for the server, which survives if they crash or hang.
 
 #include <sys/types.h>
 
@@ -16,12 +16,12 @@
 
 namespace oval4d::process {
 
-/// The file descriptor by which a child process uses its channel to the server.
+/// The file descriptor of a child process for its channel to the server.
 inline constexpr int kChildSocket = 3;
 
 using parallel::Canceled;
 
-/// Describes the loss of a process that died, or that hung and was killed.
+/// The loss of a child process: it died, or it hung and was killed.
 struct ProcessLoss {
     bool hung;                ///< whether the process hung; false if it died
     std::string description;  ///< text for the log, such as "died: signal 11"
@@ -29,36 +29,38 @@ struct ProcessLoss {
 
 /// The options of a child process.
 struct ChildOptions {
-    std::string command;                    ///< the subcommand of this program that the child runs
-    std::vector<std::string> environment;   ///< "NAME=value"; a variable that the child inherits takes precedence
-    std::chrono::duration<double> timeout;  ///< a child that takes longer to start or for a conversation counts as hung
-    bool repeatAfterHang = true;  ///< whether a conversation in which the child hung is repeated with a new child
+    std::string command;                   ///< the subcommand of this program that the child runs
+    std::vector<std::string> environment;  ///< "NAME=value"; if the child inherits a variable of this name, that value
+                                           ///< is used
+    /// The maximum time for the start of a child, and for each conversation. A child that takes longer counts as hung.
+    std::chrono::duration<double> timeout;
+    /// Whether a conversation during which the child hung is repeated with a new child.
+    bool repeatAfterHang = true;
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
     int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
 };
 
-/// Thrown when a conversation fails: the process was lost, and either the new process that replaced it was lost, too,
-/// or the conversation was not repeated (see hung()).
+/// An error: a conversation failed because the child process was lost, and either the process that replaced it was
+/// lost, too, or the conversation was not repeated (see hung()).
 class ProcessLostError : public std::runtime_error {
   public:
     ProcessLostError(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
-    /// Returns true if the conversation was not repeated because the process hung (see ChildOptions::repeatAfterHang).
-    /// Returns false if both the process and the new process that replaced it were lost.
+    /// Returns true if the process hung, so that the conversation was not repeated (see ChildOptions::repeatAfterHang).
+    /// Returns false if both the process and the process that replaced it were lost.
     bool hung() const { return hung_; }
 
   private:
     bool hung_;
 };
 
-/// A child process that runs this program. The process is started on demand, and a new process replaces it if it is
-/// lost. The process ends when this object is destroyed or the server ends. It inherits only one file descriptor of the
-/// server, standard error (the log). It inherits the environment variables of the server, except those named OVAL4D_…,
-/// which may hold secrets; of these, it inherits only OVAL4D_FONT. Not thread-safe: one thread at a time may use an
-/// object.
+/// A child process that runs this program. The process is started on demand, and replaced by a new one if it is lost.
+/// It ends when this object is destroyed or the server ends. It inherits only one file descriptor of the server,
+/// standard error (the log). It inherits the environment variables of the server except those named OVAL4D_…, which may
+/// hold secrets; OVAL4D_FONT is inherited. Not thread-safe: only one thread at a time may use an object.
 class ChildProcess {
   public:
-    /// A function that sends messages to the process and receives the replies, within the WaitLimit that it gets.
-    /// Returns the result of its last call of Channel::send() or Channel::receive().
+    /// A function that sends messages to the process and receives the replies, within the given WaitLimit. Returns the
+    /// result of its last call of Channel::send() or Channel::receive().
     using ConversationFunction = std::function<TransferResult(const Channel&, const WaitLimit&)>;
 
     explicit ChildProcess(ChildOptions options);
@@ -66,17 +68,17 @@ class ChildProcess {
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
-    /// Starts the process unless it is running. Does not wait until the process is ready. Throws std::runtime_error if
-    /// the process cannot be started.
+    /// Starts the process unless it is running, and does not wait until it is ready. Throws std::runtime_error if the
+    /// process cannot be started.
     void start();
 
-    /// Starts the process if necessary, and calls `conversation` when the process is ready. If the process is lost,
-    /// starts a new process and repeats the conversation once. However, if the process hung during `conversation` and
+    /// Calls `conversation` when the process is ready; starts the process if necessary. If the process is lost, starts
+    /// a new process and repeats the conversation once. However, if the process hung during `conversation` and
     /// ChildOptions::repeatAfterHang is false, does not repeat it. Throws:
-    /// - Canceled if a stop is requested,
-    /// - ProcessLostError if the new process is lost, too, or if the conversation is not repeated,
-    /// - std::runtime_error if the process cannot be started, or reports that it failed to start,
-    /// - what `conversation` throws, after killing the process.
+    /// - Canceled if a stop is requested;
+    /// - ProcessLostError if the new process is lost, too, or if the conversation is not repeated;
+    /// - std::runtime_error if the process cannot be started, or reports that its start has failed;
+    /// - exceptions of `conversation`, after killing the process.
     void converseWithRetry(const ConversationFunction& conversation, const std::stop_token& stop);
 
     /// Kills the process if it is running.
@@ -91,10 +93,11 @@ class ChildProcess {
     std::unique_ptr<Channel> channel_;  // null while no process is running
     bool ready_ = false;
     pid_t process_ = 0;
-    std::vector<pid_t> unreaped_;  // killed processes that did not end within kExitTimeout
+    std::vector<pid_t> unreaped_;  // killed processes that did not exit within kExitTimeout
 };
 
-/// Makes this process end when the server ends, and ignore SIGINT and SIGTERM. A child process must call this first.
+/// Makes this process, a child process, end when the server ends, and ignore SIGINT and SIGTERM. A child process must
+/// call this function first.
 void initializeChild();
 
 }  // namespace oval4d::process

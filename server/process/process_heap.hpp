@@ -2,15 +2,15 @@
 
 namespace oval4d::process {
 
-/// The heap of this process, which glibc's allocator manages. The constructor configures the allocator, so main() must
-/// construct the only object before the program allocates much memory.
+/// The heap of this process, which the allocator of glibc manages. The constructor configures the allocator. So main()
+/// must construct the only object before the program allocates much memory.
 class ProcessHeap {
   public:
     ProcessHeap();
     ProcessHeap(const ProcessHeap&) = delete;
     ProcessHeap& operator=(const ProcessHeap&) = delete;
 
-    /// Returns free memory to the operating system, which takes milliseconds. Thread-safe.
+    /// Returns free memory to the operating system. Takes some milliseconds. Thread-safe.
     void returnFreeMemory();
 };
 

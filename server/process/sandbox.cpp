@@ -28,8 +28,8 @@ void check(int error) {
     if (error < 0) throw std::runtime_error(std::string("cannot filter system calls: ") + std::strerror(-error));
 }
 
-// System calls that the filter allows in all roles, with any arguments. They affect nothing but the process and its
-// open files.
+// The system calls that the filter allows for all tasks, with any arguments. They affect only the process and its open
+// files.
 constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "clock_getres",
                                                           "clock_gettime",
@@ -78,15 +78,15 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// System calls that Mesa, the graphics library, makes in its threads, mainly to set their processor affinity and
+// The system calls that Mesa (the graphics library) makes in its threads, mainly to set their processor affinity and
 // priority.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
      "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});
 
-// System calls for which the kernel kills the process: no library makes them, so they show that an attacker controls
-// the process. Every other call that is not allowed fails with an error, because newer versions of libraries may try
-// new calls and can handle the error.
+// The system calls for which the kernel kills the process. No library makes these calls, so they show that an attacker
+// controls the process. All other forbidden calls fail with an error, because new versions of libraries may try new
+// calls, and can handle errors.
 constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "accept4",
                                                             "bind",
@@ -118,18 +118,18 @@ constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
                                                             "userfaultfd",
                                                             "vfork"});
 
-/// Builds and loads a seccomp filter. `otherwise` is the action for calls without a rule. If `allThreads` is true, the
-/// filter applies to all threads of the process, else only to the calling thread. Rules for calls that do not exist on
-/// this architecture are skipped.
+/// A seccomp filter. `otherwise` is the action for system calls without a rule. If `allThreads` is true, the filter
+/// applies to all threads of the process, else only to the calling thread. Rules for calls that this architecture lacks
+/// are skipped.
 class SeccompFilter {
   public:
     SeccompFilter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
         if (!context_) check(-ENOMEM);
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
-        // System calls of another architecture, such as 32-bit calls on x86-64, kill the process: no part of this
-        // program makes them.
+        // Kill the process for system calls of another architecture, such as 32-bit calls on x86-64, because this
+        // program never makes such calls.
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
-        // The value 2 arranges the rules in a binary search tree, which is faster to search at every call.
+        // The value 2 stores the rules as a binary tree, which makes each system call faster.
         check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
     }
 
@@ -141,7 +141,7 @@ class SeccompFilter {
         if (call == __NR_SCMP_ERROR) return;
         const int error = seccomp_rule_add_array(context_.get(), action, call, static_cast<unsigned>(arguments.size()),
                                                  arguments.begin());
-        if (error != -EDOM) check(error);  // EDOM: this architecture has no such call
+        if (error != -EDOM) check(error);  // EDOM means that this architecture lacks the call
     }
     void load() { check(seccomp_load(context_.get())); }
 
@@ -169,7 +169,8 @@ void limitResource(decltype(RLIMIT_AS) resource, rlim_t most) {
     setrlimit(resource, &now);
 }
 
-/// Returns the private writable memory in use, in bytes: the memory that RLIMIT_DATA limits, and the stack.
+/// Returns the size, in bytes, of the private writable memory in use: the memory that RLIMIT_DATA limits, and the
+/// stack.
 std::size_t dataInUse() {
     std::array<std::size_t, 6> pages{};  // the columns of statm: size, resident, shared, text, lib, data
     std::ifstream statm("/proc/self/statm");
@@ -177,14 +178,14 @@ std::size_t dataInUse() {
     return pages.back() * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-/// Returns whether a filter of system calls can be set on this system. If it cannot be set, sets `why` to the reason.
+/// Returns whether a filter of system calls can be set on this system. If not, sets `why` to the reason.
 bool canFilter(std::string& why) {
     if (kSanitized) {
         why = "this is a build with a sanitizer";
         return false;
     }
-    // Only a trial shows whether a filter can be set, because the filter of a container may forbid setting another one.
-    // The trial filter applies only to a temporary thread, and ends with that thread.
+    // Only a trial shows whether a filter can be set: the filter of a container may forbid it. The trial filter applies
+    // to a temporary thread and ends with it.
     std::thread([&why] {
         try {
             SeccompFilter filter(SCMP_ACT_ALLOW, false);
@@ -196,23 +197,23 @@ bool canFilter(std::string& why) {
     return why.empty();
 }
 
-/// Restricts all threads of this process, from now on, to the system calls that `role` needs.
+/// Restricts all threads of this process to the system calls that `role` needs.
 void filterSystemCalls(SandboxRole role) {
     SeccompFilter filter(SCMP_ACT_ERRNO(EPERM), true);
     filter.add(SCMP_ACT_ALLOW, kCommonCalls);
     for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, kChildSocket)});
     for (const char* name : {"write", "writev"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, STDERR_FILENO)});
-    // abort() sends a signal to its own process.
+    // abort() needs to send a signal to its own process.
     const auto own = static_cast<std::uint64_t>(getpid());
     for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, own)});
     filter.add(SCMP_ACT_ALLOW, "fcntl", {argumentIs(1, F_GETFL)});
-    // Lets the process read its own resource limits, but not change them: the new limit must be a null pointer.
+    // Allow reading the limits of the process, but not changing them: the argument for new limits must be null.
     filter.add(SCMP_ACT_ALLOW, "prlimit64", {argumentIs(0, 0), argumentIs(2, 0)});
-    // A filter cannot inspect the arguments of clone3, because they are in memory. After ENOSYS, the C library uses
-    // clone instead.
+    // A filter cannot inspect the arguments of clone3, because they are in memory. Fail with ENOSYS, so that the C
+    // library uses clone.
     filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
-    // mmap must not get these two flags together: they request shared memory without a file, which would not count
-    // toward the memory limit of the process.
+    // Forbid mmap with both of these flags. Together, they request shared memory without a file, which would not count
+    // toward the memory limit.
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == SandboxRole::draw) {
         for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
@@ -231,11 +232,11 @@ void filterSystemCalls(SandboxRole role) {
     filter.load();
 }
 
-/// Sets the resource limits, and disables core dumps, which would contain clients' data.
+/// Sets the resource limits, and disables core dumps, which would contain data of clients.
 void limitResources(const Confinement& limits) {
     limitResource(RLIMIT_CORE, 0);
     if (kSanitized) return;
-    // Limits RLIMIT_DATA and not RLIMIT_AS, because RLIMIT_AS also counts mapped files, which may be larger than the
+    // Limit RLIMIT_DATA and not RLIMIT_AS: the latter also counts mapped files, which may be larger than the main
     // memory.
     if (limits.memory > 0) limitResource(RLIMIT_DATA, dataInUse() + limits.memory);
     if (limits.files > 0) limitResource(RLIMIT_NOFILE, limits.files);

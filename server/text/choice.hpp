@@ -1,5 +1,5 @@
 #pragma once
-// Tables of values and their names.
+// Tables of values and their names, mostly for enumerations.
 
 #include <algorithm>
 #include <array>
@@ -13,32 +13,32 @@
 
 namespace oval4d::text {
 
-/// A row of a table of choices: a value and its name in messages, queries and on the command line. A value may have
-/// several rows: the first one contains its name, the others contain aliases.
+/// A row of a table of choices: a value, and its name in messages, queries and on the command line. A value may have
+/// several rows. The first row contains its name, and the others contain aliases.
 template <typename Value>
 struct NamedValue {
     std::string_view name;
     Value value;
 };
 
-/// Returns whether an enumerator has this value of its enumeration.
+/// Returns whether an enumerator of the enumeration has this value.
 template <auto value>
 consteval bool isEnumerator() {
-    // The compiler calls the template's argument Fruit::apple if an enumerator has the value, and (Fruit)7 if none has.
+    // The compiler writes `value` as Fruit::apple if an enumerator has the value, and as (Fruit)7 if none has.
     constexpr std::string_view function = __PRETTY_FUNCTION__, assignment = "value = ";
     return function.at(function.rfind(assignment) + assignment.size()) != '(';
 }
 
-/// The enumerations in tables have numbers less than this.
+/// An upper bound: enumerators in tables must have smaller numbers.
 inline constexpr std::size_t kMaxEnumerators = 32;
 
-/// Returns, for each number less than kMaxEnumerators, whether an enumerator of `Enum` has it.
+/// Returns, for each number less than kMaxEnumerators, whether an enumerator of `Enum` has this number.
 template <typename Enum, std::size_t... numbers>
 consteval std::array<bool, kMaxEnumerators> enumeratorsOf(std::index_sequence<numbers...> /*all*/) {
     return {isEnumerator<static_cast<Enum>(numbers)>()...};
 }
 
-/// Returns whether the table names every enumerator and no other value, and no name twice. A row has the members `name`
+/// Returns whether the table contains every enumerator, no other value, and no name twice. A row has the members `name`
 /// and `value`, as NamedValue has.
 template <typename Row, std::size_t size>
 consteval bool isComplete(const std::array<Row, size>& rows) {
@@ -56,7 +56,7 @@ consteval bool isComplete(const std::array<Row, size>& rows) {
     return true;
 }
 
-/// Returns the table with these rows, as std::to_array does. Does not compile unless the table isComplete().
+/// Returns a table with these rows, as std::to_array() does. Compiles only if isComplete() holds for the table.
 template <typename Row, std::size_t size>
 consteval std::array<Row, size> completeTable(const Row (&rows)[size]) {
     const std::array<Row, size> table = std::to_array(rows);
@@ -64,14 +64,14 @@ consteval std::array<Row, size> completeTable(const Row (&rows)[size]) {
     return table;
 }
 
-/// Returns whether each value has only one row. Then no two enumerators have the same number, either.
+/// Returns whether each value has only one row. If so, no two enumerators have the same number, either.
 template <typename Row, std::size_t size>
 consteval bool hasNoAliases(const std::array<Row, size>& rows) {
     return std::ranges::all_of(rows,
                                [&](const Row& row) { return std::ranges::count(rows, row.value, &Row::value) == 1; });
 }
 
-/// Returns the value with this name or alias; an empty optional if the table does not contain the name.
+/// Returns the value with this name or alias, or an empty optional if the table lacks the name.
 template <typename Choices>
 constexpr auto valueNamed(const Choices& choices, std::string_view name)
     -> std::optional<decltype(choices.begin()->value)> {
@@ -81,7 +81,7 @@ constexpr auto valueNamed(const Choices& choices, std::string_view name)
     return {};
 }
 
-/// Returns the name of this value, not an alias; an empty string if the table does not contain the value.
+/// Returns the name of a value (not an alias), or an empty string if the table lacks the value.
 template <typename Choices, typename Value>
 constexpr std::string_view nameOf(const Choices& choices, const Value& value) {
     for (const auto& choice : choices) {
@@ -98,7 +98,8 @@ std::vector<std::string_view> namesOf(const Choices& choices) {
     return names;
 }
 
-/// An enumeration with a table of choices, which a function choicesOf(value) returns for any of its values.
+/// Satisfied by enumerations with a table of choices. The function choicesOf(value) returns the table for any value of
+/// the enumeration.
 template <typename Enum>
 concept HasChoices = std::is_enum_v<Enum> && requires(Enum value) { choicesOf(value).begin()->name; };
 

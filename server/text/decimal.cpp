@@ -27,7 +27,7 @@ constexpr std::array<std::uint64_t, 10'000> smallIntegerTexts() {
     return all;
 }
 
-// The JSON text that follows a number: "," within a vector, and "],[" after the last number of a vector.
+// The JSON text after a number: "," within a vector, and "],[" after the last number of a vector.
 struct Separator {
     char text[4];
     std::size_t length;
@@ -45,10 +45,12 @@ char* putSeparator(char* at, const Separator& separator) {
     return at + separator.length;
 }
 
-constexpr float kExponentFrom = 1e5F;  // from this value on, std::to_chars may write integers with an exponent
+// From this number on, std::to_chars may write integers with an exponent.
+constexpr float kExponentFrom = 1e5F;
 
-// Writes numbers[begin] … numbers[end − 1] at `at`, each followed by its separator. `numbers` holds the coordinates of
-// vectors of `Size` numbers each; numbers[0] is the first coordinate of a vector. Returns the end of the text.
+// Writes numbers[begin] … numbers[end − 1] at `at`, each followed by its separator. `numbers` contains the coordinates
+// of vectors with `Size` coordinates each, from the first coordinate of the first vector on. Returns the end of the
+// text.
 template <std::size_t Size>
 char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t end) {
     static constexpr auto kSeparators = separators<Size>();
@@ -71,47 +73,49 @@ using SimdUint32x8 = std::uint32_t __attribute__((vector_size(32)));
 using SimdFloat4 = float __attribute__((vector_size(16)));
 using SimdInt32x4 = std::int32_t __attribute__((vector_size(16)));
 
-// A group is four numbers, one AVX2 register of doubles. A block is several groups. Each step of the computation
-// processes all groups of a block before the next step begins. This hides the latency of the instructions, because the
-// groups do not depend on each other.
-constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock: a multiple of 3 and 4, the sizes of vectors
+// A group is four numbers, which fill one AVX2 register of doubles. A block is several groups. Each step of the
+// computation processes all groups of a block before the next step begins. Groups do not depend on each other, so this
+// hides the latency of the instructions.
+constexpr std::size_t kGroups = 3, kBlock = 4 * kGroups;  // kBlock is a multiple of 3 and 4, the sizes of vectors
 
-// The texts of the numbers of a block, each in two integers: `head`, whose lowest byte is the first character, and
-// `digits`.
+// The texts of the numbers of a block. The text of a number is in two integers, `head` and `digits`. The first
+// character is in the lowest byte of `head`.
 struct FormattedNumbers {
-    alignas(32) std::uint64_t head[kBlock];        // per number: its text, up to and including the second decimal
-    alignas(32) std::uint64_t headLength[kBlock];  // per number: the number of bytes of that text
-    // Per number: the next eight decimals, including trailing zeros, as bytes from 0 to 9; the first one in the lowest
-    // byte.
+    alignas(32) std::uint64_t head[kBlock];  // for each number: its text up to and including the second decimal
+    // For each number: the number of bytes in `head`.
+    alignas(32) std::uint64_t headLength[kBlock];
+    // For each number: the next eight decimals, including trailing zeros, as bytes from 0 to 9. The lowest byte is the
+    // first of these decimals.
     alignas(32) std::uint64_t digits[kBlock];
-    // Per group: whether putPlain() must write all numbers of the group. This is so if one of the numbers is too small
-    // or too large for `head` and `digits`. It is also so if one of the numbers has no nonzero digit after the second
-    // decimal, because `head` could then end in superfluous zeros.
+    // For each group: whether putPlain() must write all numbers of the group instead. This is necessary in two cases: a
+    // number is too small or too large for `head` and `digits`, or a number has no nonzero digit after the second
+    // decimal. In the second case, `head` could end in superfluous zeros.
     bool needsFallback[kGroups];
 };
 
-// The method: a float from 2^e to 2^(e + 1) is rounded to the nearest integer multiple of 10^−p. Here, 10^−p is the
-// largest power of ten that is less than 2^(e − 23), the spacing of these floats. Therefore the multiple is read back
-// as the same float. At most one integer multiple of 10^(1 − p), which has one decimal less, is also read back as this
-// float. If there is such a multiple, it is used instead.
+// The method: round a float from 2^e to 2^(e + 1) to the nearest integer multiple of 10^−p. Here, 10^−p is the largest
+// power of ten below 2^(e − 23), the spacing of these floats. Therefore, the same float is read back from this
+// multiple. At most one integer multiple of 10^(1 − p), which has one decimal less, gives the same float, too. If there
+// is such a multiple, it is used instead.
 //
-// The method is valid for e from −10 to 5; p falls from 10 to 6 as e grows. There are two reasons for these bounds:
+// The method works for e from −10 to 5; p decreases from 10 to 6 as e increases. The bounds have two reasons:
 // - FormattedNumbers has room for only ten decimals, and for only two digits before the point.
-// - The spacing of the floats below a power of two is only half as large, so the multiple nearest to a power of two
-//   might be read back as another float. This does not happen if the power of two, 2^e, is itself a multiple of 10^−p:
-//   if it has at most p decimals. It has −e decimals if e is negative, so e must be at least −10.
+// - Below a power of two, the spacing of floats is half as large, so another float might be read back from the
+//   multiple nearest to the power of two. This cannot happen if the power 2^e is itself a multiple of 10^−p, that is,
+//   if it has at most p decimals. For negative e, it has −e decimals, so e must be at least −10.
 constexpr std::int32_t kMinExponent = -10, kExponents = 16;
-// kExponentMask selects the exponent bits of a float. If kHalfSpacing is subtracted from these bits, the result, as a
-// float, is 2^(e − 24), half the spacing of the floats from 2^e to 2^(e + 1).
+// kExponentMask selects the exponent bits of a float. Subtracting kHalfSpacing from these bits gives the bits of the
+// float 2^(e − 24), half the spacing of the floats from 2^e to 2^(e + 1).
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
-constexpr double kMargin = 0x1p-20;  // bounds the rounding errors of convert(), in units of 10^−p (for p, see above)
+// A bound for the rounding errors of convert(), in units of 10^−p.
+constexpr double kMargin = 0x1p-20;
 
-// Tables for the unit 10^−p, with the index 10 − p: kUnitsPerOne contains 10^p, and kUnitSize contains the unit itself
-// as a multiple of 10^−10. Floats represent all of these numbers exactly.
+// Tables for the unit 10^−p, with the index 10 − p. kUnitsPerOne contains 10^p. kUnitSize contains the unit as a
+// multiple of 10^−10. Floats represent all these numbers exactly.
 constexpr std::array<float, 8> kUnitsPerOne{1e10, 1e9, 1e8, 1e7, 1e6}, kUnitSize{1e0, 1e1, 1e2, 1e3, 1e4};
 
-// Adding kRounder to a number from −0.5 to 2^51 (exclusive) rounds the number to an integer. The low bits of the sum
-// then contain this integer; integerOf() extracts it.
+// A number that rounds: adding kRounder to a number from −0.5 to 2^51 (exclusive) rounds it to an integer. This integer
+// is in the low bits of the sum, from which integerOf() extracts it.
 constexpr double kRounder = 0x1.8p52;
 [[gnu::target("avx2")]] inline SimdUint64x4 integerOf(SimdDouble4 sum) {
     return SimdUint64x4(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
@@ -128,20 +132,20 @@ constexpr double kRounder = 0x1.8p52;
     return widened(SimdFloat4(_mm256_castps256_ps128(picked)));
 }
 
-// Operations on 16-bit elements: plus() adds; highTimes() returns the upper 16 bits of the products.
+// Operations on 16-bit elements: plus() adds them, and highTimes() returns the upper 16 bits of the products.
 [[gnu::target("avx2")]] inline SimdUint64x4 plus(SimdUint64x4 a, SimdUint64x4 b) {
     return SimdUint64x4(_mm256_add_epi16(__m256i(a), __m256i(b)));
 }
 [[gnu::target("avx2")]] inline SimdUint64x4 highTimes(SimdUint64x4 a, short b) {
     return SimdUint64x4(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
 }
-// Returns the product of the lower byte of each 16-bit number and `b`, which must be from −128 to 127.
+// Returns the products of the lower byte of each 16-bit number and `b`, which must be from −128 to 127.
 [[gnu::target("avx2")]] inline SimdUint64x4 lowTimes(SimdUint64x4 a, int b) {
     return SimdUint64x4(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
 }
 
-// Converts the two 32-bit halves of each element to their four decimal digits: one digit per byte, the most significant
-// one in the lowest byte. Each half must be a number below 10,000.
+// Converts each 32-bit half of each element to its four decimal digits, with one digit per byte. The lowest byte is the
+// most significant digit. Each half must be below 10,000.
 [[gnu::target("avx2")]] inline SimdUint64x4 fourDigits(SimdUint64x4 numbers) {
     const auto hundreds = SimdUint64x4(SimdUint32x8(highTimes(numbers, 5243)) >> 3);
     const SimdUint64x4 pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
@@ -159,7 +163,8 @@ constexpr double kRounder = 0x1.8p52;
         bits[g] = SimdInt32x4(__builtin_convertvector(four, SimdFloat4));
         const SimdInt32x4 place = ((bits[g] & kExponentMask) >> 23) - (127 + kMinExponent);
         outOfRange[g] = place & ~(kExponents - 1);
-        drop[g] = (place * 1233 + 270) >> 12;  // the index 10 − p: 10 + log10(2^(e − 23)), rounded down
+        // The index 10 − p, which is 10 + log10(2^(e − 23)), rounded down.
+        drop[g] = (place * 1233 + 270) >> 12;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         unitsPerOne[g] = pick(kUnitsPerOne, drop[g]);
@@ -181,7 +186,8 @@ constexpr double kRounder = 0x1.8p52;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         digits[g] = fourDigits(digits[g]);
-        first[g] = fourDigits(integerOf(upper[g]));  // the digits of the tens, ones, tenths and hundredths
+        // The digits of the tens, ones, tenths and hundredths.
+        first[g] = fourDigits(integerOf(upper[g]));
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         const SimdUint64x4 tens = first[g] & 0xFF;
@@ -253,7 +259,7 @@ char* putAll(char* at, std::span<const V> list) {
     if (list.empty()) return at;
     *at++ = '[';
     at = put<sizeof(V) / sizeof(double)>(at, &list[0].x, list.size() * (sizeof(V) / sizeof(double)));
-    return at - 2;  // without the ",[" after the last vector
+    return at - 2;  // omits the ",[" after the last vector
 }
 
 }  // namespace

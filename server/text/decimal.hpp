@@ -1,5 +1,6 @@
 #pragma once
-// Converts coordinates and indices, which make up most of the messages, to decimal text faster than std::to_chars.
+// Converts coordinates and indices to decimal text, faster than std::to_chars. Most of the text of messages consists of
+// such numbers.
 
 #include <array>
 #include <bit>
@@ -14,32 +15,32 @@
 
 namespace oval4d::text {
 
-/// Returns whether the number is an integer within ±2^53, the range in which doubles represent every integer. Returns
-/// false for −0, because an integer type cannot represent its sign.
+/// Returns whether a number is an integer within ±2^53, where doubles represent every integer exactly. Returns false
+/// for −0, because integer types cannot represent its sign.
 inline bool isExactInteger(double number) {
     return std::abs(number) <= 0x1p53 && std::trunc(number) == number && !(number == 0 && std::signbit(number));
 }
 
-/// The number of bytes to reserve in the buffer for each number, including the brackets and commas after it. The buffer
-/// must have room for one number more than will be written, because putVectorsAsJson() and putInteger() may write
-/// beyond the end of the text.
+/// The number of bytes to reserve in the buffer for each number, including brackets and commas. The caller must reserve
+/// room for one number more than it writes, because putVectorsAsJson() and putInteger() may write beyond the end of the
+/// text.
 inline constexpr std::size_t kBytesPerNumber = 20;
 
-/// Writes vectors as JSON at `at`, such as "[1,0.5,0.25],[1,1,0]"; writes nothing for an empty list. Returns the end of
-/// the text. Rounds each number to a float and writes the fewest digits from which the same float can be read back; in
-/// rare cases, writes one digit more. Writes integers within ±2^53 with all their digits and without an exponent. All
-/// numbers must be finite.
+/// Writes vectors as JSON at `at`, such as "[1,0.5,0.25],[1,1,0]". Writes nothing for an empty list. Returns the end of
+/// the text. Each number is rounded to a float. Its text has the fewest digits from which the same float can be read
+/// back; rarely, one digit more. Integers within ±2^53 have all their digits and no exponent. All numbers must be
+/// finite.
 char* putVectorsAsJson(char* at, std::span<const glm::dvec3> list);
 char* putVectorsAsJson(char* at, std::span<const glm::dvec4> list);
 
-/// The decimal text of each number below 10,000, as an integer: the first character is in the lowest byte, the next
-/// ones in the bytes above it, and the number of characters is in the highest byte.
+/// The decimal text of each number below 10,000, packed into an integer. The lowest byte is the first character, and
+/// the higher bytes are the next characters. The highest byte is the number of characters.
 extern const std::array<std::uint64_t, 10'000> kSmallIntegerTexts;
 
-/// Writes an integer of at least 10,000, and returns the end of the text. Called by putInteger().
+/// Writes an integer of at least 10,000 for putInteger(), and returns the end of the text.
 char* putLargeInteger(char* at, std::uint32_t number);
 
-/// Writes an integer at `at`, and returns the end of the text. May overwrite up to 7 bytes after the end.
+/// Writes an integer at `at`, and returns the end of the text. May overwrite up to 7 bytes after this end.
 inline char* putInteger(char* at, std::uint32_t number) {
     static_assert(std::endian::native == std::endian::little, "the low byte comes first");
     if (number >= kSmallIntegerTexts.size()) return putLargeInteger(at, number);

@@ -15,8 +15,8 @@ namespace oval4d::text {
 
 namespace {
 
-// Returns the Levenshtein distance of two texts. The number of steps is the product of their lengths, so both must be
-// short.
+// Returns the Levenshtein distance of two texts. The running time is proportional to the product of their lengths, so
+// both must be short.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -34,8 +34,9 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 constexpr std::size_t kMaxQuotedBytes = 60;
 
-// Returns the length in bytes of the UTF-8 character that begins at byte `at` of `text`, or 0 if none begins there. The
-// limits on the second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629, section 4).
+// Returns the length, in bytes, of the UTF-8 character that begins at byte `at` of `text`; 0 if no character begins
+// there. The limits on the second byte exclude overlong forms, surrogates, and code points above U+10FFFF (RFC 3629,
+// section 4).
 std::size_t characterAt(std::string_view text, std::size_t at) {
     const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[at + i]); };
     const unsigned char lead = byte(0);
@@ -62,11 +63,11 @@ std::string_view closestMatch(std::string_view text, std::span<const std::string
     std::string_view best;
     std::size_t least = 2 * kMaxQuotedBytes;
     for (const std::string_view candidate : candidates) {
-        // Skip a candidate that is too long to be closer than `best`: the distance is at least the difference of the
-        // lengths. This saves time, because a file may have thousands of long names.
+        // Skip a candidate that is too long to be closer than `best`, because the distance is at least the difference
+        // of the lengths. This saves time if a file has thousands of long names.
         if (candidate.size() > text.size() + least / 2) continue;
-        // Among candidates at the same distance, prefer one of the same length: "25-cell" more likely means 24-cell
-        // than 5-cell.
+        // Among candidates at the same distance, prefer candidates of the same length: "25-cell" more likely means
+        // 24-cell than 5-cell.
         const std::size_t d = 2 * distance(text, candidate) + (candidate.size() == text.size() ? 0 : 1);
         if (d < least && d <= candidate.size() + 1) {
             least = d;

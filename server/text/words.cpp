@@ -57,7 +57,7 @@ std::size_t leadingUnicodeSpace(std::string_view text) {
     for (const std::string_view space : kSpaces) {
         if (text.starts_with(space)) return space.size();
     }
-    // The UTF-8 forms of the spaces from U+2000 (en quad) to U+200A (hair space) begin with these two bytes.
+    // The UTF-8 encodings of U+2000 (en quad) to U+200A (hair space) begin with these two bytes.
     constexpr std::string_view kQuads = "\xE2\x80";
     if (!text.starts_with(kQuads) || text.size() == kQuads.size()) return 0;
     const auto last = static_cast<unsigned char>(text[kQuads.size()]);

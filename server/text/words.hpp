@@ -1,5 +1,5 @@
 #pragma once
-// Functions that split text into words, join words, and normalize names for comparison.
+// Functions that split text into words, join words, and normalize names, so that different spellings compare equal.
 
 #include <cstddef>
 #include <string>
@@ -9,25 +9,25 @@
 namespace oval4d::text {
 
 /// Returns the parts of a comma-separated list: "a", "b" and "c" for "a,b,c". A comma at the end of the text does not
-/// begin a further, empty part. The parts refer to the memory of `text`.
+/// add an empty part. The parts are views into `text`.
 std::vector<std::string_view> splitAtCommas(std::string_view text);
 
-/// Returns the words of a text in lower case. White space, hyphens and underscores separate words.
+/// Returns the words of a text in lowercase. White space, hyphens and underscores separate words.
 std::vector<std::string> lowerCaseWords(std::string_view text);
 
 /// Returns words[first] … words[end − 1], separated by spaces.
 std::string joined(const std::vector<std::string>& words, std::size_t first, std::size_t end);
 
-/// Returns the text in lower case, without white space, hyphens and underscores. Two names denote the same thing if
-/// their normalized names are equal.
+/// Returns the text in lowercase, without white space, hyphens and underscores. Names with equal results denote the
+/// same thing.
 std::string normalizedName(std::string_view text);
 
-/// If a UTF-8 text begins with a space character that is not ASCII (U+00A0, U+2000 to U+200A, U+202F, U+205F or
-/// U+3000), returns the number of bytes of this character; otherwise 0.
+/// Returns the number of bytes of the space character at the beginning of a UTF-8 text, if this is U+00A0, U+2000 to
+/// U+200A, U+202F, U+205F or U+3000. Returns 0 otherwise, also for the ASCII space.
 std::size_t leadingUnicodeSpace(std::string_view text);
 
-/// Returns the text with U+0020 in place of each space that leadingUnicodeSpace() recognizes, such as the no-break
-/// space between a number and its unit.
+/// Returns the text with U+0020 in place of each space that leadingUnicodeSpace() recognizes. An example is the
+/// no-break space between a number and its unit.
 std::string withPlainBlanks(std::string_view text);
 
 /// Returns the text without spaces and tabs at its ends.

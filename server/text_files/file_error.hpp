@@ -6,12 +6,13 @@
 
 namespace oval4d::text_files {
 
-/// The reason why a file was refused. Functions that read files throw it.
+/// The reason why a file was refused. Functions that read files throw a FileError.
 struct FileError {
-    std::size_t line = 0;  ///< counted from 1; 0 if no single line is the cause
+    std::size_t line = 0;  ///< counted from 1; 0 if the fault is not in one line
     std::string reason;
-    bool tooLarge = false;   ///< whether the file exceeds a limit
-    std::size_t column = 0;  ///< the column of a table, counted from 1; 0 if no single column is the cause
+    bool tooLarge = false;  ///< whether the file exceeds a limit
+    /// The column of a table, counted from 1; 0 if the fault is not in one column.
+    std::size_t column = 0;
 };
 
 /// Throws a FileError with this line, reason and column.
@@ -19,7 +20,8 @@ struct FileError {
     throw FileError{line, std::move(reason), false, column};
 }
 
-/// Returns the error as a text for the user, such as "line 2, column 3: …"; only the reason if the line is not known.
+/// Returns the error as a text for the user, such as "line 2, column 3: …". Returns only the reason if the line is
+/// unknown.
 inline std::string message(const FileError& error) {
     if (error.line == 0) return error.reason;
     std::string text = "line " + std::to_string(error.line);

@@ -17,7 +17,7 @@ constexpr const char* kNotANumber = "is not a number";
 constexpr const char* kNotFinite = "is not a finite number";
 constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
 
-// Returns the word without its sign, if it has one. Sets `negative` to whether the sign is a minus.
+// Returns a word without its sign, if it has a sign. Sets `negative` to whether this is a minus sign.
 std::string_view withoutSign(std::string_view word, bool& negative) {
     negative = word.starts_with('-') || word.starts_with(kMinusSign);
     if (word.starts_with(kMinusSign)) return word.substr(kMinusSign.size());
@@ -33,8 +33,8 @@ bool isNotFinite(std::string_view unsignedWord) {
 
 bool isExponentLetter(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
 
-// Returns whether the absolute value of a number is less than 1. The number is in the form of ParsedCoordinate::text,
-// and may be out of the range of a double.
+// Returns whether the absolute value of a number is less than 1. The number has the form of ParsedCoordinate::text. It
+// may be outside the range of doubles.
 bool isBelowOne(std::string_view number) {
     const std::size_t end = std::min(number.find('e'), number.size());
     const std::size_t point = std::min(number.find('.'), end);
@@ -49,8 +49,7 @@ bool isBelowOne(std::string_view number) {
     return exponent <= -places;
 }
 
-// Returns ParsedCoordinate::fault for a word with a comma, such as "0,5" or "1,", in a text whose decimal mark is the
-// point.
+// Returns ParsedCoordinate::fault for a word with a comma, such as "0,5" or "1,", in a text with decimal points.
 std::string faultOf(std::string_view word) {
     CoordinateReader reader;
     if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())

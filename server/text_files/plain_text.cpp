@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// A kind of file that is refused, recognized by the bytes `signature` at its beginning. `description` completes the
+/// A kind of file that is refused. A file of this kind begins with the bytes `signature`. `description` completes the
 /// error message "the file …".
 struct RefusedFileKind {
     std::string_view signature, description;
@@ -44,9 +44,8 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
-/// Kinds of text files that are refused. plainText() converts the start of the text to lower case, and compares it with
-/// these signatures. The first signature must be the longest one, because its length determines how many characters
-/// plainText() converts.
+/// Kinds of text files that are refused. plainText() compares the start of a text, in lowercase, with these signatures.
+/// The first signature must be the longest one, because plainText() converts only as many characters to lowercase.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},
@@ -56,7 +55,7 @@ constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
 
 constexpr std::string_view kMarkUtf8 = "\xEF\xBB\xBF", kMarkLittle = "\xFF\xFE", kMarkBig = "\xFE\xFF";
 
-// Converts UTF-16 to UTF-8. `low`: the position of the low byte in each 16-bit unit, 0 or 1.
+// Converts UTF-16 to UTF-8. `low` is the position of the low byte in each 16-bit unit: 0 or 1.
 std::string fromUtf16(std::string_view bytes, std::size_t low) {
     std::u16string units(bytes.size() / 2, u'\0');
     for (std::size_t i = 0; i < units.size(); ++i) {
@@ -66,8 +65,8 @@ std::string fromUtf16(std::string_view bytes, std::size_t low) {
     return boost::locale::conv::utf_to_utf<char>(units);
 }
 
-// Returns the number of bytes of the space at the beginning of a text: a vertical tab, a form feed, a byte order mark,
-// a zero-width space, or a space that text::leadingUnicodeSpace() recognizes. Returns 0 if there is none.
+// Returns the number of bytes of the space at the beginning of a text; 0 if there is none. Spaces are a vertical tab, a
+// form feed, a byte order mark, a zero-width space, and the spaces that text::leadingUnicodeSpace() recognizes.
 std::size_t spaceAt(std::string_view text) {
     for (const std::string_view space : {"\v"sv, "\f"sv, "\xEF\xBB\xBF"sv, "\xE2\x80\x8B"sv}) {
         if (text.starts_with(space)) return space.size();
@@ -75,7 +74,7 @@ std::size_t spaceAt(std::string_view text) {
     return text::leadingUnicodeSpace(text);
 }
 
-// Replaces the line ends CR LF and CR by LF, and each space that spaceAt() recognizes by U+0020.
+// Replaces the line ends CR LF and CR by LF. Replaces each space that spaceAt() recognizes by U+0020.
 void normalizeSpace(std::string& text) {
     constexpr auto kStarts = "\r\v\f\xC2\xE2\xE3\xEF"sv;
     if (text.find_first_of(kStarts) == std::string::npos) return;

@@ -16,16 +16,17 @@ namespace oval4d::text_files {
 namespace {
 
 constexpr std::string_view kCoordinates = "xyzw";
-constexpr std::size_t kRadiusIndex = 4;  // the index of the radius; x, y, z and w have the indices 0 to 3
-constexpr std::size_t kMaxTitles = 10;   // the maximum number of lines of text above the header or the first row
+constexpr std::size_t kRadiusIndex = 4;  // index of the radius; x, y, z and w have the indices 0 to 3
+// The maximum number of lines of text above the header or the first row.
+constexpr std::size_t kMaxTitles = 10;
 
-// The position of each coordinate and of the radius among the columns of a row.
+// The positions of the coordinates and the radius among the columns of a row.
 struct ColumnLayout {
     std::array<std::optional<std::size_t>, kRadiusIndex + 1> columns;
-    std::size_t count = 0;        // the number of columns of each row; 0 if there is no header
+    std::size_t count = 0;        // number of columns of each row; 0 without a header
     bool radiusMayMiss = false;   // whether rows may lack the radius, because it is the last column
-    std::string otherColumns;     // names of the columns that are not read, in quotes
-    std::string_view radiusName;  // the name of the radius as the header writes it
+    std::string otherColumns;     // names of columns that are not read, in quotes
+    std::string_view radiusName;  // name of the radius in the header
 
     bool hasAllCoordinates() const {
         return std::all_of(columns.begin(), columns.begin() + kRadiusIndex,
@@ -35,13 +36,14 @@ struct ColumnLayout {
     bool isInOrder() const { return std::ranges::is_sorted(std::span(columns).first(kRadiusIndex)); }
 };
 
-// Returns the name of a column without its unit, which follows in brackets or after a slash, as in "t [s]" and "t/s".
+// Returns the name of a column without its unit, which may follow in brackets or after a slash, as in "t [s]" or "t/s".
 std::string_view withoutUnit(std::string_view name) {
     const std::string_view before = text::trimmed(name.substr(0, name.find_first_of("[({/")));
     return before.empty() ? name : before;
 }
 
-// Removes the words that are units from a header that was split at blanks: "[s]" from "x", "t", "[s]".
+// Removes the words that are units from the names of a header that was split at blanks, such as "[s]" from "x", "t",
+// "[s]".
 void removeUnits(std::vector<std::string_view>& names) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -56,8 +58,8 @@ void removeUnits(std::vector<std::string_view>& names) {
     names.resize(kept);
 }
 
-// Returns the layout of a table whose columns have these names; an empty optional if fewer than two of them are names
-// of coordinates. If no column is called w, a column called t or time is w.
+// Returns the layout of a table whose columns have these names. Returns an empty optional if fewer than two names are
+// names of coordinates. If no column is called w, a column called t or time is w.
 std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
     ColumnLayout layout;
     layout.count = names.size();
@@ -85,8 +87,8 @@ std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
     return coordinates >= 2 ? std::optional(std::move(layout)) : std::nullopt;
 }
 
-// Reads the names of columns in a line. Tries several separators, because the separator of the names may differ from
-// that of the rows. Returns the first layout for which `accepts` returns true; an empty optional if there is none.
+// Reads names of columns from a line. Tries several separators, because the names may be separated in another way than
+// the rows. Returns the first layout for which `accepts` returns true, or an empty optional if there is none.
 // Overwrites `row`.
 std::optional<ColumnLayout> findLayout(std::string_view line, const TableFormat& format, TableRow& row,
                                        const std::function<bool(const ColumnLayout&)>& accepts) {
@@ -98,7 +100,7 @@ std::optional<ColumnLayout> findLayout(std::string_view line, const TableFormat&
     return {};
 }
 
-// Returns the part of a comment that may list the names of the columns: "x, y, z, w" for "columns: (x, y, z, w)".
+// Returns the part of a comment that may name the columns: "x, y, z, w" for "columns: (x, y, z, w)".
 std::string_view namesOfComment(std::string_view comment) {
     if (const std::size_t colon = comment.find_last_of(":="); colon != std::string_view::npos)
         comment = text::trimmed(comment.substr(colon + 1));
@@ -111,8 +113,8 @@ std::string_view namesOfComment(std::string_view comment) {
     return inBrackets ? comment.substr(1, comment.size() - 2) : comment;
 }
 
-// Returns whether a line tells Excel the separator, as "sep=;" does, or "sep=" followed by a tab. Such a line can be
-// skipped, because formatOf() infers the separator from the rows.
+// Returns whether a line tells Excel the separator: "sep=;", for example, or "sep=" and a tab. The caller skips such a
+// line, because formatOf() finds the separator from the rows.
 bool isSeparatorStatement(std::string_view line) {
     line = text::trimmed(line);
     return line.size() <= 5 && text::normalizedName(line.substr(0, 4)) == "sep=";
@@ -125,7 +127,7 @@ class PointReader {
         : lines_(text), format_(formatOf(lines_)), options_(options), add_(add) {}
 
     std::vector<std::string> read() {
-        bool first = true;  // whether no header and no row has been read yet
+        bool first = true;  // true until a header or a row was read
         std::size_t titles = 0;
         std::vector<TableLine> comments;
         while (const auto line = lines_.next()) {
@@ -146,9 +148,10 @@ class PointReader {
     }
 
   private:
-    // Reads the header, if there is one. `line` must be the first line of the table, apart from titles and comments. If
-    // `line` is a row of numbers, looks for the header in `comments`, the comments above `line`, and returns false.
-    // Otherwise, reads `line` as the header or, if it names no columns, as a title, and returns true.
+    // Reads the header, if there is one. `line` must be the first line of the table that is neither a title nor a
+    // comment. `comments` are the comments above it. If `line` is a row of numbers, looks for the header in `comments`,
+    // and returns false. Otherwise, reads `line` as the header or, if it names no columns, as a title, and returns
+    // true.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
         split(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
@@ -160,7 +163,7 @@ class PointReader {
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
         auto layout = findLayout(line.content, format_, row_, &ColumnLayout::hasAllCoordinates);
         if (!layout) layout = findLayout(line.content, format_, row_, [](const ColumnLayout&) { return true; });
-        if (!layout && likeNumbers) return false;  // a faulty row: readRow() reports the word that is not a number
+        if (!layout && likeNumbers) return false;  // a faulty row; readRow() will report the word that is not a number
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
                                 text::inQuotes(text::trimmed(line.content)) + ", has no numbers and was left out");
@@ -177,9 +180,9 @@ class PointReader {
 
     // Looks for a header in the comments above the first row, which must be in `row_`. A comment is a header if it
     // names x, y, z and w and has as many names as the row has columns. A row that ends with a separator may have fewer
-    // columns than names; a row without the radius, one column fewer. Of several headers, uses the last one, which is
-    // the closest to the row. If there is none, the columns are read in the order x, y, z, w; then warns of the first
-    // comment that names them in another order, because it was not used.
+    // columns; a row without the radius, one column less. The last such comment is used. Without such a comment, the
+    // columns are x, y, z, w in this order; a warning then names the first comment with another order, because it was
+    // not used.
     void readComments(std::span<const TableLine> comments) {
         const TableRow first = row_;
         const auto fits = [&](const ColumnLayout& layout) {
@@ -202,7 +205,7 @@ class PointReader {
         }
     }
 
-    // Uses this layout for the rows, and warns of the columns that are not read.
+    // Uses `layout` for the rows, and warns about columns that are not read.
     void setLayout(ColumnLayout layout) {
         layout_ = std::move(layout);
         if (!options_.radii && std::exchange(layout_.columns[kRadiusIndex], std::nullopt)) {
@@ -212,8 +215,8 @@ class PointReader {
         if (!layout_.otherColumns.empty()) warnings_.push_back("these columns were left out: " + layout_.otherColumns);
     }
 
-    // Returns whether the content of a column, counted from 0, matters: whether it is a coordinate or the radius or, if
-    // there is no header, in any case.
+    // Returns whether the content of a column matters. The index `column` counts from 0. Without a header, every column
+    // matters; with a header, only the coordinates and the radius.
     bool isRead(std::size_t column) const {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }
@@ -244,11 +247,11 @@ class PointReader {
                                      std::to_string(firstSize_));
     }
 
-    // Sets `row_` to the columns of the row in `line`.
+    // Splits the row in `line` into columns, and stores them in `row_`.
     void splitRow(const TableLine& line) {
         std::string_view content = line.content;
         const std::size_t last = content.find_last_not_of(" \t");
-        // Drop a semicolon at the end of the row: in MATLAB, it ends each row of a matrix.
+        // Drop a semicolon at the end of the row. In MATLAB, a semicolon ends each row of a matrix.
         if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);
         split(content, format_.separator, row_);
     }
@@ -294,7 +297,7 @@ class PointReader {
     TableRow row_;
     std::array<CoordinateReader, kRadiusIndex + 1> readers_;
     std::size_t rows_ = 0;
-    std::size_t firstSize_ = 0;  // the number of columns of the first row; 0 before it is read
+    std::size_t firstSize_ = 0;  // number of columns of the first row; 0 before the first row
     bool warnedOfRadius_ = false;
     std::vector<std::string> warnings_;
 };

@@ -9,15 +9,15 @@ namespace oval4d::text_files {
 
 namespace {
 
-constexpr std::size_t kMinColumns = 4;  // one for each coordinate of a point
+constexpr std::size_t kMinColumns = 4;  // one column for each coordinate of a point
 
-// Returns the position of the first separator at or after `start`, or the end of the line.
+// Returns the position of the first separator at or after `start`, or the end of the line if there is none.
 std::size_t endOfColumn(std::string_view line, char separator, std::size_t start) {
     const std::size_t end = separator == ' ' ? line.find_first_of(" \t", start) : line.find(separator, start);
     return std::min(end, line.size());
 }
 
-// Returns the content of a word in quotes without the blanks at its ends, and other words as they are.
+// Returns the content of a word in quotes, without blanks at its ends. Returns other words unchanged.
 std::string_view withoutQuotes(std::string_view word) {
     const bool inQuotes = word.size() > 1 && word.starts_with('"') && word.ends_with('"');
     return inQuotes ? text::trimmed(word.substr(1, word.size() - 2)) : word;
@@ -28,11 +28,11 @@ bool hasSeparatorInside(std::string_view line, char separator) {
     return last != std::string_view::npos && line.find(separator) < last;
 }
 
-// Counts of the columns between the tabs of a line.
+// The counts of columns between the tabs of a line.
 struct TabColumnCounts {
-    std::size_t filled = 0;      // the number of columns that are not empty
-    std::size_t numbers = 0;     // the number of columns that are numbers
-    bool decimalCommas = false;  // whether one of the numbers has a comma
+    std::size_t filled = 0;      // number of columns that are not empty
+    std::size_t numbers = 0;     // number of columns that are numbers
+    bool decimalCommas = false;  // whether a number has a decimal comma
 };
 
 TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
@@ -47,9 +47,9 @@ TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
     return result;
 }
 
-// Splits a line into words at blanks and tabs. Returns whether a word has a decimal comma. Returns an empty optional if
-// commas may separate the columns: if there are fewer than four words, or if a word has two commas, or a comma at its
-// beginning or end. Overwrites `row`.
+// Splits a line into words at blanks and tabs, and returns whether a word has a decimal comma. Returns an empty
+// optional if commas may separate the columns: if there are fewer than four words, or a word has two commas, or a comma
+// at its beginning or end. Overwrites `row`.
 std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     split(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
@@ -63,8 +63,8 @@ std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
     return any;
 }
 
-// Returns whether a line is a row of a table, not a header or a title. A row begins with a number; or it has at least
-// `least` numbers, and at least as many numbers as other words.
+// Returns whether a line is a row of a table, and not a header or a title. A row begins with a number, or has at least
+// `least` numbers and at least as many numbers as other words.
 bool isRow(std::string_view line, std::size_t least) {
     constexpr std::string_view kBetween = ";,\t \"";
     std::size_t numbers = 0, others = 0;
@@ -81,8 +81,8 @@ bool isRow(std::string_view line, std::size_t least) {
     return numbers >= least && numbers >= others;
 }
 
-// Returns the line with a letter in place of each text in quotes that is not a number, because such a text may contain
-// separators. The result refers to `line` or `memory`.
+// Returns the line with a letter in place of each quoted text that is not a number, because such texts may contain
+// separators. The result is a view into `line` or `memory`.
 std::string_view withoutTexts(std::string_view line, std::string& memory) {
     std::size_t open = line.find('"');
     if (open == std::string_view::npos) return line;
@@ -104,8 +104,8 @@ std::string_view withoutTexts(std::string_view line, std::string& memory) {
     return memory;
 }
 
-// Returns the format that fits all lines for which isRow(line, least) is true; an empty optional if there are no such
-// lines.
+// Returns the format that fits all lines for which isRow(line, least) is true. Returns an empty optional if there are
+// no such lines.
 std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
     bool semicolons = false, tabs = false, commas = false, decimalCommas = false, any = false;
     TableRow row;
@@ -115,8 +115,9 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         if (!isRow(content, least)) continue;
         any = true;
         const TabColumnCounts between = countTabColumns(content, row);
-        tabs = tabs || between.filled >= kMinColumns;  // in rows of fewer columns, tabs may stand for blanks
-        if (between.numbers >= kMinColumns) {          // only the tabs separate; other marks are parts of texts
+        // In rows with fewer columns, tabs may be used like blanks.
+        tabs = tabs || between.filled >= kMinColumns;
+        if (between.numbers >= kMinColumns) {  // only the tabs separate; other marks are parts of texts
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }
@@ -144,9 +145,9 @@ std::optional<TableLine> TableLines::next() {
 }
 
 TableFormat formatOf(TableLines lines) {
-    // A line with fewer numbers than a point has coordinates may be a title. Therefore a line that begins with a text
-    // counts as a row only if it has at least that many numbers. Half as many numbers are enough only if no line is a
-    // row by this rule.
+    // A line with fewer numbers than a point has coordinates may be a title. So first, a line that begins with a text
+    // counts as a row only if it has at least kMinColumns numbers. If no line is a row by this rule, half as many
+    // numbers are enough.
     for (const std::size_t least : {kMinColumns, kMinColumns / 2}) {
         if (const auto format = formatOfRows(lines, least)) return *format;
     }
@@ -159,7 +160,7 @@ void split(std::string_view line, char separator, TableRow& row) {
     std::string_view rest = line.substr(0, line.find_last_not_of(separators) + 1);
     row.endsWithSeparator = separator != ' ' && line.find(separator, rest.size()) != std::string_view::npos;
     while (!rest.empty()) {
-        // The last character of `rest` is neither a blank nor a separator, so a further column follows each separator.
+        // `rest` ends with neither a blank nor a separator, so another column follows each separator.
         rest.remove_prefix(rest.find_first_not_of(separator == '\t' ? " " : " \t"));
         const std::size_t closingQuote = rest.starts_with('"') ? rest.find('"', 1) : std::string_view::npos;
         const bool inQuotes = closingQuote != std::string_view::npos;

@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a table in a text file, and their columns.
+// Splits the lines of a table in a text file into columns.
 
 #include <cstddef>
 #include <optional>
@@ -10,21 +10,21 @@
 
 namespace oval4d::text_files {
 
-/// A line of a text file, divided at the mark with which its comment begins: a % at the beginning of the line, or else
-/// the first #.
+/// A line of a text file, split into its content and its comment. The mark of the comment is a % at the beginning of
+/// the line; otherwise, the first #.
 struct TableLine {
     std::size_t number = 0;    ///< the number of the line in the file, counted from 1
-    std::string_view content;  ///< the text before the mark, including blanks at its ends
+    std::string_view content;  ///< the text before the mark of the comment, including blanks at its ends
     std::string_view comment;  ///< the text after the mark, without blanks at its ends
 };
 
-/// The lines of a text file, one after the other.
+/// The lines of a text file, which next() returns one after another.
 class TableLines {
   public:
     /// `text` must outlive this object and the lines that next() returns.
     explicit TableLines(std::string_view text) : rest_(text) {}
 
-    /// Returns the next line; an empty optional at the end of the text.
+    /// Returns the next line, or an empty optional at the end of the text.
     std::optional<TableLine> next();
 
   private:
@@ -32,23 +32,22 @@ class TableLines {
     std::size_t number_ = 1;
 };
 
-/// How the columns of a table are separated, and which decimal mark its numbers have.
+/// The format of a table: the separator of its columns, and the decimal mark of its numbers.
 struct TableFormat {
     char separator = ' ';  ///< ';', '\t', ',', or ' ' for any number of blanks
     DecimalMark mark = DecimalMark::point;
 };
 
-/// Returns the format of a table: the separator and the decimal mark that fit its rows; blanks and a point if there are
-/// no rows.
+/// Returns the format that fits the rows of a table. Returns blanks and a decimal point if there are no rows.
 TableFormat formatOf(TableLines lines);
 
-/// The columns of a line.
+/// The columns of a line of a table.
 struct TableRow {
     std::vector<std::string_view> columns;  ///< without the blanks and quotes around them; some may be empty
     bool endsWithSeparator = false;         ///< whether a separator other than a blank follows the last column
 };
 
-/// Sets `row` to the columns of a line. `separator` is as in TableFormat.
+/// Splits a line into columns, and stores them in `row`. `separator` is as in TableFormat.
 void split(std::string_view line, char separator, TableRow& row);
 
 }  // namespace oval4d::text_files
