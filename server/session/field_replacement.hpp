@@ -19,10 +19,10 @@ enum class FieldReplacement : std::uint8_t {
 /// Replaces the field `before` by `after` in the current state, in the states of the history and among the loaded
 /// objects. Adds no undo step. Increases the revision if the current state shows the field. Settings stay the same,
 /// with these exceptions:
-///  - For a longer field, spacing and offset keep their ratios to slicing::initialSliceExtent().
-///  - For a finer field, the spacing stays spanningSpacing() if it was that before.
-///  - Spacing, offset and focus point are clamped to their bounds.
-///  - If the cell types of the domain change, all its cells become visible.
+/// - For a longer field, spacing and offset keep their ratios to slicing::initialSliceExtent().
+/// - For a finer field, the spacing stays spanningSpacing() if it was that before.
+/// - Spacing, offset and focus point are clamped to their bounds.
+/// - If the cell types of the domain change, all its cells become visible.
 void replaceField(Session& session, const slicing::Object& before, const slicing::Object& after, FieldReplacement how);
 
 /// Returns the command that loads the next finer level of the multiscale image that the state shows. Returns an empty

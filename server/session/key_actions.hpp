@@ -31,14 +31,14 @@ struct Action {
 };
 
 /// Returns all actions that the server executes:
-///  - the actions that ownActions() in key_actions.cpp lists;
-///  - for each row of scene::kParts, an action that shows or hides this part of the picture;
-///  - for each row of slicing::kElementKinds, an action that turns an element of this kind toward +w, and two actions
-///    that highlight the next and the previous element of this kind;
-///  - for each view except the oval, an action that toggles between this view and the oval;
-///  - for each other setting that is an enumeration, an action with the name of the setting that selects the next
-///    value;
-///  - for each setting with KeySteps, two actions that increase and decrease the number by a step.
+/// - the actions that ownActions() in key_actions.cpp lists;
+/// - for each row of scene::kParts, an action that shows or hides this part of the picture;
+/// - for each row of slicing::kElementKinds, an action that turns an element of this kind toward +w, and two actions
+///   that highlight the next and the previous element of this kind;
+/// - for each view except the oval, an action that toggles between this view and the oval;
+/// - for each other setting that is an enumeration, an action with the name of the setting that selects the next
+///   value;
+/// - for each setting with KeySteps, two actions that increase and decrease the number by a step.
 std::span<const Action> keyActions();
 
 }  // namespace oval4d::session

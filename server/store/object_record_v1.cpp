@@ -7,17 +7,17 @@
 #include "store/cbor.hpp"
 
 // The record of an object in version 1 is an array. Its length tells the kind of object:
-//  - 2: [version, [[origin in the file], record of the object]], an object that was moved when it was loaded
-//  - 3: [version, name, source], a field in a file of the data folder; the source is as in version 2, but may lack the
-//    region
-//  - 4: [version, name, points, radii], a point cloud
-//  - 5: [version, name, formula or samples, box, shape], a field; the shape of a formula is an empty array
-//  - 6: [version, name, vertices, 2-faces, cells, the type of each cell], a polytope
-//  - 7: a field with a second function: the five members above, then the second function and a text; the second
-//    function is a formula or [variable, samples]
-//  - 8: [version, name, vertices, 2-faces, null, null, null, null], a surface
-//  - 9: an array with units: the seven members above (null if there is no second function), then [units of x, y, z and
-//    w, [name, unit] of the values] and [name, unit] of the values of the second function
+// - 2: [version, [[origin in the file], record of the object]], an object that was moved when it was loaded
+// - 3: [version, name, source], a field in a file of the data folder; the source is as in version 2, but may lack the
+//   region
+// - 4: [version, name, points, radii], a point cloud
+// - 5: [version, name, formula or samples, box, shape], a field; the shape of a formula is an empty array
+// - 6: [version, name, vertices, 2-faces, cells, the type of each cell], a polytope
+// - 7: a field with a second function: the five members above, then the second function and a text; the second
+//   function is a formula or [variable, samples]
+// - 8: [version, name, vertices, 2-faces, null, null, null, null], a surface
+// - 9: an array with units: the seven members above (null if there is no second function), then [units of x, y, z and
+//   w, [name, unit] of the values] and [name, unit] of the values of the second function
 // This format does not change anymore. The members of version 2 and their numbers are in visitStoredMembers() beside
 // each struct.
 
