@@ -1,5 +1,5 @@
 #pragma once
-// Limits on the size, time and memory of one export.
+// Limits on the size, the time and the memory of an export.
 
 #include <chrono>
 #include <cstddef>
@@ -14,31 +14,32 @@
 
 namespace oval4d::exports {
 
-/// The limits of one export.
+/// The limits on one export.
 struct ExportLimits {
-    std::size_t triangles = 5'000'000;       ///< maximum for all bodies together
-    std::size_t bytes = 512U << 20U;         ///< maximum size of the file
-    std::chrono::duration<double> time{20};  ///< from the construction of the Budget to the end of the export
-    /// Called on the exporting thread each time the export makes a new estimate of the bytes that it needs. The
-    /// argument is this estimate of the total, not an increment. The function returns false to refuse the memory. If it
-    /// is null, memory is not limited.
+    std::size_t triangles = 5'000'000;       ///< maximum number in all bodies together
+    std::size_t bytes = 512U << 20U;         ///< maximum size of the file in bytes
+    std::chrono::duration<double> time{20};  ///< maximum time of the export, from the construction of its Budget
+    /// A function that grants memory. It is called on the exporting thread whenever there is a new estimate of the
+    /// total number of bytes that the export needs. It returns false to refuse the memory. If null, memory is not
+    /// limited.
     std::function<bool(std::size_t)> grantTotalBytes = nullptr;
     /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
     std::size_t sliceEdges = std::numeric_limits<std::size_t>::max();
-    /// The maximum number of steps to find what lies behind other cells in the projection of the object (see
+    /// The maximum number of steps to find the parts of the projection that lie behind other cells (see
     /// slicing::OcclusionFinder::find()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
     /// The maximum number of slices that ExportRequest::chosenW or ExportRequest::fittedSlices may choose.
     int slices = 201;
-    /// Returns the time by which `time` is measured. Tests pass a function that returns a virtual time. Thread-safe.
+    /// Returns the current time, to measure `time`. Tests pass a function that returns a virtual time. Thread-safe.
     std::function<std::chrono::steady_clock::time_point()> now = std::chrono::steady_clock::now;
 };
 
-/// Why an export produces no file: the cause, and a text for the user. Functions throw it within ExportRefused;
-/// exportScene() returns it.
+/// The reason why an export produces no file, and a text for the user. Functions throw an ExportRefusal within
+/// ExportRefused, and exportScene() returns it.
 struct ExportRefusal {
     enum class Cause : std::uint8_t {
-        no_body,    ///< the body is empty or flat, the label does not fit, or the format cannot contain what is asked
+        /// The body is empty or flat, the label does not fit, or the format cannot contain the requested contents.
+        no_body,
         too_large,  ///< the file would exceed ExportLimits::triangles or ExportLimits::bytes
         too_long,   ///< the export exceeds ExportLimits::time, or a stop was requested
         no_room,    ///< ExportLimits::grantTotalBytes returned false
@@ -47,21 +48,21 @@ struct ExportRefusal {
     std::string message;
 };
 
-/// The exception by which functions in this folder refuse an export. exportScene() catches it and returns its member
-/// `error`.
+/// An exception: an export is refused. Functions in this folder throw ExportRefused, and exportScene() catches it and
+/// returns `error`.
 struct ExportRefused {
     ExportRefusal error;
 };
 
-/// Checks one export against its limits. The time of the export counts from the construction of this object.
+/// A check of one export against its limits. The time of the export begins with the construction of this object.
 class Budget {
   public:
     Budget(const ExportLimits& limits, std::stop_token stop)
         : limits_(limits), stop_(std::move(stop)), start_(limits_.now()) {}
 
-    /// Returns whether the time limit is exceeded or a stop is requested.
+    /// Returns whether the time limit is exceeded, or a stop was requested.
     bool mustStop() const { return stop_.stop_requested() || limits_.now() - start_ > limits_.time; }
-    /// Throws ExportRefused if the time limit is exceeded or a stop is requested. Long computations must call this
+    /// Throws ExportRefused if the time limit is exceeded, or a stop was requested. Long computations must call this
     /// function often, because nothing else interrupts them.
     void checkTimeAndStop() const {
         if (stop_.stop_requested())
@@ -74,8 +75,8 @@ class Budget {
                                      " s; export only the focus slice or, if the object has cells, a solid body"}};
         }
     }
-    /// Throws ExportRefused if `total`, the number of triangles of all bodies together, exceeds
-    /// ExportLimits::triangles, or if ExportLimits::grantTotalBytes refuses the memory for the triangles.
+    /// Throws ExportRefused if `total`, the number of triangles in all bodies together, exceeds
+    /// ExportLimits::triangles, or if ExportLimits::grantTotalBytes refuses the memory for these triangles.
     void checkTrianglesAndMemory(std::size_t total) const {
         if (total > limits_.triangles) {
             throw ExportRefused{
@@ -86,7 +87,7 @@ class Budget {
         }
         requireMemory(kBytesOfTriangle * total);
     }
-    /// Throws ExportRefused if `count`, the size of the file, exceeds ExportLimits::bytes, or if
+    /// Throws ExportRefused if `count`, the size of the file in bytes, exceeds ExportLimits::bytes, or if
     /// ExportLimits::grantTotalBytes refuses this number of bytes.
     void checkFileSize(std::size_t count) const {
         if (count > limits_.bytes) {
@@ -95,7 +96,7 @@ class Budget {
         }
         requireMemory(count);
     }
-    /// Returns the maximum number of triangles of all bodies together (ExportLimits::triangles).
+    /// Returns the maximum number of triangles in all bodies together (ExportLimits::triangles).
     std::size_t triangleLimit() const { return limits_.triangles; }
     /// Returns the maximum time of the whole export (ExportLimits::time).
     std::chrono::duration<double> time() const { return limits_.time; }
@@ -103,7 +104,7 @@ class Budget {
     std::stop_token stopToken() const { return stop_; }
 
   private:
-    static constexpr std::size_t kBytesOfTriangle = 64;  // the approximate size of a triangle, in the file or in memory
+    static constexpr std::size_t kBytesOfTriangle = 64;  // approximate size of a triangle, in the file or in memory
 
     void requireMemory(std::size_t bytes) const {
         if (limits_.grantTotalBytes && !limits_.grantTotalBytes(bytes))

@@ -7,13 +7,14 @@
 
 namespace oval4d::exports {
 
-/// What a file contains. protocol/export_formats.json says which of these the files of a format can contain.
+/// The contents of an exported file. protocol/export_formats.json lists the contents that each format allows.
 enum class ExportContentsKind : std::uint8_t {
-    focus,        ///< only the focus slice
-    oval,         ///< all slices
-    highlight,    ///< the highlighted element alone
-    critical,     ///< the critical values of w: see slicing::findCriticalSections()
-    object,       ///< the whole rotated object, in four dimensions
+    focus,      ///< only the focus slice
+    oval,       ///< all slices
+    highlight,  ///< only the highlighted element
+    /// The values of w at which the section changes its type (see slicing::findCriticalSections()).
+    critical,
+    object,       ///< the whole rotated 4-D object
     coordinates,  ///< the parallel coordinates or, for a field, the histogram
     projection,   ///< the projection of the whole object
     matrix        ///< the matrix of planar sections

@@ -1,5 +1,5 @@
 #pragma once
-// The options of an export.
+// The options of an export, which the user chooses.
 
 #include <array>
 #include <cstdint>
@@ -13,11 +13,11 @@
 
 namespace oval4d::exports {
 
-/// The shape of a slice's body: the filled slice, or its balls and bars merged into one body. A projection is always
-/// exported as balls and bars.
+/// The shape of a slice's body. `solid` is the filled slice. `skeleton` is one body made of the slice's balls and bars.
+/// A projection is always a skeleton.
 enum class BodyKind : std::uint8_t { solid, skeleton };
-/// Where the object's name and the slice's w are written. `none`: nowhere; `engraved`: in a face of the body;
-/// `separate`: on a plate next to the body.
+/// The place for the text with the object's name and the slice's w: nowhere (`none`), cut into a face of the body
+/// (`engraved`), or on a plate next to the body (`separate`).
 enum class LabelPlacement : std::uint8_t { none, engraved, separate };
 
 inline constexpr auto kBodies =
@@ -32,13 +32,13 @@ constexpr const auto& choicesOf(LabelPlacement /*type*/) { return kLabels; }
 /// The bounds of ExportRequest::size for bodies and for drawings, in millimeters.
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
 inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
-/// Returns these bounds for the files of a format.
+/// Returns the bounds of ExportRequest::size, in millimeters, for the files of a format.
 inline geometry::Range sizeRangeOf(const Format& format) {
     return format.writeDrawing != nullptr ? geometry::Range{kMinDrawingSize, kMaxDrawingSize}
                                           : geometry::Range{kMinSize, kMaxSize};
 }
 
-/// The options of an export. `body` and `label` apply only to formats with bodies; `size` applies to formats with
+/// The options of an export. `body` and `label` apply only to formats with bodies. `size` applies to formats with
 /// bodies and to drawings.
 struct ExportRequest {
     const Format* format = formatNamed("stl");  ///< a row of formats(); not null
@@ -48,15 +48,15 @@ struct ExportRequest {
     /// height.
     double size = 60;
     LabelPlacement label = LabelPlacement::none;
-    /// For ExportContentsKind::oval: slices that replace those of the session. At most one of `chosenW` and
-    /// `fittedSlices` is given. If neither is, the slices are those of the session.
-    /// - `chosenW`: slices at these values of w, in the coordinates of the object's file (see
-    ///   ObjectInfo::originInFile), and in this order.
-    /// - `fittedSlices`: the number of equal parts into which the object's extent along w is divided; there is a slice
-    ///   in the middle of each part. No slice is empty if the object is a convex polytope.
+    /// The slices for ExportContentsKind::oval. At most one of these two options is given. Without both, the file has
+    /// the slices of the session.
+    /// - `chosenW`: there is a slice at each of these values of w, in this order. They are in the coordinates of the
+    ///   object's file (see ObjectInfo::originInFile).
+    /// - `fittedSlices`: the object's extent along w is divided into this number of equal parts, and there is a slice
+    ///   in the middle of each part. If the object is a convex polytope, no slice is empty.
     std::vector<double> chosenW = {};
     std::optional<int> fittedSlices = {};
-    /// Whether the surfaces of a field are exact: those of its piecewise linear interpolation (see
+    /// Whether the surfaces of a field are computed exactly from its piecewise linear interpolation (see
     /// slicing::ClosedSurfaceSlicer). Ignored for other objects, and for files without surfaces.
     bool exact = false;
 
@@ -65,7 +65,8 @@ struct ExportRequest {
     bool operator==(const ExportRequest&) const = default;
 };
 
-/// Calls `visit` with the name of each option beside the format, as in messages and queries, and with its value.
+/// Calls `visit` with the name and the value of each option except the format. The names are those in messages and
+/// queries.
 template <typename Visitor>
 void forEachOption(ExportRequest& request, const Visitor& visit) {
     auto& [format, contents, body, size, label, chosenW, fittedSlices, exact] = request;
@@ -78,7 +79,7 @@ void forEachOption(ExportRequest& request, const Visitor& visit) {
     visit("exact", exact);
 }
 
-/// Returns the default options for a format, which is a row of formats().
+/// Returns the default options for a format. `format` must be a row of formats().
 inline ExportRequest defaultRequestFor(const Format& format) {
     ExportRequest request{.format = &format, .contents = format.contents.front()};
     if (format.writeDrawing != nullptr) request.size = kDrawingSize;

@@ -5,9 +5,8 @@
 
 namespace oval4d::exports {
 
-/// Converts UTF-8 text to ASCII, because the texts in a Drawing are ASCII. Replaces the signs that units contain by
-/// words or ASCII signs: "µm" becomes "um", "°C" becomes "degC", and "m⁻³" becomes "m^-3". Replaces every other
-/// character that is not ASCII by "?".
+/// Converts UTF-8 text to ASCII, because texts in a Drawing must be ASCII. Signs in units become words or ASCII signs:
+/// "µm" becomes "um", "°C" becomes "degC", and "m⁻³" becomes "m^-3". All other characters outside of ASCII become "?".
 std::string asciiText(std::string_view text);
 
 }  // namespace oval4d::exports

@@ -1,5 +1,5 @@
 #pragma once
-// Vector drawings for printing. The writers of figure formats get a Drawing and no other data.
+// Vector drawings for printing. The writers of figure formats (PDF, SVG, TikZ) get only a Drawing.
 
 #include <algorithm>
 #include <array>
@@ -15,10 +15,10 @@
 
 namespace oval4d::exports {
 
-// Lengths and positions are in units of the drawing (see Drawing::millimetersPerUnit()). Positions are measured from
-// the upper left corner of the drawing, with y downward.
+// Lengths and positions are in units of the drawing (see Drawing::millimetersPerUnit()). Positions count from the upper
+// left corner of the drawing; y points downward.
 
-/// The default of Drawing::size in millimeters: about the width of the text on a page of A4.
+/// The default of Drawing::size in millimeters: about the width of the text on an A4 page.
 inline constexpr double kDrawingSize = 170;
 
 /// A straight line.
@@ -30,49 +30,48 @@ struct Line {
     double opacity = 1;   ///< 0 … 1
     std::string id = {};  ///< the id of the line in an SVG file; may be empty
 };
-/// A polygonal line of at least two points, with round ends and corners.
+/// A polyline with at least two points. Its ends and corners are round.
 struct Polyline {
     std::vector<glm::dvec2> points;
     double width = 1;
     scene::Color color = 0;
 };
-/// A polygon that may cross itself, filled by the nonzero winding rule.
+/// A filled polygon. It may cross itself; the nonzero winding rule says which parts are inside.
 struct FilledPolygon {
     std::vector<glm::dvec2> corners;
     scene::Color color = 0;
     double opacity = 1;  ///< 0 … 1
 };
-/// The interior of a circle.
+/// A filled circle.
 struct Disk {
     glm::dvec2 center;
     double radius = 1;
     scene::Color color = 0;
     double opacity = 1;  ///< 0 … 1
 };
-/// A line of text, centered at a position on its baseline. The characters are ASCII.
+/// A line of text in ASCII. `at` is the middle of its baseline.
 struct TextLine {
     glm::dvec2 at;
     double size = 7;  ///< the font size
     scene::Color color = 0;
     std::string text;
 };
-/// A raster image of a density strip (see scene::DensityPlot) or of a panel of a histogram (see
-/// slicing::CoordinateValueHistograms), in the rectangle from `topLeft` to `bottomRight`. The centers of the first and
-/// the last column lie on the left and right edges of the rectangle, and the centers of the first and the last row on
-/// its upper and lower edges.
+/// A raster image in the rectangle from `topLeft` to `bottomRight`. It shows a density strip (see scene::DensityPlot)
+/// or a panel of a histogram (see slicing::CoordinateValueHistograms). The centers of the outer pixels lie on the edges
+/// of the rectangle.
 struct OpacityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top
-    int columns = 1;                   ///< must be at least 2, and so must rows()
-    std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, and
-                                       ///< interpolated between these positions
+    int columns = 1;                   ///< at least 2; rows() is at least 2, too
+    std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, with
+                                       ///< interpolation in between
 
     int rows() const { return static_cast<int>(alphas.size()) / columns; }
     std::uint8_t alpha(int row, int column) const {
         return alphas[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                       static_cast<std::size_t>(column)];
     }
-    /// Returns the color of a column of pixels, interpolated between those of `colors`.
+    /// Returns the color of a column of pixels, interpolated between the nearest entries of `colors`.
     scene::Color colorOfPixelColumn(int column) const {
         const std::size_t last = colors.size() - 1;
         const double at = static_cast<double>(column) * static_cast<double>(last) / (columns - 1);
@@ -88,24 +87,24 @@ struct OpacityImage {
 };
 using DrawnShape = std::variant<Line, Polyline, FilledPolygon, Disk, TextLine, OpacityImage>;
 
-/// A named group of shapes. Later shapes cover earlier ones.
+/// A named group of shapes. Later shapes cover earlier shapes.
 struct ShapeGroup {
-    std::string id;  ///< identifies the group in the file; unique in a drawing
+    std::string id;  ///< name of the group in the file; unique in a drawing
     std::vector<DrawnShape> shapes;
 };
 
-/// A drawing for white paper. It has no background.
+/// A drawing for white paper, without a background.
 struct Drawing {
     std::string title;
     double width = 0, height = 0;
-    std::vector<ShapeGroup> groups;  ///< later groups cover earlier ones
-    double size = kDrawingSize;      ///< the larger of width and height on paper, in millimeters
+    std::vector<ShapeGroup> groups;  ///< later groups cover earlier groups
+    double size = kDrawingSize;      ///< the larger of the width and the height on paper, in millimeters
 
     /// Returns the length on paper of one unit of the drawing, in millimeters.
     double millimetersPerUnit() const { return size / std::max(width, height); }
 };
 
-/// The width of drawings in units. If the drawing is as large as kDrawingSize, a unit is about 1/72 inch.
+/// The width of drawings in units of the drawing. At the size kDrawingSize, a unit is about 1/72 inch.
 inline constexpr double kDrawingWidth = 480;
 inline constexpr double kDrawingMargin = 12;
 inline constexpr scene::Color kDrawingText = 0x444444;

@@ -7,10 +7,10 @@
 
 namespace oval4d::exports {
 
-/// Draws the matrix of planar sections, with the panels arranged as in scene::SectionMatrixLayout. Edges have the
-/// colors of their cells, and the contours of a field those of their levels. `origin` is ObjectInfo::originInFile,
-/// which is added to coordinates, so that the numbers at the axes are coordinates in the object's file. The scene must
-/// show the matrix.
+/// Draws the matrix of planar sections (sections by planes parallel to two axes). The panels are arranged as in
+/// scene::SectionMatrixLayout. Edges have the colors of their cells, and contours of a field the colors of their
+/// levels. `origin` is ObjectInfo::originInFile. It is added to coordinates, so that the numbers at the axes are
+/// coordinates in the object's file. The scene must show the matrix.
 Drawing drawMatrix(const scene::Scene& scene, const glm::dvec4& origin);
 
 }  // namespace oval4d::exports

@@ -21,62 +21,65 @@ namespace oval4d::exports {
 /// file (see arrangement.hpp).
 struct MeshesToWrite {
     std::span<const PlacedMesh> solids;
-    std::span<const scene::Color> cellColors;  ///< the color of each cell
+    std::span<const scene::Color> cellColors;  ///< the color of each cell of the object
     const std::string& title;
     const Budget& budget;
-    /// Whether the coordinates are multiples of a step that is too small for 32-bit floats (see
-    /// RoundingGrid::forDoubles()). If true, the writer must write 64-bit floats. Always false unless
-    /// Format::keepsDoubles is true.
+    /// Whether the writer must write 64-bit floats, because the coordinates are too fine for 32-bit floats (see
+    /// RoundingGrid::forDoubles()). True only if Format::keepsDoubles is true.
     bool hasDoubles = false;
 
-    /// Returns the color of a triangle of `solid`: the color of its cell, or the color of the solid if it has no cell.
+    /// Returns the color of a triangle of `solid`: the color of its cell or, if it has no cell, the color of the solid.
     scene::Color colorOf(const PlacedMesh& solid, std::size_t triangle) const {
         const std::uint32_t cell = solid.mesh.cells[triangle];
         return cell < cellColors.size() ? cellColors[cell] : solid.color;
     }
-    /// Returns whether the points of any mesh have colors (Mesh::pointColors).
+    /// Returns whether any mesh has colors for its points (Mesh::pointColors).
     bool anyHasPointColors() const {
         return std::ranges::any_of(solids, [](const PlacedMesh& solid) { return !solid.mesh.pointColors.empty(); });
     }
 };
 
-/// The input of the writers of data formats. The slices of `scene` were cut from `object` rotated by `orientation`.
+/// The input of the writers of data formats. The slices of `scene` must have been cut from `object` rotated by
+/// `orientation`.
 struct SceneToWrite {
     const scene::Scene& scene;
     const slicing::Object& object;
     const geometry::Rotation& orientation;
     ExportContentsKind contents;
     const Budget& budget;
-    std::vector<std::string>& warnings;  ///< the writer adds what the file lacks (see ExportedFile::warnings)
-    bool exact = false;                  ///< ExportRequest::exact
+    /// Warnings for the user. The writer appends what the file lacks (see ExportedFile::warnings).
+    std::vector<std::string>& warnings;
+    /// Whether surfaces of a field are exact (see ExportRequest::exact).
+    bool exact = false;
 };
 
-/// A file format of protocol/export_formats.json. Exactly one of its three writers is not null: writeBodies for a
-/// format with bodies, writeScene for a data format, writeDrawing for a figure format.
+/// A file format of protocol/export_formats.json. Exactly one of its three writers is not null: writeBodies for a mesh
+/// format, writeScene for a data format, and writeDrawing for a figure format.
 struct Format {
-    /// How the bodies of several slices are arranged. `none`: the format has no bodies; `plate`: in rows for a 3-D
-    /// printer (see arrangeOnPlate()); `oval`: as in the picture (see arrangeInOval()).
+    /// The arrangement of the bodies of several slices: in rows for a 3-D printer (`plate`, see arrangeOnPlate()), or
+    /// as in the picture (`oval`, see arrangeInOval()). `none` if the format has no bodies.
     enum class Arrangement { none, plate, oval };
     /// The kinds of objects that files of the format can contain.
     enum class Objects { all, fields, polytopes_and_points };
 
-    std::string name;       ///< the name in messages, which is also the file name extension: "stl"
+    std::string name;       ///< the name in messages and the file name extension, such as "stl"
     std::string mediaType;  ///< the value of the Content-Type header
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
-    std::vector<ExportContentsKind> contents;  ///< what a file can contain; the first is the default of new requests
-    /// Whether writeScene writes the surfaces of a field: those in SliceSet::surfaces, or exact ones.
+    std::vector<ExportContentsKind> contents;  ///< the contents that a file can have; the first is the default
+    /// Whether writeScene writes surfaces of a field: those in SliceSet::surfaces, or exact surfaces.
     bool readsSurfaces = false;
-    bool keepsDoubles = false;  ///< whether writeBodies keeps coordinates that only 64-bit floats can represent
-    /// Whether writeScene gets the scene that the picture shows, with its view, camera, visible parts, highlight and
-    /// background. If false, writeScene gets a scene of the default look with the colors, levels and fog of the
+    /// Whether writeBodies keeps coordinates that only 64-bit floats can represent.
+    bool keepsDoubles = false;
+    /// Whether writeScene gets the scene of the picture, with its view, camera, visible parts, highlight and
+    /// background. If false, writeScene gets a scene with the default look, and with the colors, levels and fog of the
     /// picture.
     bool showsPicture = false;
     std::string (*writeBodies)(const MeshesToWrite&) = nullptr;
     std::string (*writeScene)(const SceneToWrite&) = nullptr;
     std::string (*writeDrawing)(const Drawing&) = nullptr;
 
-    /// Returns whether files of the format can contain `what`.
+    /// Returns whether files of this format can contain `what`.
     bool canContain(ExportContentsKind what) const { return std::ranges::find(contents, what) != contents.end(); }
 };
 

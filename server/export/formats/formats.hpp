@@ -9,8 +9,8 @@
 
 namespace oval4d::exports {
 
-/// Returns all formats: the rows of protocol/export_formats.json, each with its writer. The first call reads the table
-/// and throws std::logic_error if a row has no writer or a writer has no row, and std::bad_optional_access if a row has
+/// Returns all formats: the rows of protocol/export_formats.json, each with its writer. The first call reads the table.
+/// Throws std::logic_error if a row has no writer, or a writer has no row. Throws std::bad_optional_access if a row has
 /// a value that is not allowed. Thread-safe.
 std::span<const Format> formats();
 

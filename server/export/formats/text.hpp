@@ -1,5 +1,5 @@
 #pragma once
-// Formatting of numbers and names as text.
+// Writes numbers and names as text.
 
 #include <string>
 #include <string_view>
@@ -10,22 +10,22 @@
 
 namespace oval4d::exports {
 
-/// Appends the shortest decimal text that is read as exactly this number.
+/// Appends the shortest decimal text from which exactly this number is read back.
 void appendDecimal(std::string& out, double number);
 void appendDecimal(std::string& out, float number);
-/// Appends three numbers separated by spaces.
+/// Appends the three coordinates, separated by spaces.
 void appendDecimal(std::string& out, const glm::dvec3& point);
 
-/// Returns a label of the hyperplane with the index i (from 0), such as "w = −0.25", with enough decimals (2 to 9) to
-/// distinguish the hyperplanes. `origin`, the w of ObjectInfo::originInFile, is added to w.
+/// Returns the label of hyperplane i (from 0), such as "w = −0.25". The label has enough decimals (2 to 9) to
+/// distinguish the hyperplanes. `origin` is the w of ObjectInfo::originInFile, and is added to w.
 std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin = 0);
 
-/// Returns the text without the characters that XML 1.0 cannot contain (section 2.2): control characters below U+0020,
-/// U+FFFE and U+FFFF. Also removes tabs and line ends, which XML allows, so that the result is one line in any text
-/// format. The text must be UTF-8.
+/// Returns the text without the characters that XML 1.0 forbids (section 2.2): control characters below U+0020, U+FFFE
+/// and U+FFFF. Also removes tabs and line ends, so that the result is one line in any text format. The text must be
+/// UTF-8.
 std::string onlyXmlCharacters(std::string_view text);
 
-/// Returns onlyXmlCharacters(text) escaped for XML content and attributes: & < > and quotes become entities.
+/// Returns onlyXmlCharacters(text) escaped for XML content and attributes: &, <, > and quotes become entities.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace oval4d::exports

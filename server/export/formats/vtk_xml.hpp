@@ -1,5 +1,6 @@
 #pragma once
-// Parts of VTK's XML files (K. Martin et al., "VTK File Formats", in The VTK User's Guide).
+// Parts of XML files for the Visualization Toolkit, VTK (K. Martin et al., "VTK File Formats", in The VTK User's
+// Guide).
 
 #include <bit>
 #include <cstddef>
@@ -14,18 +15,18 @@
 
 namespace oval4d::exports {
 
-/// Returns a complete file with one data set: an XML element named `type`, such as "PolyData". `attributes` are the
-/// attributes of this element, each preceded by a space; `elements` is the content of the element.
+/// Returns a complete file with one data set: an XML element with the name `type`, such as "PolyData". `attributes` are
+/// the attributes of this element, each after a space. `elements` is the content of this element.
 std::string vtkFile(std::string_view type, std::string_view attributes, std::string_view elements);
 
-/// Appends a DataArray element with `bytes` in Base64. `bytes` must be little-endian numbers of the type `type`, such
-/// as "Float32"; `components` is the number of numbers in a tuple. `quantity` is what the numbers measure, as far as it
-/// is known. Its name becomes the name of the first component, and its unit the information key
+/// Appends a DataArray element that contains `bytes` in Base64. `bytes` must be little-endian numbers of the type
+/// `type`, such as "Float32". `components` is the number of numbers in a tuple. `quantity` is what the numbers measure,
+/// as far as known. Its name becomes the name of the first component, and its unit the information key
 /// vtkDataArray::UNITS_LABEL.
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes, const fields::Quantity& quantity = {});
 
-/// Appends a DataArray element with these numbers, as tuples of `components` numbers.
+/// Appends a DataArray element with the given numbers. A tuple has `components` numbers.
 template <typename Number>
 void appendVtkArray(std::string& out, std::string_view name, int components, std::span<const Number> numbers,
                     const fields::Quantity& quantity = {}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Text labels on bodies.
+// Text labels that are engraved into bodies or plates.
 
 #include <optional>
 #include <string>
@@ -11,11 +11,11 @@
 
 namespace oval4d::exports {
 
-/// The text of a label, laid out both in one line and in two lines. engrave() uses the layout that allows larger
-/// letters, labelBody() the one with two lines.
+/// The text of a label, laid out in one line and in two lines. engrave() uses the layout that allows larger letters.
+/// labelBody() uses two lines.
 class LabelText {
   public:
-    /// `name` is the object's name, and `w` the position of the hyperplane as text, such as "w = −0.25". Throws
+    /// `name` is the object's name, and `w` the position of the slice's hyperplane as text, such as "w = −0.25". Throws
     /// std::runtime_error if the font cannot be read.
     LabelText(const std::string& name, const std::string& w);
 
@@ -26,10 +26,10 @@ class LabelText {
     /// ExportRefused as Budget::checkTimeAndStop() does.
     bool engrave(Mesh& mesh, double size, const RoundingGrid& grid, const Budget& budget) const;
 
-    /// Returns a body that carries the label: a plate with the text engraved into its top side. The letters are
-    /// size / 15 high, but at least 3 and at most 12 mm. The bottom of the plate lies in the plane z = 0; the plate is
-    /// centered in x and extends from y = 0 toward negative y. `size` is ExportRequest::size, in millimeters. Throws
-    /// std::runtime_error if the letters cannot be engraved.
+    /// Returns a plate with the text engraved into its top side. Letters are size / 15 high, but at least 3 and at most
+    /// 12 mm. The bottom of the plate lies in the plane z = 0. The plate is centered along x, and extends from y = 0
+    /// toward negative y. `size` is ExportRequest::size, in millimeters. Throws std::runtime_error if the letters
+    /// cannot be engraved.
     Mesh labelBody(double size, const RoundingGrid& grid) const;
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// Exact slices of fields, within the limits of an export.
+// Exact slices of fields, within the limits on an export.
 
 #include <cstddef>
 #include <string>
@@ -13,25 +13,27 @@
 
 namespace oval4d::exports {
 
-/// Slices a field exactly: see slicing::ClosedSurfaceSlicer. A formula is sampled on its default lattice.
+/// A slicer that slices a field exactly (see slicing::ClosedSurfaceSlicer). A formula is sampled on its default
+/// lattice.
 class ExactSlicer {
   public:
     struct SurfaceOptions {
         fields::Inside inside = fields::Inside::below;
-        bool pointData = false;  ///< see slicing::ClosedSurfaceSlicer::IsosurfaceOptions
-        /// The end of the error message about too many triangles: what the user can do. Empty, or begins with a
+        bool pointData = false;  ///< whether points get normals, values and growth (see
+                                 ///< slicing::ClosedSurfaceSlicer::IsosurfaceOptions)
+        /// What the user can do about too many triangles, as the end of the error message. Empty, or begins with a
         /// semicolon.
         std::string advice = {};
     };
 
-    /// `field` and `budget` must outlive this object. Throws ExportRefused if the memory limit leaves no room for the
-    /// tables of the slicer.
+    /// `field` and `budget` must outlive this object. Throws ExportRefused if there is no memory for the tables of the
+    /// slicer.
     ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
                 const Budget& budget);
 
-    /// Slices the body of one level by the hyperplane at `w`. Overwrites `out`. `others` is the number of triangles
-    /// that the export has made before; the limits apply to these and the new triangles together. Throws ExportRefused
-    /// if a limit is exceeded or a stop is requested. Afterward, the pages of the field's file are released.
+    /// Slices the body of one level (isovalue) by the hyperplane at `w`. Overwrites `out`. `others` is the number of
+    /// triangles that the export has made before; the limits apply to all triangles together. Throws ExportRefused if a
+    /// limit is exceeded or a stop was requested. Releases the pages of the field's file afterward.
     void slice(double w, double level, std::size_t others, slicing::ClosedSurface& out);
 
   private:

@@ -1,5 +1,5 @@
 #pragma once
-// Bodies that the surfaces of fields enclose.
+// Bodies enclosed by the surfaces of fields.
 
 #include <cstddef>
 
@@ -10,11 +10,11 @@
 
 namespace oval4d::exports {
 
-/// Returns the body that the surface of one level encloses, together with its caps (see slicing::SliceSurface), in
-/// slice i of a field. `slice` is the surface in this slice. The mesh has Mesh::pointColors, as in the picture, and
-/// Mesh::pointValues. `level` is an index into scene.surfaces.levels. `scale` is in millimeters per unit of the object.
-/// Returns an empty mesh if the rounded body has no volume (see isThickEnough()). Throws the exceptions of
-/// snapSurface().
+/// Returns the body that the surface of one level and its caps enclose in slice i of a field (see
+/// slicing::SliceSurface). `slice` is the surface in this slice, and `level` an index into scene.surfaces.levels.
+/// `scale` is in millimeters per unit of the object. The mesh has Mesh::pointColors, as in the picture, and
+/// Mesh::pointValues. Returns an empty mesh if the rounded body has no volume (see isThickEnough()). Throws the
+/// exceptions of snapSurface().
 Mesh fieldBodyOf(const scene::Scene& scene, const FieldSliceSurface& slice, int i, std::size_t level, double scale,
                  const RoundingGrid& grid, const Budget& budget);
 

@@ -1,11 +1,12 @@
 #pragma once
-// Marching tetrahedra (A. Doi, A. Koide, IEICE Transactions E74, 1991): extracts the surface where a field sampled on a
-// cubic grid changes sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
-// Mathematics 43, 1942), in the same way in all cubes, so that adjacent cubes share whole faces. The surface in a
-// tetrahedron is a triangle or a quadrilateral. It has one corner on each tetrahedron edge that joins an inside point
-// to an outside point. The polygons that share a corner form one ring, because the tetrahedra that share the edge on
-// which this corner lies form one ring. Therefore the surface is closed and 2-manifold and does not intersect itself,
-// whatever the field is.
+// Marching tetrahedra (A. Doi, A. Koide, IEICE Transactions E74, 1991): finds the surface where a field, sampled on a
+// cubic grid, changes its sign. Each cube is divided into six tetrahedra around one diagonal (H. Freudenthal, Annals of
+// Mathematics 43, 1942). All cubes are divided in the same way, so that adjacent cubes share whole faces.
+//
+// In a tetrahedron, the surface is a triangle or a quadrilateral. It has one corner on each edge of the tetrahedron
+// that joins an inside point to an outside point. The polygons around such a corner form one ring, because the
+// tetrahedra around the edge form one ring. Therefore the surface is closed and 2-manifold and does not intersect
+// itself, for every field.
 
 #include <array>
 #include <cstdint>
@@ -21,13 +22,13 @@
 
 namespace oval4d::exports {
 
-/// A scalar field that is sampled at the points origin + step · (i, j, k), in millimeters. Points with negative values
-/// are inside. Values are stored in cubic blocks. A block exists once a value in it was written or ensureBlock() was
-/// called; the value of every point that was never written is +infinity.
+/// A scalar field, sampled at the points origin + step · (i, j, k), in millimeters. Points with negative values are
+/// inside. Values are stored in cubic blocks. A block is created when one of its values is written, or by
+/// ensureBlock(). Points that were never written have the value +infinity.
 class SampledField {
   public:
-    static constexpr int kSide = 8;  ///< points along each edge of a block
-    /// The greatest absolute value that the indices i, j and k of a point may have. The caller must ensure this.
+    static constexpr int kSide = 8;  ///< number of points along each edge of a block
+    /// The greatest absolute value that the indices i, j and k of a point may have. Callers must not exceed it.
     static constexpr int kFarthest = 1 << 19;
 
     SampledField(const glm::dvec3& origin, double step) : origin_(origin), step_(step) {}
@@ -35,61 +36,64 @@ class SampledField {
     double step() const { return step_; }
     /// Returns the position of the point with these indices.
     glm::dvec3 positionOf(const glm::ivec3& at) const { return origin_ + step_ * glm::dvec3(at); }
-    /// Returns the indices of the point at `place` or next below it: (place − origin) / step, with each coordinate
-    /// rounded down.
+    /// Returns the indices of the point at `place` or next below it: (place − origin) / step, rounded down along each
+    /// axis.
     glm::ivec3 floorIndex(const glm::dvec3& place) const;
 
-    /// Returns a reference to the value at a point. Creates the point's block if it does not exist.
+    /// Returns a reference to the value at a point. Creates the point's block if necessary.
     float& operator[](const glm::ivec3& point);
-    /// Creates the block that contains the point, if it does not exist.
+    /// Creates the block that contains the point, unless it exists.
     void ensureBlock(const glm::ivec3& point) { (*this)[point]; }
     /// Returns the value at a point.
     float value(const glm::ivec3& point) const;
 
     struct ValueBlock {
-        glm::ivec3 corner;                                ///< the indices of the block's point with the least x, y, z
+        /// The indices of the block's point with the least x, y and z.
+        glm::ivec3 corner;
         std::array<float, kSide * kSide * kSide> values;  ///< x varies fastest, z slowest
     };
-    /// Returns all blocks, in an order that depends only on their positions and not on the order of their creation.
+    /// Returns all blocks, in an order that depends only on their positions.
     std::vector<const ValueBlock*> blocks() const;
-    /// Returns the block that contains the point, or nullptr if the block does not exist.
+    /// Returns the block that contains the point, or nullptr if there is no such block.
     const ValueBlock* find(const glm::ivec3& point) const;
 
   private:
     glm::dvec3 origin_;
     double step_;
     std::unordered_map<std::uint64_t, std::unique_ptr<ValueBlock>> blocks_;
-    ValueBlock* last_ = nullptr;  // the block last written to
+    ValueBlock* last_ = nullptr;  // the block to which a value was written last
 };
 
-/// The point where the surface crosses an edge of a tetrahedron. `fraction` is the position of the point on the edge,
-/// from 0 at the inside end to 1 at the outside end. `cell` is the cell of the object from which the surface at this
-/// point was cut, or kNoCell.
+/// The point where the surface crosses an edge of a tetrahedron. `fraction` is its position on the edge, from 0 at the
+/// inside end to 1 at the outside end. `cell` is the cell of the object from which the surface was cut at this point,
+/// or kNoCell.
 struct EdgeCrossing {
     double fraction = 0.5;
     std::uint32_t cell = kNoCell;
 };
-/// A function that finds the crossing on the edge between an inside point and a neighboring outside point.
+/// A function that finds the crossing on the edge from an inside point to a neighboring outside point.
 using CrossingFinder = std::function<EdgeCrossing(const glm::ivec3& inside, const glm::ivec3& outside)>;
 
-inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;  ///< in RoundingGrid steps; see marchTetrahedra()
+/// Field steps, in steps of the RoundingGrid: the least allowed one, and one that hardly changes shapes (see
+/// marchTetrahedra()).
+inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;
 
-/// Returns a mesh of the surface that separates inside points from outside points. The points of the mesh are rounded
-/// to `grid`. Throws ExportRefused if `budget` is exceeded.
+/// Returns a mesh of the surface that separates inside points from outside points. Rounds the points of the mesh to
+/// `grid`. Throws ExportRefused if `budget` is exceeded.
 ///
 /// The caller must ensure for each cube with an inside corner:
 /// - The block of the cube's lowest corner exists (see SampledField::ensureBlock()). Cubes without this block are
 ///   skipped.
-/// - `field` has the values that `crossing` reads for the edges of the cube.
+/// - `field` has all values that `crossing` reads for the edges of the cube.
 ///
-/// The field's step must be at least kLeastFieldStep steps of `grid`. Then no two crossings coincide after rounding,
-/// because crossings are kept away from the ends of their edges. If the step is at least kGoodFieldStep steps of
-/// `grid`, rounding hardly changes the shapes of the triangles.
+/// The step of the field must be at least kLeastFieldStep steps of `grid`. Then no two crossings become equal by
+/// rounding, because crossings are kept away from the ends of their edges. From kGoodFieldStep on, rounding hardly
+/// changes the shapes of triangles.
 Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
                      const Budget& budget);
 
-/// Returns a function that finds crossings by linear interpolation of the values of `field` at the ends of an edge. The
-/// EdgeCrossing::cell of these crossings is kNoCell. `field` must outlive the function.
+/// Returns a function that finds crossings by linear interpolation of `field` along an edge. EdgeCrossing::cell of
+/// these crossings is kNoCell. `field` must outlive the function.
 CrossingFinder linearCrossing(const SampledField& field);
 
 }  // namespace oval4d::exports

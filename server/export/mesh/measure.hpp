@@ -10,14 +10,14 @@
 namespace oval4d::exports {
 
 /// The measurements of a slice, in the object's units. If the faces of a star polytope wind n times around a region,
-/// its volume is counted n times in `volume` and `centroid`, as is usual for star polytopes.
+/// the volume of the region counts n times in `volume` and `centroid`, as is usual for star polytopes.
 struct SliceMeasurements {
-    std::size_t faces = 0;     ///< the number of faces; all loops that were cut from one cell count as one face
+    std::size_t faces = 0;     ///< number of faces; all loops cut from one cell count as one face
     double volume = 0;         ///< 0 for a flat slice
-    double area = 0;           ///< surface area; for a flat slice, the area of one side
+    double area = 0;           ///< surface area; of a flat slice, the area of one side
     bool hasCentroid = false;  ///< false for an empty slice
-    /// The centroid of the volume. If the volume is 0, the centroid of the area; if the area is also 0, the centroid of
-    /// the edges; if the length of the edges is also 0, the centroid of the points.
+    /// The centroid of the volume. If the volume is 0, the centroid of the area. If the area is 0, too, the centroid of
+    /// the edges. If the edges have no length, either, the centroid of the points.
     glm::dvec3 centroid{0};
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The balls and bars of a slice, merged into one body.
+// Skeletons: the balls and bars of a slice, merged into one body.
 
 #include "export/budget.hpp"
 #include "export/mesh/mesh.hpp"
@@ -12,17 +12,17 @@ struct SkeletonRadii {
     double ball = 0, bar = 0;
 };
 
-/// Returns the radii in millimeters at which balls and bars have the same proportions as in the picture. `scale` is in
+/// Returns the radii, in millimeters, for which balls and bars have the proportions of the picture. `scale` is in
 /// millimeters per unit of the polytope.
 SkeletonRadii skeletonRadii(const scene::Scene& scene, double scale);
 
-/// Returns the estimated total number of triangles of the skeletons of all slices if skeletonOf() uses cubes as wide as
-/// the radius of a bar. With cubes half as wide, there are four times as many triangles. `scale` is in millimeters per
-/// unit of the polytope.
+/// Returns an estimate of the number of triangles in the skeletons of all slices, if skeletonOf() uses cubes as wide as
+/// the radius of a bar. Cubes half as wide give four times as many triangles. `scale` is in millimeters per unit of the
+/// polytope.
 double estimateTriangles(const slicing::SliceSet& slices, double scale, const SkeletonRadii& radii);
 
-/// Returns the skeleton of slice i, meshed by marching tetrahedra in cubes that are `cube` millimeters wide. `scale` is
-/// in millimeters per unit of the polytope. Throws ExportRefused if `budget` is exceeded.
+/// Returns the skeleton of slice i, meshed by marching tetrahedra. The cubes are `cube` millimeters wide. `scale` is in
+/// millimeters per unit of the polytope. Throws ExportRefused if `budget` is exceeded.
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const RoundingGrid& grid, const Budget& budget);
 
