@@ -32,16 +32,16 @@ namespace oval4d::exports {
 
 namespace {
 
-// A skeleton is meshed in cubes. As a multiple of the bar radius, they are kFineCube wide. They are wider, but at most
-// kCoarseCube, if cubes of the width kFineCube would give more than kTargetTriangles triangles, or would be less than
-// kGoodFieldStep grid steps wide.
+// The width of the cubes from which skeletons are meshed, as a multiple of the bar radius. Cubes are kFineCube wide,
+// unless this gives more than kTargetTriangles triangles, or cubes of less than kGoodFieldStep grid steps. Then they
+// are wider, but at most kCoarseCube.
 constexpr double kFineCube = 0.5;
 constexpr double kCoarseCube = 1;
 constexpr double kTargetTriangles = 600'000;
 
-// Returns an upper bound of the absolute coordinates in the file, in millimeters, from which RoundingGrid chooses its
-// step. A file without an oval shows one object or slice, whose diameter is about `size`; the bound 2 · size leaves
-// room for balls, bars, a separate label, and the place of the body on a printer's plate.
+// Returns an upper bound of the absolute coordinates in the file, in millimeters, for RoundingGrid. Without an oval,
+// the file shows one object or slice with a diameter of about `size`. The bound 2 · size leaves room for balls, bars, a
+// separate label, and the place of the body on the plate of a printer.
 double extentOf(const ExportRequest& request, int slices) {
     return request.contents == ExportContentsKind::oval ? coordinateBound(slices, request.size) : 2 * request.size;
 }
@@ -108,7 +108,7 @@ class Exporter {
 
     std::vector<PlacedMesh> bodies() {
         std::vector<SliceBodies> groups;
-        std::vector<int> empty, thin;  // slices that the file lacks: empty ones, and those too thin for a body
+        std::vector<int> empty, thin;  // slices that the file lacks, because they are empty or too thin for a body
         const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
         std::size_t triangles = 0;
         if (request_.body == BodyKind::skeleton) prepareSkeleton();
@@ -153,14 +153,14 @@ class Exporter {
         return isCell ? scene_.cellColors[element_->index] : scene::style().ball;
     }
 
-    /// Returns whether the hyperplane of slice i contains no point of the object or, for the bodies of a field, no
-    /// surface. For the bodies of a field, the last call of surfaceBodies() must have been for slice i.
+    /// Returns whether slice i has nothing to export: no point of the object or, for bodies of a field, no surface. For
+    /// bodies of a field, the last call of surfaceBodies() must have been for slice i.
     bool isEmpty(int i) const {
         if (hasSurfaces_) return lastSurfaceIsEmpty_;
         return slices_.vertexCount(i) == 0;
     }
 
-    /// Returns whether the file contains only the body of the outermost level of a field, as files for printers do.
+    /// Returns whether the file has only the body of the outermost level of a field, as files for printers do.
     bool hasOneLevel() const { return request_.format->arrangement == Format::Arrangement::plate; }
 
     void prepareSurfaces() {
@@ -174,7 +174,7 @@ class Exporter {
     }
 
     /// Returns the bodies of one slice of a field, from the outermost level to the innermost. If hasOneLevel(), returns
-    /// only the body of the outermost level, which contains the others. Omits levels without a body.
+    /// only the body of the outermost level, which contains the others. Leaves out levels without a body.
     std::vector<PlacedMesh> surfaceBodies(int i) {
         const auto& levels = scene_.surfaces.levels;
         const FieldSliceSurface slice = surfaces_->ofSlice(i);
@@ -305,7 +305,7 @@ class Exporter {
                                        "load it with center=object"}};
     }
 
-    /// Throws ExportRefused if the slices of the object have no volume, wherever they are.
+    /// Throws ExportRefused if slices of objects of this kind have no volume.
     void refuseSlicesWithoutVolume() const {
         switch (kind().slices) {
             case slicing::SliceContent::points:
@@ -355,14 +355,14 @@ class Exporter {
     const Budget& budget_;
     const double scale_;  // millimeters per unit of the object
     const RoundingGrid grid_;
-    const RoundingGrid surfaceGrid_;  // the grid of the surfaces of a field: grid_ or a finer one
+    const RoundingGrid surfaceGrid_;  // grid for the surfaces of a field: grid_ or a finer grid
     std::optional<slicing::Element>
-        element_;  // the element for ExportContentsKind::highlight; empty for other contents
+        element_;  // for ExportContentsKind::highlight: the element to export; else empty
     SkeletonRadii radii_;
     double cube_ = 0;
-    bool hasSurfaces_ = false;  // whether the bodies are enclosed by the surfaces of a field
+    bool hasSurfaces_ = false;  // whether the surfaces of a field enclose the bodies
     std::optional<FieldSurfaceSource> surfaces_;
-    bool lastSurfaceIsEmpty_ = false;  // whether the slice whose bodies were made last has no surface
+    bool lastSurfaceIsEmpty_ = false;  // whether the slice for which surfaceBodies() was called last has no surface
     std::vector<std::string> warnings_;
 };
 

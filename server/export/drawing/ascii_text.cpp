@@ -39,7 +39,7 @@ constexpr auto kSuperscripts = std::to_array<Replacement>({
     {"\u207B", "-"},
 });
 
-// Returns the replacement of the character at the start of `text`; null if the table has none.
+// Returns the replacement for the character at the start of `text`; null if the table has none.
 template <typename Table>
 const Replacement* replacementIn(const Table& table, std::string_view text) {
     const auto found =

@@ -55,7 +55,7 @@ class ShapeCutter {
     std::optional<DrawnShape> operator()(const OpacityImage& density) const { return density; }
 
   private:
-    // Cuts a polygonal line at all bounds. If `closed`, the line also leads from the last point to the first.
+    // Cuts a polyline at all four bounds. If `closed`, the polyline also joins the last point to the first.
     void cutPoints(std::vector<glm::dvec2>& points, bool closed) const {
         for (int bound = 0; bound < 4; ++bound) {
             std::vector<glm::dvec2> kept;
@@ -72,14 +72,14 @@ class ShapeCutter {
         }
     }
 
-    // Returns the distance of the position `at` from a bound: positive inside the bound, negative outside. The bounds 0
-    // … 3 are x = farthest, x = −farthest, y = farthest and y = −farthest.
+    // Returns the distance from position `at` to a bound: positive inside the bound, negative outside. The bounds 0 … 3
+    // are x = farthest, x = −farthest, y = farthest and y = −farthest.
     double insideBound(const glm::dvec2& at, int bound) const {
         return farthest_ - (bound % 2 == 0 ? 1 : -1) * at[bound / 2];
     }
 
-    // Returns where the line from `a` to `b` crosses a bound. `insideA` and `insideB` are the results of insideBound()
-    // for the ends; exactly one of them must be negative.
+    // Returns the point where the line from `a` to `b` crosses a bound. `insideA` and `insideB` are the results of
+    // insideBound() for `a` and `b`. Exactly one of them must be negative.
     static glm::dvec2 crossingOfBound(const glm::dvec2& a, const glm::dvec2& b, double insideA, double insideB) {
         return a + insideA / (insideA - insideB) * (b - a);
     }

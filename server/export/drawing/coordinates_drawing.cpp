@@ -20,25 +20,25 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kAmplitude = 40;          // the length of the line for a coordinate that equals the circumradius
-constexpr double kMaxColumn = 48;          // the maximum width of a vertex's column
-constexpr double kMinColumn = 5;           // the minimum width of a vertex's column
+constexpr double kAmplitude = 40;          // length of the line for a coordinate equal to the circumradius
+constexpr double kMaxColumn = 48;          // maximum width of the column of a vertex
+constexpr double kMinColumn = 5;           // minimum width of the column of a vertex
 constexpr double kText = 7;                // font size
-constexpr double kNameRoom = 3.2 * kText;  // the width that the label of a vertex needs
-constexpr double kBandOpacity = 0.35;      // the opacity of the bands behind the lines of highlighted vertices
+constexpr double kNameRoom = 3.2 * kText;  // width that the label of a vertex needs
+constexpr double kBandOpacity = 0.35;      // opacity of the bands behind the lines of highlighted vertices
 
-/// Returns about the width of a line of text, from the mean width of characters.
+/// Returns the approximate width of a line of text, from the mean width of characters.
 double estimatedWidth(const std::string& text) {
     constexpr double kCharacter = 0.6;  // as a fraction of the font size
     return kCharacter * kText * static_cast<double>(text.size());
 }
 
-/// The positions of the columns. Each vertex has a column, with a vertical line for each of its four coordinates; the
-/// columns are arranged in rows.
+/// The positions of the vertices' columns. The column of a vertex has a vertical line for each of the four coordinates.
+/// Columns are arranged in rows.
 struct VertexColumnLayout {
     std::size_t count, perRow, rows;
-    double step, rowStep;    ///< the distance from a column to the next, and from a row to the next
-    std::size_t namedEvery;  ///< the distance, in columns, from one label (P0, …) to the next in a row
+    double step, rowStep;    ///< distance from a column to the next, and from a row to the next
+    std::size_t namedEvery;  ///< distance, in columns, from one label (P0, …) to the next in a row
 
     explicit VertexColumnLayout(std::size_t vertices) : count(vertices) {
         const double width = kDrawingWidth - 2 * kDrawingMargin;
@@ -90,10 +90,10 @@ Drawing drawStrip(const scene::Scene& scene) {
     return drawing;
 }
 
-/// Returns the bands behind the lines of the vertices of the highlighted element.
+/// Returns the bands behind the lines of the highlighted element's vertices.
 ShapeGroup highlightBands(const scene::Scene& scene, const VertexColumnLayout& columns) {
     ShapeGroup bands{"highlight", {}};
-    const double margin = columns.step / 10;  // half the distance from one of the four lines to the next
+    const double margin = columns.step / 10;  // half the distance between neighboring lines of the four
     for (const std::uint32_t v : scene.highlight.ownVertices) {
         const double left = columns.left(v) + margin, right = columns.left(v) + columns.step - margin;
         const double zero = columns.zero(v / columns.perRow);

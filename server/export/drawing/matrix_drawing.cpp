@@ -14,14 +14,14 @@ namespace oval4d::exports {
 namespace {
 
 constexpr double kPanelGap = 6, kName = 26, kNumberSize = 6;
-constexpr double kNumberRoom = 14;       // the room for the numbers at the left of the matrix and below the matrix
-constexpr double kCharacterWidth = 0.6;  // the mean width of a character, as a fraction of the font size
-constexpr double kNumberCharacters = 4;  // how many characters of the size kNumberSize fit into kNumberRoom
+constexpr double kNumberRoom = 14;       // room for numbers at the left of the matrix and below it
+constexpr double kCharacterWidth = 0.6;  // mean width of a character, as a fraction of the font size
+constexpr double kNumberCharacters = 4;  // how many characters with the font size kNumberSize fit into kNumberRoom
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
 
-/// Returns the tick spacing of an axis from −reach to reach: 1, 2 or 5 times a power of ten, so that there are one or
-/// two ticks on each side of 0.
+/// Returns the tick spacing of an axis from −reach to reach. It is 1, 2 or 5 times a power of ten, and gives one or two
+/// ticks on each side of 0.
 double tickSpacing(double reach) {
     constexpr double kMost = 2.6;
     const double power = std::pow(10, std::floor(std::log10(reach)));
@@ -31,7 +31,7 @@ double tickSpacing(double reach) {
     return 5 * power;
 }
 
-/// Returns multiple · step as text, with as many decimals as `step` has.
+/// Returns the product multiple · step as text, with as many decimals as `step` has.
 std::string numberText(double multiple, double step) {
     if (multiple == 0) return "0";
     const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
@@ -83,7 +83,8 @@ class SectionDrawer {
                                            .roundEnds = true,
                                            .opacity = opacity});
         }
-        const bool isCloud = !from.ballScale.empty();  // a point cloud, whose points have their own radii and opacities
+        const bool isCloud = !from.ballScale.empty();  // the points of a point cloud have radii and opacities of their
+                                                       // own
         for (std::size_t i = 0; i < from.points.size(); ++i) {
             const double opacity = slicing::opacityOf(styles.points[i]) * (isCloud ? from.ballOpacity[i] : 1);
             if (opacity == 0) continue;
@@ -93,8 +94,8 @@ class SectionDrawer {
         return group;
     }
 
-    /// Draws tick marks and their numbers: at the left edge of each row of panels, and at the lower edge of each
-    /// column. Numbers with more than kNumberCharacters characters have a smaller font size.
+    /// Draws tick marks and their numbers, at the left edge of each row of panels and the lower edge of each column.
+    /// Numbers with more than kNumberCharacters characters get a smaller font size.
     ShapeGroup drawNumbers() const {
         constexpr double kMark = 3;
         const double half = kPanel / 2;
@@ -123,13 +124,12 @@ class SectionDrawer {
         return numbers;
     }
 
-    /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws below the name the
-    /// number that must be added to each of them. Below this, draws the unit of the numbers, if it is known and not too
-    /// long.
+    /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws the number that must
+    /// be added to them below the name. Below this number, draws the unit, if it is known and short enough.
     void drawName(int axis, std::vector<DrawnShape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
-        double line = 2;  // where the next text is, in font sizes below the name
+        double line = 2;  // position of the next text, in font sizes below the name
         const auto add = [&](const std::string& text) {
             shapes.emplace_back(
                 TextLine{below + glm::dvec2(0, line * kNumberSize), kNumberSize, colorOfAxis(axis), text});
@@ -151,8 +151,8 @@ class SectionDrawer {
                kPanel / 2;
     }
 
-    // Returns how many tick spacings (step_) are subtracted from all numbers at an axis, to shorten them; 0 if the
-    // numbers are short enough.
+    // Returns how many tick spacings (step_) are subtracted from all numbers at an axis, to shorten the numbers.
+    // Returns 0 if the numbers are short enough.
     double offset(int axis) const {
         const double middle = std::round(origin_[axis] / step_);
         return static_cast<double>(numberText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;

@@ -20,7 +20,8 @@ namespace {
 using slicing::SliceSet;
 
 constexpr scene::Color kNear = 0x2b3340, kFar = 0x8a93a3, kHalo = 0xffffff;
-constexpr double kHaloWidth = 1.8;  // the width of the gap that a bar makes in bars behind it, in widths of the bar
+// A bar makes a gap in bars behind it. This is the width of the gap, in widths of the bar.
+constexpr double kHaloWidth = 1.8;
 
 scene::Color mix(scene::Color a, scene::Color b, double t) {
     scene::Color mixed = 0;
@@ -31,7 +32,8 @@ scene::Color mix(scene::Color a, scene::Color b, double t) {
     return mixed;
 }
 
-constexpr double kThickness = 0.8;  // the width of lines, as a fraction of the width of bars in pictures
+// The width of lines, as a fraction of the width of bars in pictures.
+constexpr double kThickness = 0.8;
 
 class ProjectionDrawer {
   public:
@@ -51,7 +53,7 @@ class ProjectionDrawer {
     }
 
   private:
-    // Adds a shape at a depth. Depths increase toward the viewer.
+    // Adds a shape at a depth. The depth increases toward the viewer.
     template <typename S>
     void add(double depth, S shape) {
         depths_.push_back(depth);
@@ -61,7 +63,7 @@ class ProjectionDrawer {
     glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
     static glm::dvec2 onPaper(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
 
-    // Returns the color of a bar or ball at this depth. Part 0 of the projection is the object; all other parts are
+    // Returns the color of a bar or ball at a depth. Part 0 of the projection is the object, and all other parts are
     // sections.
     scene::Color colorAt(std::size_t part, double depth) const {
         const scene::Color focus = scene_.style().axes[3];
@@ -70,7 +72,7 @@ class ProjectionDrawer {
         return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
     }
 
-    // Adds the polygon with these corners, which are in the units of the object.
+    // Adds a polygon. Its corners are in the units of the object.
     void addPolygon(std::span<const glm::dvec3> corners, scene::Color color, double opacity) {
         FilledPolygon polygon{{}, color, opacity};
         double depth = 0;
@@ -82,7 +84,7 @@ class ProjectionDrawer {
         add(depth, std::move(polygon));
     }
 
-    // Adds a loop of a part as a polygon.
+    // Adds a loop (a closed polygon of a face) of a part as a polygon.
     void addLoop(std::size_t part, std::uint32_t loop, double opacity) {
         const SliceSet& set = scene_.projection.elements;
         corners_.clear();
@@ -105,8 +107,8 @@ class ProjectionDrawer {
             }
             return;
         }
-        // A face with one loop, such as a star, is drawn as this loop: it is filled in the same way as its pieces, but
-        // has no seams between them. Only a face with several loops is drawn in pieces.
+        // A face with one loop, such as a star, is drawn as this loop, because this fills the same region as its
+        // pieces, without seams between them. Only faces with several loops are drawn in pieces.
         const slicing::FilledFaces& fill = projection.fill;
         for (std::uint32_t f = fill.faceBegin[part]; f < fill.faceBegin[part + 1]; ++f) {
             const slicing::FilledFaces::FilledFace& face = fill.faces[f];
@@ -137,8 +139,8 @@ class ProjectionDrawer {
                              b = place(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
-            // A white line, wider than this bar, makes a gap in the bars behind it. The white line is shorter than the
-            // bar, so that it makes no gap in bars that meet this one at its ends.
+            // The white line is wider than the bar, and makes a gap in the bars behind it. It is shorter than the bar,
+            // so that it makes no gap in bars that meet this bar at its ends.
             const glm::dvec3 gap = 0.12 * (b - a);
             add(depth, Line{.from = onPaper(a + gap),
                             .to = onPaper(b - gap),
@@ -167,9 +169,9 @@ class ProjectionDrawer {
     const scene::Scene& scene_;
     const glm::dmat3 view_;
     double scale_ = 1;            // drawing units per world unit
-    std::vector<double> depths_;  // the depth of each of shapes_
+    std::vector<double> depths_;  // depths of shapes_
     std::vector<DrawnShape> shapes_;
-    std::vector<glm::dvec3> corners_;  // of the current loop
+    std::vector<glm::dvec3> corners_;  // corners of the current loop
 };
 
 }  // namespace

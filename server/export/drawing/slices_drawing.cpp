@@ -26,12 +26,12 @@ namespace {
 
 using slicing::SliceSet;
 
-// Shapes less than this distance in front of the eye, or behind it, are not drawn; in world units.
+// The least distance in front of the eye, in world units, at which shapes are drawn.
 constexpr double kNearest = 1e-3;
-constexpr double kDigitHeight = 0.73;            // the height of a digit, as a fraction of the font size
-constexpr std::size_t kTypicalShapeBytes = 150;  // the approximate size of a shape in a file
+constexpr double kDigitHeight = 0.73;            // height of a digit, as a fraction of the font size
+constexpr std::size_t kTypicalShapeBytes = 150;  // approximate size of a shape in a file
 
-/// Returns the label with hyphens in place of minus signs (U+2212), because texts of drawings are ASCII.
+/// Returns the label with hyphens in place of minus signs (U+2212), because texts in drawings must be ASCII.
 std::string withAsciiMinus(const std::string& label) {
     constexpr std::string_view kMinus = "\u2212";
     std::string text = label;
@@ -40,7 +40,7 @@ std::string withAsciiMinus(const std::string& label) {
     return text;
 }
 
-/// Maps points in view space to positions in the drawing.
+/// A map from points in view space to positions in the drawing.
 class PaperProjection {
   public:
     explicit PaperProjection(const scene::Scene& scene)
@@ -49,7 +49,7 @@ class PaperProjection {
           height_(kDrawingWidth / aspect_) {}
 
     double height() const { return height_; }
-    /// Returns the length in the drawing of one world unit at the point `seen` in view space.
+    /// Returns the length, in the drawing, of one world unit at the point `seen` in view space.
     double scaleAt(const glm::dvec3& seen) const { return camera_.focalLength() * height_ / -seen.z; }
     glm::dvec2 operator()(const glm::dvec3& seen) const {
         const glm::dvec2 at = glm::dvec2(seen) * (camera_.focalLength() / -seen.z) +
@@ -89,8 +89,9 @@ class SliceDrawer {
     }
 
   private:
-    /// The layers of a convex slice, in drawing order: faces turned away from the eye, their bars and balls, faces
-    /// turned toward the eye, their bars and balls. In a slice whose faces may cross, everything is in the first layer.
+    /// The layers of a convex slice, in drawing order: faces turned away from the eye, with their bars and balls, and
+    /// then faces turned toward the eye, with their bars and balls. If faces of a slice may cross, all shapes are in
+    /// the first layer.
     enum Layer : std::uint8_t { away_faces, away_frame, toward_faces, toward_frame };
     struct LayeredShape {
         Layer layer;
@@ -108,7 +109,7 @@ class SliceDrawer {
             .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
     }
 
-    /// Returns the normal of a polygon; its length is twice the area of the polygon.
+    /// Returns the normal of a polygon. Its length is twice the area of the polygon.
     static glm::dvec3 doubleAreaVectorOf(std::span<const glm::dvec3> corners) {
         glm::dvec3 area(0);
         for (std::size_t i = 2; i < corners.size(); ++i)
@@ -122,7 +123,8 @@ class SliceDrawer {
         return corners;
     }
 
-    /// Sets towardVertices_ and towardEdges_: which vertices and edges belong to a face that is turned toward the eye.
+    /// Sets towardVertices_ and towardEdges_, which say whether a vertex or edge belongs to a face that is turned
+    /// toward the eye.
     void findSides() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
@@ -137,10 +139,10 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the color of a face whose own color is `color`, with the diffuse lighting of scene::Style but no
-    /// specular light: each channel is multiplied by ambient + diffuse · |n · l|, for the unit normal n and the
-    /// direction l to the light, and is at most 255. Both sides of the face are lit. `area` is a normal of the face in
-    /// view space, of any length; 0 if the face has no area, which is lit by the ambient light alone.
+    /// Returns the color of a lit face with the color `color`. Uses the ambient and diffuse light of scene::Style, but
+    /// no specular light. Each channel is multiplied by ambient + diffuse · |n · l|, and is at most 255; n is the unit
+    /// normal, and l the direction to the light. Both sides of the face are lit. `area` is a normal of the face in view
+    /// space, of any length. It is 0 for a face without area, which gets only ambient light.
     scene::Color lit(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;
@@ -176,7 +178,7 @@ class SliceDrawer {
         }
     }
 
-    /// Adds the convex pieces into which faces that may cross each other are divided.
+    /// Adds the convex pieces of faces that may cross each other.
     void addPieces() {
         const slicing::FilledFaces& fill = scene_.fill;
         if (fill.empty()) return;
@@ -193,14 +195,14 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the layer of a bar or ball. `toward` is whether the bar or ball belongs to a face that is turned toward
-    /// the eye.
+    /// Returns the layer of a bar or ball. `toward` says whether the bar or ball belongs to a face that is turned
+    /// toward the eye.
     Layer frameLayer(bool toward) const {
         if (scene_.needsDepthBuffer) return away_faces;
         return toward ? toward_frame : away_frame;
     }
 
-    /// Returns, for each vertex of the slice, whether the round end of a bar is drawn there and not a ball.
+    /// Returns, for each vertex of the slice, whether the round end of a bar is drawn there instead of a ball.
     std::vector<bool> findRoundEnds() const {
         std::vector<bool> found(points_.size(), false);
         if (scene_.look.parts.balls) return found;
@@ -211,9 +213,8 @@ class SliceDrawer {
         return found;
     }
 
-    // A bar has the depth of its far end, and shapes of equal depth are drawn in the order in which they are added.
-    // Balls are added before bars, so that a bar covers the ball at its far end. The ball at the near end covers the
-    // bar.
+    // A bar has the depth of its far end, and shapes of equal depth are drawn in the order of their addition. Balls are
+    // added before bars, so that a bar covers the ball at its far end. The ball at the near end covers the bar.
     void addBalls() {
         const std::vector<bool> isRoundEnd = findRoundEnds();
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
@@ -255,9 +256,9 @@ class SliceDrawer {
     const scene::Style& style_;
     const PaperProjection& paper_;
     const glm::dmat4 view_;
-    double hiddenEnd_ = 0;  // how much of each end of a bar is inside a ball, in world units
+    double hiddenEnd_ = 0;  // length of each end of a bar that is inside a ball, in world units
     std::size_t slice_ = 0;
-    std::vector<glm::dvec3> points_;  // in view space
+    std::vector<glm::dvec3> points_;  // points in view space
     std::vector<bool> towardVertices_, towardEdges_;
     std::vector<LayeredShape> items_;
 };
@@ -277,7 +278,7 @@ ShapeGroup drawLabels(const scene::Scene& scene, const PaperProjection& paper) {
     return labels;
 }
 
-/// Draws the directions of the axes x, y and z, from far to near.
+/// Draws the directions of the axes x, y and z, from the farthest to the nearest.
 ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
     constexpr double kNameAt = 1.28, kWidth = 0.09, kTip = 0.065;  // in lengths of an axis
     const scene::Style& style = scene.style();
@@ -296,7 +297,7 @@ ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
         axes.shapes.emplace_back(
             Line{.from = center, .to = place(direction), .width = kWidth * length, .color = color, .roundEnds = true});
         axes.shapes.emplace_back(Disk{place(direction), kTip * length, color});
-        // If the axis points at the viewer, its name would cover the center, so the name is placed beside the axis.
+        // If the axis points at the viewer, its name would cover the center, so place the name beside the axis.
         glm::dvec2 name = kNameAt * direction;
         if (glm::length(name) < 0.3) name = {0.3, -0.3};
         axes.shapes.emplace_back(
@@ -305,14 +306,14 @@ ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
     return axes;
 }
 
-/// Returns whether the focus point is drawn. Pictures show it in the matrix view. A drawing of the focus slice alone
+/// Returns whether to draw the focus point. Pictures show it in the matrix view. A drawing of the focus slice alone
 /// also shows it if the user has moved it away from the origin.
 bool showsFocusPoint(const scene::Look& look) {
     if (look.view == scene::View::matrix) return true;
     return !showsAllSlices(look.view) && look.focusPoint != glm::dvec3(0);
 }
 
-/// Draws the focus point in the focus slice: three lines through the point, one along each axis.
+/// Draws the focus point in the focus slice, as three lines through the point, parallel to the axes.
 ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement,
                           const PaperProjection& paper) {
     ShapeGroup point{"focus-point", {}};
@@ -339,7 +340,7 @@ Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, con
     const PaperProjection paper(scene);
     const bool many = scene.placements.size() > 1;
     Drawing drawing{(many ? "Slices: " : "Slice: ") + scene.title, kDrawingWidth, paper.height(), {}};
-    std::vector<std::pair<double, std::size_t>> order;  // by distance from the eye, the farthest first
+    std::vector<std::pair<double, std::size_t>> order;  // by distance from the eye, the farthest slice first
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         const scene::SlicePlacement& placement = scene.placements[i];
         if (placement.drawn) order.emplace_back(-glm::distance(placement.position, scene.camera.eye), i);

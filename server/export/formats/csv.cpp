@@ -22,7 +22,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// Appends the row of slice i. `origin`, ObjectInfo::originInFile, is added to w and to the centroid.
+// Appends the row of slice i. `origin` is ObjectInfo::originInFile, and is added to w and to the centroid.
 void appendSlice(std::string& out, const slicing::SliceSet& slices, const glm::dvec4& origin, int i) {
     const SliceMeasurements m = measureSlice(slices, i);
     out += std::to_string(slices.planes.first + i) + ',';
@@ -52,9 +52,9 @@ void appendMeasurements(std::string& out, const slicing::SurfaceMeasurements& m)
     out += ',' + std::to_string(m.components) + ',' + std::to_string(m.euler);
 }
 
-// Returns a text as a cell of a table: in quotation marks, with those inside doubled (RFC 4180, section 2). A
-// spreadsheet takes a text that begins with =, +, - or @ for a formula; therefore this function puts an apostrophe
-// before such a text.
+// Returns a text as a cell of a CSV table: in quotation marks, with quotation marks inside doubled (RFC 4180, section
+// 2). Puts an apostrophe before a text that begins with =, +, - or @, because spreadsheets would read such a text as a
+// formula.
 std::string csvText(const std::string& text) {
     std::string cell = "\"";
     if (text.find_first_of("=+-@") == 0) cell += '\'';
@@ -62,10 +62,10 @@ std::string csvText(const std::string& text) {
     return cell + '"';
 }
 
-/// Columns at the end of a table with the units of other columns, as far as they are known. Each column has the same
-/// cell in all rows.
+/// The columns at the end of a table that state the units of other columns, as far as the units are known. Such a
+/// column has the same cell in all rows.
 struct UnitColumns {
-    std::string names, cells;  ///< each begins with a comma unless it is empty
+    std::string names, cells;  ///< the names and cells of all columns, each after a comma
 
     void add(std::string_view name, const std::string& unit) {
         if (unit.empty()) return;
@@ -79,8 +79,8 @@ std::string unitOfW(const scene::Scene& scene) {
     return unit.isToScale ? unit.text : std::string();
 }
 
-/// The column with the coordinate in the box that all points of a slice have in common, "box_w" for the axis w. Tables
-/// have it only if there is such a coordinate, and if it is not w itself.
+/// The column for a coordinate in the field's box that all points of a slice have in common: "box_w" for the axis w. A
+/// table has this column only if there is such a coordinate, and if it does not always equal the slice's w.
 class CommonCoordinateColumn {
   public:
     CommonCoordinateColumn(const fields::Field& field, const SceneToWrite& source)
@@ -146,7 +146,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     return out;
 }
 
-// Returns a table of the values of w at which there are vertices, with the number of vertices at each value.
+// Returns a table of the values of w of the vertices, with the number of vertices at each value.
 std::string criticalCsv(const SceneToWrite& source) {
     std::string out = "w,vertices\n";
     std::vector<double> heights;
@@ -163,7 +163,7 @@ std::string criticalCsv(const SceneToWrite& source) {
 std::string fieldCriticalCsv(const SceneToWrite& source) {
     const slicing::FieldSettings& settings = source.scene.look.field;
     slicing::CriticalSearchLimits limits{.stop = source.budget.stopToken()};
-    // The search takes up to 1.5 times `limits.time`; it must end within the time of the export.
+    // The search takes up to 1.5 times `limits.time`, and must end within the time of the export.
     limits.time = std::min(limits.time, source.budget.time() / 2);
     const auto found = slicing::findCriticalSections(source.object, source.orientation, settings, limits);
     source.budget.checkTimeAndStop();

@@ -19,13 +19,13 @@ namespace {
 
 constexpr double kMetersPerMillimeter = 1e-3;
 
-// Converts an sRGB channel to linear light, because glTF vertex colors are linear.
+// Converts a channel of an sRGB color to linear light, because vertex colors in glTF are linear.
 float linear(unsigned channel) {
     const double c = channel / 255.0;
     return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
 
-/// A vertex attribute with three float32 components.
+/// The values of a vertex attribute. A value has three 32-bit floats.
 class VertexAttribute {
   public:
     void add(const glm::vec3& value) {
@@ -34,8 +34,8 @@ class VertexAttribute {
         most_ = glm::max(most_, value);
         ++count_;
     }
-    /// Appends the values to the only buffer of `model`, and returns the index of the new accessor for them. If
-    /// `bounded` is true, the accessor states the minimum and maximum of the values, as glTF requires for positions.
+    /// Appends the values to the only buffer of `model`. Returns the index of their accessor. If `bounded`, the
+    /// accessor states the minimum and the maximum of the values, as glTF requires for positions.
     int store(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;
@@ -70,8 +70,8 @@ glm::vec3 linearColor(scene::Color color) {
     return {linear(color >> 16U & 0xffU), linear(color >> 8U & 0xffU), linear(color & 0xffU)};
 }
 
-/// Adds a solid to the model. Each triangle has vertices of its own, because its corners have their own normals and
-/// colors.
+/// Adds a body to the model. Each triangle has vertices of its own, because its corners have normals and colors of
+/// their own.
 void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Model& model) {
     VertexAttribute positions;
     VertexAttribute normals;
@@ -81,7 +81,7 @@ void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Mod
     for (std::size_t t = 0; t < solid.mesh.triangles.size(); ++t) {
         const glm::dvec3 across = doubleAreaNormalOf(solid.mesh, solid.mesh.triangles[t]);
         const double length = glm::length(across);
-        if (!(length > 0)) continue;  // a degenerate triangle is invisible and has no normal
+        if (!(length > 0)) continue;  // a triangle without area is invisible and has no normal
         const glm::vec3 color = linearColor(meshes.colorOf(solid, t));
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t corner = solid.mesh.triangles[t][i];

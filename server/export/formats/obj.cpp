@@ -8,7 +8,7 @@ namespace oval4d::exports {
 
 namespace {
 
-// Replaces white space and other control characters by underscores: the name of an object in an OBJ file is one word.
+// Replaces white space and other control characters by underscores, because names in OBJ files are single words.
 std::string wordOf(std::string name) {
     std::ranges::replace_if(name, [](unsigned char c) { return c <= ' ' || c == 0x7F; }, '_');
     return name;

@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kPointsPerMillimeter = 72 / 25.4;
 
-// The error handler of libharu, which prescribes the parameters. `first` points to the HPDF_STATUS that keeps the first
-// error. After an error, the functions of libharu do nothing.
+// An error handler for libharu, with the parameters that libharu prescribes. `first` points to an HPDF_STATUS, which
+// keeps the first error. After an error, functions of libharu do nothing.
 void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
     auto& status = *static_cast<HPDF_STATUS*>(first);
     if (status == HPDF_OK) status = error;
@@ -33,12 +33,11 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 
 float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
-// libharu writes numbers beyond ±32,767 as ±32,767. This would change the direction of lines that reach so far beyond
-// the page, such as lines of slices close to the eye. Therefore shapes are cut at ±kFarthest, in the units of the
-// drawing.
+// The bound at which shapes are cut, in units of the drawing. libharu writes numbers beyond ±32,767 as ±32,767. This
+// would change the direction of lines that extend far beyond the page, such as lines of slices close to the eye.
 constexpr double kFarthest = 30'000;
 
-// Draws shapes on a page, in the units of the drawing. PDF measures positions from the lower left corner.
+// A visitor that draws shapes on a page. Positions in PDF count from the lower left corner.
 class PageWriter {
   public:
     PageWriter(HPDF_Doc document, HPDF_Page page, double height)
@@ -81,8 +80,8 @@ class PageWriter {
         HPDF_Page_TextOut(page_, x(line.at) - width / 2, y(line.at), line.text.c_str());
         HPDF_Page_EndText(page_);
     }
-    // Draws a density image: an image with the colors of OpacityImage::colorOfPixelColumn(), and OpacityImage::alphas
-    // as its soft mask, which determines the opacity of each pixel.
+    // Draws an image with the colors of OpacityImage::colorOfPixelColumn(). OpacityImage::alphas is its soft mask,
+    // which gives the opacity of each pixel.
     void operator()(const OpacityImage& density) {
         setOpacity(1);
         std::vector<HPDF_BYTE> colors;
@@ -97,8 +96,8 @@ class PageWriter {
         const auto mask =
             HPDF_LoadRawImageFromMem(document_, density.alphas.data(), width, height, HPDF_CS_DEVICE_GRAY, 8);
         HPDF_Image_AddSMask(image, mask);
-        // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
-        // (see OpacityImage).
+        // The centers of the outer pixels lie on the edges of the rectangle (see OpacityImage), so the image extends
+        // half a pixel beyond it.
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const double across = size.x / (density.columns - 1), down = size.y / (density.rows() - 1);
         const glm::dvec2 corner{density.topLeft.x - across / 2, density.bottomRight.y + down / 2};
@@ -121,8 +120,8 @@ class PageWriter {
         HPDF_Page_SetRGBFill(page_, channel(color, 16), channel(color, 8), channel(color, 0));
     }
 
-    // Sets the opacity of the next shapes. In PDF, opacity is a parameter of an extended graphics state. All shapes
-    // with the same opacity in percent share one such state.
+    // Sets the opacity of the next shapes. In PDF, the opacity is a parameter of a graphics state. All shapes with the
+    // same opacity, in percent, share a state.
     void setOpacity(double opacity) {
         const int percent = static_cast<int>(std::lround(100 * std::clamp(opacity, 0.0, 1.0)));
         if (percent == percent_) return;
@@ -144,8 +143,8 @@ class PageWriter {
     std::map<int, HPDF_ExtGState> states_;
 };
 
-// Returns the text as PDF writes it in the document information: UTF-16BE with a byte order mark, as a hexadecimal
-// string (PDF 1.4, section 3.8.1).
+// Returns a text in the form of PDF's document information: UTF-16BE with a byte order mark, as a hexadecimal string
+// (PDF 1.4, section 3.8.1).
 std::string textString(const std::string& text) {
     constexpr std::string_view kDigits = "0123456789ABCDEF";
     std::string out = "<FEFF";
@@ -167,8 +166,8 @@ std::string pdf(const Drawing& drawing) {
                                                                                           HPDF_Free);
     if (!document) throw std::runtime_error("libharu cannot create a document");
     HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
-    // libharu takes ASCII titles as they are, but no titles in UTF-16, because UTF-16 contains zero bytes. Therefore a
-    // title that is not ASCII replaces a placeholder of the same length in the finished file.
+    // libharu accepts titles in ASCII, but not in UTF-16, which contains zero bytes. So for any other title, write a
+    // placeholder of the same length, and replace it in the finished file.
     const std::string title = isAscii(drawing.title) ? "" : textString(drawing.title);
     const std::string placeholder(title.size() - std::min<std::size_t>(title.size(), 2), 'T');
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, title.empty() ? drawing.title.c_str() : placeholder.c_str());

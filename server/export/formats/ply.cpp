@@ -40,7 +40,8 @@ std::string ply(const MeshesToWrite& meshes) {
         points += solid.mesh.points.size();
         triangles += solid.mesh.triangles.size();
     }
-    const bool colored = meshes.anyHasPointColors();  // whether points have colors; if not, triangles have colors
+    // Whether points have colors. If not, triangles have colors.
+    const bool colored = meshes.anyHasPointColors();
     const std::string colors = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     const std::string number = meshes.hasDoubles ? "double" : "float";
     std::string out = "ply\nformat binary_little_endian 1.0\ncomment oval4d, millimeters\nelement vertex " +

@@ -28,9 +28,9 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kShortestPovBar = 1e-6;  // in world units; POV-Ray refuses a cylinder without length
+constexpr double kShortestPovBar = 1e-6;  // in world units; POV-Ray refuses cylinders without length
 constexpr std::uint32_t kNoPovPoint = std::numeric_limits<std::uint32_t>::max();
-constexpr std::string_view kMatte = "Matte", kShiny = "Shiny";  // the finishes that the file declares
+constexpr std::string_view kMatte = "Matte", kShiny = "Shiny";  // the finishes that a file declares
 
 template <typename Number>
 std::string povNumber(Number number) {
@@ -39,13 +39,13 @@ std::string povNumber(Number number) {
     return out;
 }
 
-/// Returns "<x, y, z>". The commas are necessary: "<1 -2 3>" has two components.
+/// Returns "<x, y, z>". The commas are necessary, because "<1 -2 3>" has two components in POV-Ray.
 template <typename Vector>
 std::string povVector(const Vector& v) {
     return "<" + povNumber(v.x) + ", " + povNumber(v.y) + ", " + povNumber(v.z) + ">";
 }
 
-/// Returns the sRGB channels of a color, 0 … 1, separated by commas.
+/// Returns the sRGB channels of a color, from 0 to 1, separated by commas.
 std::string povChannels(scene::Color color) {
     std::string out;
     for (const unsigned shift : {16U, 8U, 0U}) {
@@ -55,7 +55,7 @@ std::string povChannels(scene::Color color) {
     return out;
 }
 
-/// Returns the text as a string literal, with hyphens in place of minus signs, which POV-Ray's fonts do not have.
+/// Returns a text as a string literal. Minus signs become hyphens, because the fonts of POV-Ray lack minus signs.
 std::string povString(std::string_view text) {
     constexpr std::string_view kMinus = "\u2212";
     std::string out = "\"";
@@ -68,10 +68,11 @@ std::string povString(std::string_view text) {
     return out + '"';
 }
 
-/// The textures of a file. Each of them is declared once, so that a user changes a color in one place.
+/// The textures in a file. Each texture is declared once, so that a user can change a color in one place.
 class PovTextures {
   public:
-    /// Returns the number of the texture with this color, opacity (0 … 1) and finish. Declares it if it is new.
+    /// Returns the number of the texture with this color, opacity (0 … 1) and finish. Declares the texture if it is
+    /// new.
     std::uint32_t numberOf(scene::Color color, double opacity, std::string_view finish) {
         const auto next = static_cast<std::uint32_t>(numbers_.size());
         const auto [found, isNew] = numbers_.try_emplace(std::tuple(color, opacity, finish), next);
@@ -90,12 +91,12 @@ class PovTextures {
     std::string declarations_;
 };
 
-/// A triangle mesh. Without normals, its triangles are flat.
+/// A triangle mesh. If `normals` is empty, triangles are flat.
 struct PovMesh {
     std::vector<glm::vec3> points, normals;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::array<std::uint32_t, 3>> textures;  ///< per triangle: the numbers of its corners' textures
-    /// Whether light from behind lights a triangle as light from the front does. Faces in pictures are lit in this way.
+    std::vector<std::array<std::uint32_t, 3>> textures;  ///< for each triangle: the texture numbers of its corners
+    /// Whether light from behind lights triangles like light from the front, as it lights faces in pictures.
     bool isLitFromBehind = false;
 
     void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t texture) {
@@ -115,7 +116,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
     out += "mesh2 {\n";
     appendPovVectors(out, "vertex_vectors", mesh.points);
     if (!mesh.normals.empty()) appendPovVectors(out, "normal_vectors", mesh.normals);
-    std::map<std::uint32_t, std::size_t> places;  // per texture number: its index in the texture list of the mesh
+    std::map<std::uint32_t, std::size_t> places;  // for each texture number: its index in the texture list of the mesh
     for (const auto& corners : mesh.textures) {
         for (const std::uint32_t texture : corners) places.try_emplace(texture, 0);
     }
@@ -134,11 +135,11 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
     out += mesh.isLitFromBehind ? " }\ndouble_illuminate\n}\n" : " }\n}\n";
 }
 
-/// The place of a slice or of a part of the projection, and the radii and colors of its balls and bars.
+/// The place and size of a slice or of a part of the projection, and the radii and colors of its balls and bars.
 struct PovPlacement {
     glm::dvec3 position;
-    double scale;                  ///< world units per unit of the object
-    double ballRadius, barRadius;  ///< in world units; balls or bars with the radius 0 are not drawn
+    double scale;                  ///< in world units per unit of the object
+    double ballRadius, barRadius;  ///< in world units; balls or bars with radius 0 are not drawn
     scene::Color ballColor, barColor;
 
     glm::vec3 operator()(const glm::dvec3& p) const { return glm::vec3(position + scale * p); }
@@ -197,9 +198,9 @@ class PovWriter {
     }
 
     /// Appends the camera. POV-Ray looks from `location` through the points direction + x · right + y · up, where x and
-    /// y are −1/2 … 1/2. POV-Ray also accepts right-handed vectors, although its own coordinates are left-handed. If
-    /// the aspect ratio of the rendered image differs from that of the picture, `right` or `up` is lengthened, so that
-    /// the image shows the whole picture.
+    /// y are from −1/2 to 1/2. POV-Ray also accepts right-handed vectors, although its own coordinates are left-handed.
+    /// If the rendered image has another aspect ratio than the picture, `right` or `up` is lengthened, so that the
+    /// image shows the whole picture.
     void appendCamera(std::string& out) const {
         const scene::Camera& camera = scene_.camera;
         const double aspect = static_cast<double>(scene_.viewport.width) / scene_.viewport.height;
@@ -264,8 +265,8 @@ class PovWriter {
         }
     }
 
-    /// Adds the convex faces of a slice of `set`. `opacity` is the opacity of fully visible faces; `cellOf` returns the
-    /// cell whose color a face has.
+    /// Adds the convex faces of a slice of `set`. `opacity` is the opacity of fully visible faces. `cellOf` returns the
+    /// cell that gives a face its color.
     template <typename CellOf>
     void addFaces(const slicing::SliceSet& set, std::size_t slice, const PovPlacement& part, double opacity,
                   CellOf cellOf) {
@@ -284,8 +285,8 @@ class PovWriter {
         appendPovMesh(objects_, mesh);
     }
 
-    /// Adds the convex pieces into which the faces of a slice of `fill` are divided. `cells` has the cell whose color
-    /// each face has; `opacity` is the opacity of fully visible faces.
+    /// Adds the convex pieces into which the faces of a slice of `fill` are divided. `cells` contains the cell that
+    /// gives each face its color. `opacity` is the opacity of fully visible faces.
     void addPieces(const slicing::FilledFaces& fill, const std::vector<std::uint32_t>& cells, std::size_t slice,
                    const PovPlacement& part, double opacity) {
         PovMesh mesh;
@@ -315,14 +316,14 @@ class PovWriter {
         }
     }
 
-    /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. The level set and the caps are separate
-    /// meshes, because the points where they meet have different normals and colors in each.
+    /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. They are separate meshes, because the
+    /// points on their common rim have different normals and colors in each.
     void addSurface(const slicing::SliceSurface& surface, std::size_t slice, const PovPlacement& part,
                     const scene::SurfaceLook::LevelLook& level, bool ofCaps) {
         PovMesh mesh;
-        // Per point of the surface: its index in the mesh.
+        // For each point of the surface: its index in the mesh.
         std::vector<std::uint32_t> numbers(surface.points.size(), kNoPovPoint);
-        std::vector<std::uint32_t> textureOf;  // per point of the mesh: the number of its texture
+        std::vector<std::uint32_t> textureOf;  // for each point of the mesh: the number of its texture
         for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
             if (surface.levelIndex(t) != level.index || surface.isCap(t) != ofCaps) continue;
             auto& corners = mesh.triangles.emplace_back();
@@ -378,14 +379,14 @@ class PovWriter {
     }
 
     /// Appends the texture and the closing braces of a ball or bar. A line of sight crosses the surface of the shape
-    /// twice. Each crossing lets the fraction √(1 − opacity) of the light pass, so that the shape as a whole has the
-    /// opacity `opacity`.
+    /// twice. Each crossing transmits the fraction √(1 − opacity) of the light, so that the whole shape has the opacity
+    /// `opacity`.
     void endShape(scene::Color color, double opacity) {
         const std::uint32_t texture = textures_.numberOf(color, 1 - std::sqrt(1 - opacity), kShiny);
         objects_ += " texture { " + PovTextures::nameOf(texture) + " } }\n";
     }
 
-    /// Adds the labels, each as a text that is parallel to the picture.
+    /// Adds the labels, as texts that are parallel to the plane of the picture.
     void addLabels() {
         bool isFirst = true;
         for (const scene::SlicePlacement& placement : scene_.placements) {
@@ -400,7 +401,7 @@ class PovWriter {
         }
     }
 
-    // Font 2 of POV-Ray is a sans-serif font, whose digits are 0.73 high at the size 1.
+    // Font 2 of POV-Ray is a sans-serif font. At size 1, its digits are 0.73 high.
     static constexpr std::string_view kLabelMacro = R"(
 // Top: the center of the label's top edge.
 #macro Label(Text, Top, Size, Color)
@@ -423,11 +424,11 @@ class PovWriter {
     const slicing::SliceSet& set_;
     const scene::Style& style_;
     const glm::dmat4 toView_;
-    const glm::dmat3 axes_;  // the right, up and backward directions of the camera
+    const glm::dmat3 axes_;  // the directions right, up and back of the camera
     PovTextures textures_;
     std::string objects_;
     std::optional<FieldSurfaceSource> surfaces_;  // empty unless the object is a field
-    std::size_t triangles_ = 0;                   // the number of triangles of the surfaces so far
+    std::size_t triangles_ = 0;                   // number of triangles of all surfaces so far
 };
 
 }  // namespace

@@ -9,10 +9,10 @@ namespace oval4d::exports {
 
 namespace {
 
-// Returns the name of the module of the body with this index.
+// Returns the name of the module for the body with the index `body`.
 std::string moduleName(std::size_t body) { return "body_" + std::to_string(body + 1); }
 
-// Appends a vector of OpenSCAD, such as "[1, 0.5, 0]".
+// Appends a vector in the syntax of OpenSCAD, such as "[1, 0.5, 0]".
 void appendBracketed(std::string& out, const glm::dvec3& vector) {
     for (int axis = 0; axis < 3; ++axis) {
         out += axis == 0 ? "[" : ", ";
@@ -22,8 +22,8 @@ void appendBracketed(std::string& out, const glm::dvec3& vector) {
 }
 
 void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
-    // `convexity` is the number of times that a line of sight may enter the body. Previews of differences and
-    // intersections in OpenSCAD are wrong where a line enters the body more often.
+    // `convexity` is the number of times that a line of sight may enter the body. If a line enters the body more often,
+    // previews of differences and intersections in OpenSCAD are wrong.
     out += "\n// " + onlyXmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
            scene::cssColor(solid.color) + "\") polyhedron(convexity = 10, points = [";
     std::string_view separator = "\n";
@@ -35,7 +35,8 @@ void appendModule(std::string& out, const std::string& name, const PlacedMesh& s
     separator = "\n[";
     for (const auto& [a, b, c] : solid.mesh.triangles) {
         out += std::exchange(separator, ",\n[");
-        // Seen from outside, faces of OpenSCAD are clockwise, but triangles of a Mesh are counterclockwise.
+        // Swap two corners: seen from outside, faces in OpenSCAD are clockwise, but triangles of a Mesh are
+        // counterclockwise.
         out += std::to_string(a) + ", " + std::to_string(c) + ", " + std::to_string(b) + ']';
     }
     out += "\n]);\n}\n";
@@ -44,7 +45,7 @@ void appendModule(std::string& out, const std::string& name, const PlacedMesh& s
 }  // namespace
 
 std::string scad(const MeshesToWrite& meshes) {
-    // A line end in a name would end its comment; onlyXmlCharacters() removes line ends.
+    // onlyXmlCharacters() removes line ends, because a line end in a name would end the comment.
     std::string out = "// " + onlyXmlCharacters(meshes.title) + ", in millimeters, from oval4d\n";
     for (std::size_t i = 0; i < meshes.solids.size(); ++i) {
         meshes.budget.checkTimeAndStop();

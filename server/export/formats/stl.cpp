@@ -8,8 +8,8 @@
 
 #include "export/formats/little_endian.hpp"
 
-// Binary STL: a header of 80 bytes, the number of triangles and, for each triangle, its normal, three corners and two
-// unused bytes; all numbers are little-endian.
+// A binary STL file consists of a header of 80 bytes, the number of triangles, and the triangles. A triangle consists
+// of its normal, three corners and two unused bytes. All numbers are little-endian.
 
 namespace oval4d::exports {
 

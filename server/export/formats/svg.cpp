@@ -26,7 +26,7 @@ std::string attribute(std::string_view name, const std::string& value) {
 }
 std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }
 
-/// Returns points as the attribute `points` lists them.
+/// Returns points as text for the attribute `points`.
 std::string listOf(const std::vector<glm::dvec2>& points) {
     std::string list;
     for (const glm::dvec2& point : points) {
@@ -40,8 +40,8 @@ std::string opacityAttribute(std::string_view name, double opacity) {
     return opacity < 1 ? attribute(name, opacity) : std::string();
 }
 
-/// Returns the opacities of the image (OpacityImage::alphas) as SVG paths. The opacities are rounded to multiples of
-/// 1/kTones. For each opacity except 0, there is one path with the outlines of all pixels of this opacity.
+/// Returns the opacities of an image (OpacityImage::alphas) as SVG paths. Opacities are rounded to multiples of
+/// 1/kTones. For each opacity except 0, there is a path with the outlines of all pixels of this opacity.
 std::string densityPaths(const OpacityImage& density) {
     constexpr int kTones = 32;
     const auto toneAt = [&](int row, int column) { return (density.alpha(row, column) * kTones + 127) / 255; };
@@ -63,7 +63,7 @@ std::string densityPaths(const OpacityImage& density) {
     return out;
 }
 
-/// Returns an SVG gradient with the id `axes-colors`, which goes through OpacityImage::colors from the first column to
+/// Returns an SVG gradient with the id `axes-colors`. It runs through OpacityImage::colors, from the first column to
 /// the last.
 std::string gradient(const OpacityImage& density) {
     std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
@@ -76,7 +76,7 @@ std::string gradient(const OpacityImage& density) {
     return out + "</linearGradient>\n";
 }
 
-/// A visitor that returns the SVG element of a shape.
+/// A visitor that returns a shape as an SVG element.
 struct ElementWriter {
     std::string operator()(const Line& line) const {
         return "<line" + (line.id.empty() ? "" : attribute("id", xmlEscaped(line.id))) +
@@ -106,8 +106,8 @@ struct ElementWriter {
                attribute("x", line.at.x) + attribute("y", line.at.y) + '>' + xmlEscaped(line.text) + "</text>\n";
     }
     std::string operator()(const OpacityImage& density) const {
-        // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
-        // (see OpacityImage).
+        // The centers of the outer pixels lie on the edges of the rectangle (see OpacityImage), so the image extends
+        // half a pixel beyond it.
         const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;

@@ -21,8 +21,8 @@ void check(LIB3MFRESULT result, const char* what) {
 template <typename Thing>
 using Lib3mfPointer = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
 
-// Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to the object. If the call
-// fails, throws an exception with the message `what`.
+// Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to this object. Throws an
+// exception with the message `what` if the call fails.
 template <typename Thing, typename Make>
 Lib3mfPointer<Thing> owned(const char* what, Make&& make) {
     Thing* made = nullptr;
@@ -30,7 +30,7 @@ Lib3mfPointer<Thing> owned(const char* what, Make&& make) {
     return {made, &lib3mf_release};
 }
 
-// The seekable buffer that lib3mf writes to.
+// A seekable buffer, to which lib3mf writes the file.
 struct SeekableBuffer {
     std::string bytes;
     std::size_t at = 0;
@@ -47,7 +47,7 @@ struct SeekableBuffer {
     }
 };
 
-// The progress callback of lib3mf. Returns false to cancel writing.
+// A progress callback for lib3mf. Returns false to cancel writing.
 bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
     return !static_cast<const Budget*>(budget)->mustStop();
 }
@@ -78,7 +78,7 @@ void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
 std::string threeMf(const MeshesToWrite& meshes) {
     const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
     check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
-    // lib3mf escapes names, but not metadata.
+    // Escape the title, because lib3mf escapes names, but not metadata.
     check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()), "cannot set the title");
     check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
     for (const PlacedMesh& solid : meshes.solids) {

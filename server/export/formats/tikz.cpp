@@ -20,10 +20,10 @@ namespace oval4d::exports {
 
 namespace {
 
-// TeX has no lengths of 16,384 points or more (The TeXbook, chapter 10).
+// Lengths in TeX are less than 16,384 points (The TeXbook, chapter 10).
 constexpr double kFarthestPoints = 16'000, kPointsPerMillimeter = 72.27 / 25.4;
 
-// Returns a number with at most this many decimals.
+// Returns a number with at most `count` decimals.
 std::string decimals(double value, int count) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.*f", count, value);
@@ -36,7 +36,7 @@ std::string decimals(double value, int count) {
 
 std::string position(const glm::dvec2& at) { return '(' + decimals(at.x, 2) + ',' + decimals(at.y, 2) + ')'; }
 
-// Returns ASCII text as LaTeX. A hyphen before a digit, at the start or after a blank, becomes a minus sign.
+// Returns ASCII text as LaTeX. A hyphen before a digit becomes a minus sign, if it is at the start or after a blank.
 std::string latexEscaped(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -61,10 +61,10 @@ std::string latexEscaped(std::string_view text) {
     return out;
 }
 
-/// A visitor that writes shapes as TikZ commands, and collects the colors of the shapes.
+/// A visitor that writes shapes as TikZ commands and collects their colors.
 class CommandWriter {
   public:
-    /// `unit`: as returned by Drawing::millimetersPerUnit().
+    /// `unit` is the result of Drawing::millimetersPerUnit().
     explicit CommandWriter(double unit) : unit_(unit) {}
 
     void operator()(const Line& line) {
@@ -99,8 +99,8 @@ class CommandWriter {
                "}\\selectfont] at " + position(line.at) + " {" + latexEscaped(line.text) + "};\n";
     }
     void operator()(const OpacityImage& density) {
-        // The image extends half a pixel beyond the rectangle, because the centers of the outer pixels lie on its edges
-        // (see OpacityImage).
+        // The centers of the outer pixels lie on the edges of the rectangle (see OpacityImage), so the image extends
+        // half a pixel beyond it.
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const glm::dvec2 pixel(size.x / (density.columns - 1), size.y / (density.rows() - 1));
         for (int column = 0; column < density.columns; ++column) {
@@ -118,7 +118,7 @@ class CommandWriter {
         }
     }
 
-    /// Returns the definitions of all colors that have been used.
+    /// Returns the definitions of all colors that were used.
     std::string colorDefinitions() const {
         std::string definitions;
         for (const scene::Color color : colors_)
@@ -126,10 +126,10 @@ class CommandWriter {
         return definitions;
     }
 
-    std::string out;  ///< the commands
+    std::string out;  ///< the TikZ commands
 
   private:
-    // Adds point i of a path. A few points share a line of the file.
+    // Adds point i of a path. Several points share a line of the file.
     void append(const glm::dvec2& point, std::size_t i) {
         constexpr std::size_t kPointsPerLine = 6;
         out += i > 0 && i % kPointsPerLine == 0 ? '\n' : ' ';
@@ -147,7 +147,7 @@ class CommandWriter {
         return digits.data();
     }
     static std::string nameFor(scene::Color color) { return "oval" + hexadecimal(color); }
-    // Returns the LaTeX name of a color, and remembers the color for colorDefinitions().
+    // Returns the LaTeX name of a color, and adds the color to the colors that colorDefinitions() returns.
     std::string use(scene::Color color) {
         colors_.insert(color);
         return nameFor(color);

@@ -19,7 +19,7 @@ namespace oval4d::exports {
 
 namespace {
 
-/// A regular lattice in a slice: points origin + spacing · (i, j, k).
+/// A regular lattice in a slice: the points origin + spacing · (i, j, k).
 struct SliceLattice {
     glm::dvec3 origin{0}, spacing{1};
     glm::ivec3 points{1};
@@ -27,8 +27,8 @@ struct SliceLattice {
     std::size_t size() const { return static_cast<std::size_t>(points.x) * points.y * points.z; }
 };
 
-/// Returns a lattice that fills the bounding box of the slice of the field's domain. Along each axis, neighboring
-/// points are at most `step` apart.
+/// Returns a lattice that fills the bounding box of the slice of the field's domain. Neighboring points are at most
+/// `step` apart along each axis.
 SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
     glm::dvec3 low = slices.vertices.front(), high = low;
     for (const glm::dvec3& vertex : slices.vertices) {
@@ -46,7 +46,7 @@ SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
     return lattice;
 }
 
-/// Returns the values at the points of the lattice in the hyperplane at `w`, x fastest; NaN outside of the domain.
+/// Returns the values at the lattice points in the hyperplane at `w`, x fastest. Values outside the domain are NaN.
 /// `toFunction` maps coordinates of the rotated object to coordinates of the function, measured from Field::center.
 std::vector<float> sample(const fields::Field& field, const SliceLattice& lattice, const glm::dmat4& toFunction,
                           double w, const Budget& budget) {
@@ -81,7 +81,8 @@ std::vector<float> sample(const fields::Field& field, const SliceLattice& lattic
 }  // namespace
 
 std::string vti(const SceneToWrite& source) {
-    constexpr int kCells = 128;  // the number of lattice cells along the diameter of the circumscribed sphere
+    // The number of lattice cells along the diameter of the circumscribed sphere.
+    constexpr int kCells = 128;
     const slicing::SliceSet& slices = *source.scene.slices;
     const auto refuse = [](std::string message) {
         throw ExportRefused{{ExportRefusal::Cause::no_body, std::move(message)}};

@@ -15,7 +15,8 @@ std::string vtkFile(std::string_view type, std::string_view attributes, std::str
 
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes, const fields::Quantity& quantity) {
-    // In VTK's format, the size of the data in bytes precedes the data, and both are encoded as one Base64 text.
+    // In VTK's format, the size of the data in bytes comes first. Size and data are encoded together as one Base64
+    // text.
     std::string data;
     data.reserve(sizeof(std::uint64_t) + bytes.size());
     putLittleEndian(data, std::uint64_t{bytes.size()});
@@ -25,13 +26,14 @@ void appendVtkArray(std::string& out, std::string_view type, std::string_view na
     if (!quantity.name.empty()) out.append(" ComponentName0=\"").append(xmlEscaped(quantity.name)).append("\"");
     out.append(" format=\"binary\">\n");
     const std::size_t begin = out.size();
-    const std::size_t size = sodium_base64_encoded_len(data.size(), sodium_base64_VARIANT_ORIGINAL);  // with a final 0
+    // With a terminating zero.
+    const std::size_t size = sodium_base64_encoded_len(data.size(), sodium_base64_VARIANT_ORIGINAL);
     out.resize(begin + size);
     sodium_bin2base64(out.data() + begin, size, reinterpret_cast<const unsigned char*>(data.data()), data.size(),
                       sodium_base64_VARIANT_ORIGINAL);
     out.resize(begin + size - 1);
     out.append("\n");
-    // VTK expects the data first.
+    // VTK expects the data before the unit.
     if (!quantity.unit.empty()) {
         out.append("<InformationKey name=\"UNITS_LABEL\" location=\"vtkDataArray\">");
         out.append(xmlEscaped(quantity.unit)).append("</InformationKey>\n");

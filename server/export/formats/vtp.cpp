@@ -19,8 +19,7 @@ namespace oval4d::exports {
 
 namespace {
 
-/// The kind of elements of the slices that the file lists: the one of the highest dimension that slices of the object
-/// have.
+/// The kind of slice elements in the file: the kind with the highest dimension that slices of the object have.
 enum class ListedElementKind : std::uint8_t { vertices, edges, faces };
 
 ListedElementKind elementsOf(const slicing::Object& object) {
@@ -36,14 +35,15 @@ ListedElementKind elementsOf(const slicing::Object& object) {
     return ListedElementKind::faces;
 }
 
-/// The arrays of the file.
+/// The arrays in the file.
 struct PolyData {
     ListedElementKind elements = ListedElementKind::faces;
-    std::vector<double> points;                       // x, y, z of each point
-    std::vector<float> normals;                       // x, y, z of the normal at each point
-    std::vector<float> values, secondValues, growth;  // secondValues is empty if there is no second function
-    std::vector<std::int64_t> corners, ends;          // per corner: its point; per element: its end in `corners`
-    std::vector<std::int32_t> n, cell;                // `cell` is empty unless the elements are faces
+    std::vector<double> points;                       // x, y and z of each point
+    std::vector<float> normals;                       // x, y and z of the normal at each point
+    std::vector<float> values, secondValues, growth;  // secondValues is empty without a second function
+    // `corners` has the point index of each corner. `ends` has, for each element, the end of its corners in `corners`.
+    std::vector<std::int64_t> corners, ends;
+    std::vector<std::int32_t> n, cell;  // `cell` is empty unless the elements are faces
     std::vector<double> w, level;
     std::vector<std::uint8_t> cap;
 };
@@ -94,7 +94,7 @@ void addElements(const SceneToWrite& source, int slice, PolyData& out) {
     }
 }
 
-/// Adds the points of a surface, and returns the index of the first one in the file.
+/// Adds the points of a surface. Returns the index of the first of these points in the file.
 std::int64_t addPoints(const FieldSliceSurface& exported, const glm::dvec3& place, PolyData& out) {
     const slicing::SliceSurface& surface = exported.surface;
     const auto first = static_cast<std::int64_t>(out.points.size() / 3);
@@ -109,10 +109,10 @@ std::int64_t addPoints(const FieldSliceSurface& exported, const glm::dvec3& plac
     return first;
 }
 
-/// Adds a second copy of each point that is in a cap. This copy has the mean normal of the caps at the point; the first
-/// copy, which addPoints() added, has the normal of the level set. `first` is the index in the file of the first point
-/// of the surface. Returns, for each point of the surface, the index in the file of its second copy; −1 if the point is
-/// in no cap.
+/// Adds a second copy of each point of a cap. The second copy has the mean normal of the caps at the point; the first
+/// copy, from addPoints(), has the normal of the level set. `first` is the index in the file of the surface's first
+/// point. Returns, for each point of the surface, the index in the file of its second copy, or −1 if the point is in no
+/// cap.
 std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std::int64_t first, PolyData& out) {
     std::vector<std::int64_t> copies(surface.points.size(), -1);
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -168,8 +168,8 @@ void appendArray(std::string& out, std::string_view name, const std::vector<Numb
     appendVtkArray(out, name, components, std::span<const Number>(numbers), quantity);
 }
 
-// Returns the XML element Piece, which contains all of `data`. `field` is null if the object is not a field. `units`
-// are the units of the axes. `asDoubles` says whether the coordinates of points are written as 64-bit floats.
+// Returns the XML element Piece with all of `data`. `field` is null if the object is not a field. `units` are the units
+// of the axes. `asDoubles` says whether coordinates are written as 64-bit floats.
 std::string pieceElement(const PolyData& data, const fields::Field* field, const fields::PictureUnits& units,
                          bool asDoubles) {
     const auto countOf = [&](ListedElementKind elements) {

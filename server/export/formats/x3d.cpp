@@ -15,8 +15,8 @@ void appendColor(std::string& out, scene::Color color) {
     }
 }
 
-// Returns the text as a string of an MFString in an XML attribute: in double quotes, with a backslash before each
-// double quote and each backslash of the text (ISO/IEC 19776-1).
+// Returns a text as a string of an MFString (a list of strings) in an XML attribute: in double quotes, with a backslash
+// before each double quote and backslash (ISO/IEC 19776-1).
 std::string quotedString(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {

@@ -15,21 +15,21 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kMinHeight = 1;    // minimum height of a capital letter in millimeters
+constexpr double kMinHeight = 1;    // minimum height of a capital letter, in millimeters
 constexpr double kMargin = 0.6;     // margin around the text, in heights of a capital letter
-constexpr double kMinDepth = 0.25;  // minimum depth of the letters in millimeters
-constexpr double kMaxDepth = 0.8;   // maximum depth of the letters in millimeters
+constexpr double kMinDepth = 0.25;  // minimum depth of letters, in millimeters
+constexpr double kMaxDepth = 0.8;   // maximum depth of letters, in millimeters
 
 /// A face of a body: all triangles of the mesh with the same cell.
 struct CellFace {
-    std::vector<std::uint32_t> loop;  // mesh points, counterclockwise
+    std::vector<std::uint32_t> loop;  // indices of mesh points, counterclockwise
     glm::dvec3 normal{0};
-    glm::dvec3 middle{0};  // centroid
+    glm::dvec3 middle{0};  // centroid of the face
 };
 
-/// A placement of the text on a face. `middle` is the center of the text, `right` the reading direction, `up` the
-/// direction from the feet of the letters to their tops, `normal` the outward normal of the face, `height` the height
-/// of a capital letter, and `depth` the depth of the letters, both in millimeters.
+/// A place for the text on a face. `middle` is the center of the text, `right` the reading direction, and `up` the
+/// direction from the feet of letters to their tops. `normal` is the outward normal of the face. `height` is the height
+/// of a capital letter, and `depth` the depth of letters, both in millimeters.
 struct TextPlacement {
     std::uint32_t cell = kNoCell;
     const Lettering* text = nullptr;
@@ -37,8 +37,8 @@ struct TextPlacement {
     double height = 0, depth = 0;
 };
 
-/// Returns the faces of the mesh; the key of a face is its cell. Omits faces without area, and faces that have holes or
-/// consist of several parts.
+/// Returns the faces of the mesh, by their cells. Leaves out faces without area, faces with holes, and faces in several
+/// parts.
 std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
     std::map<std::uint32_t, CellFace> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
@@ -63,15 +63,15 @@ std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
         face.normal /= area;
         face.middle /= area;
         for (auto at = next.begin()->first; face.loop.size() < next.size(); at = next.at(at)) face.loop.push_back(at);
-        if (next.at(face.loop.back()) != face.loop.front()) face.loop.clear();  // more than one boundary loop
+        if (next.at(face.loop.back()) != face.loop.front()) face.loop.clear();  // the face has several boundary loops
     }
     std::erase_if(faces, [](const auto& entry) { return entry.second.loop.empty(); });
     return faces;
 }
 
-/// Returns the placement of `text` in the middle of `face` with the largest letters that leave the margin free. The
-/// text runs along `right` or, if the letters would be upside down, in the opposite direction. The caller must set
-/// `cell` and `depth` of the result.
+/// Returns the place in the middle of `face` that allows the largest letters with a free margin. The text runs along
+/// `right`; if letters would be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
+/// result.
 TextPlacement fit(const Mesh& mesh, const CellFace& face, const glm::dvec3& right, const Lettering& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
@@ -91,8 +91,8 @@ TextPlacement fit(const Mesh& mesh, const CellFace& face, const glm::dvec3& righ
     return placement;
 }
 
-/// Returns the depth of the letters: the least of kMaxDepth, a quarter of the letters' height, and half the depth at
-/// which the rectangle around the text, moved into the body, meets another face.
+/// Returns the depth of letters, the least of three numbers: kMaxDepth, a quarter of the letters' height, and half the
+/// depth at which the rectangle around the text would meet another face, if moved into the body.
 double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, CellFace>& faces, const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
@@ -121,8 +121,8 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, 
     return triangles == mesh.triangles.size();
 }
 
-/// Engraves the text: cuts holes for the letters into the face, and adds the walls and the floors of the letters.
-/// Returns false and leaves the mesh unchanged if the result would not be a closed manifold.
+/// Engraves the text: cuts holes for letters into the face, and adds the walls and floors of the letters. Returns false
+/// and leaves the mesh unchanged if the result would not be a closed manifold.
 bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placement, const RoundingGrid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - placement.middle, placement.right),
@@ -130,9 +130,9 @@ bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placemen
     };
     std::vector<Contour> holed(1);
     std::vector<Contour> letters;
-    std::vector<std::uint32_t> boundary = face.loop;  // the mesh point of each corner of `holed`
-    std::vector<std::uint32_t> bottoms;               // the mesh points below the corners of `letters`
-    std::vector<std::uint32_t> tops;                  // the mesh points at the corners of `letters`
+    std::vector<std::uint32_t> boundary = face.loop;  // mesh points of the corners of `holed`
+    std::vector<std::uint32_t> bottoms;               // mesh points below the corners of `letters`
+    std::vector<std::uint32_t> tops;                  // mesh points at the corners of `letters`
     for (const std::uint32_t p : face.loop) holed[0].push_back(flat(mesh.points[p]));
     Mesh result = mesh;
     for (const Contour& outline : placement.text->contours) {
@@ -220,8 +220,7 @@ Mesh LabelText::labelBody(double size, const RoundingGrid& grid) const {
         }
     }
     Mesh mesh = convexHullOfGridPoints(corners, grid);
-    // The faces of the box are numbered by axis and side: 2 · axis, plus 1 for the side in the positive direction.
-    // Therefore face 5 is the top.
+    // Number the faces of the box: 2 · axis, plus 1 for the side in the positive direction. So face 5 is the top.
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const glm::dvec3 normal = doubleAreaNormalOf(mesh, mesh.triangles[t]);
         for (std::uint32_t axis = 0; axis < 3; ++axis) {

@@ -16,9 +16,9 @@ namespace oval4d::exports {
 namespace {
 
 constexpr double kLineStep = 1.7;  // distance between baselines, in heights of a capital letter
-constexpr int kPieces = 4;         // line segments per curve
+constexpr int kPieces = 4;         // number of line segments per curve
 
-// Converts lines of text to contours, with FreeType. The unit is the height of a capital letter.
+// A converter from lines of text to contours, with FreeType. The unit is the height of a capital letter.
 class TextOutliner {
   public:
     TextOutliner() {
@@ -39,7 +39,7 @@ class TextOutliner {
     TextOutliner(const TextOutliner&) = delete;
     TextOutliner& operator=(const TextOutliner&) = delete;
 
-    /// Appends the contours of a line of text whose baseline starts at (0, y), and returns the length of the line.
+    /// Appends the contours of a line of text. The baseline starts at (0, y). Returns the length of the line.
     double write(const std::string& text, double y, std::vector<Contour>& out) {
         origin_ = {0, y};
         out_ = &out;
@@ -88,8 +88,8 @@ class TextOutliner {
     int curve(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, int degree) {
         const glm::dvec2 a = out_->back().back();
         const glm::dvec2 d = place(to);
-        // Converts a quadratic Bézier curve to an equal cubic one. The control points of the cubic curve lie two thirds
-        // of the way from the ends to the control point of the quadratic curve.
+        // Convert a quadratic Bézier curve to an equal cubic curve. Each control point of the cubic curve lies two
+        // thirds of the way from an end to the control point of the quadratic curve.
         const glm::dvec2 b = degree == 3 ? place(first) : glm::mix(a, place(first), 2.0 / 3);
         const glm::dvec2 c = degree == 3 ? place(second) : glm::mix(d, place(second), 2.0 / 3);
         for (int i = 1; i <= kPieces; ++i) {
@@ -107,7 +107,7 @@ class TextOutliner {
     std::vector<Contour>* out_ = nullptr;
 };
 
-/// Removes each point that is equal to the point before it; the point before the first one is the last one.
+/// Removes each point that is equal to the point before it. The last point counts as the point before the first.
 void removeDuplicates(Contour& contour) {
     contour.erase(std::unique(contour.begin(), contour.end()), contour.end());
     while (contour.size() > 1 && contour.front() == contour.back()) contour.pop_back();

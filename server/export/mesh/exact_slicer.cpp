@@ -10,8 +10,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// Returns the size in bytes of the tables of a slicing::ClosedSurfaceSlicer for the field. They have two numbers for
-// each index along each axis of an array. For a formula, whose tables are small, returns 0.
+// Returns the size, in bytes, of the tables of a slicing::ClosedSurfaceSlicer for an array: two numbers for each index
+// along each axis. Returns 0 for a formula, whose tables are small.
 std::size_t tableBytes(const fields::Field& field) {
     std::size_t indices = 0;
     if (field.array)

@@ -9,9 +9,9 @@ namespace oval4d::exports {
 
 namespace {
 
-// Returns the colors of the points of a surface, as in the picture. Points on the rims of caps belong to both the caps
-// and the level set, and get the color of the level set. One pass over the triangles suffices, because the triangles of
-// the level set come before those of the caps.
+// Returns the colors of the points of a surface, as in the picture. Points on the rims of caps belong to the caps and
+// to the level set; they get the color of the level set. One pass is enough, because triangles of the level set come
+// before triangles of the caps.
 std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::size_t level, scene::Color color,
                                    const scene::SurfaceLook& look) {
     std::vector<scene::Color> colors(surface.points.size(), color);

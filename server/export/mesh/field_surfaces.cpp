@@ -59,7 +59,7 @@ FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
     return {surface_, points_};
 }
 
-// Appends the surface of one level.
+// Appends the surface of one level, which is in closed_, to surface_.
 void FieldSurfaceSource::append(std::size_t level) {
     const auto first = static_cast<std::uint32_t>(points_.size());
     const double sign = scene_.look.field.inside == fields::Inside::below ? 1 : -1;

@@ -30,8 +30,8 @@ struct FieldSliceSurface {
 };
 
 /// A source of the surfaces in the slices of a field, one after another. The surfaces are those of a scene, or exact
-/// surfaces, which are made when they are needed (see ExactSlicer). At the points of an exact surface, normals and
-/// growth are means over the interpolated function in the triangles around the point.
+/// surfaces, which are made when they are needed (see ExactSlicer). The normal and the growth at a point of an exact
+/// surface are means over the triangles around the point.
 class FieldSurfaceSource {
   public:
     /// The slices of `scene` must have been cut from `field` rotated by `orientation`. If `exact` is false, they must

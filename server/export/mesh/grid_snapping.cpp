@@ -20,12 +20,12 @@ namespace {
 
 using geometry::kNone;
 
-// Half-edge 3t + i leads from corner i of triangle t to the next corner.
+// Half-edge 3t + i leads from corner i of triangle t to the next corner of t.
 std::uint32_t triangleOf(std::uint32_t edge) { return edge / 3; }
 std::uint32_t nextOf(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
 std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 
-/// A hash of the position of a point, in grid steps.
+/// A hash function for positions of points, in grid steps.
 struct PositionHash {
     std::size_t operator()(const glm::i64vec3& at) const {
         std::uint64_t hash = 0;
@@ -36,15 +36,15 @@ struct PositionHash {
 };
 using Positions = std::unordered_set<glm::i64vec3, PositionHash>;
 
-/// Returns whether a · b = c · d, for whole numbers of less than 2⁵³. A product is the sum of its rounded value and the
-/// rounding error, which fma() returns exactly.
+/// Returns whether a · b = c · d, for whole numbers less than 2⁵³. The exact product is the sum of the rounded product
+/// and the rounding error, which fma() returns exactly.
 bool productsAreEqual(double a, double b, double c, double d) {
     const double first = a * b, second = c * d;
     return first == second && std::fma(a, b, -first) == std::fma(c, d, -second);
 }
 
-/// A closed surface as half-edges. Each half-edge has a twin: the half-edge of the neighboring triangle that joins the
-/// same points in the opposite direction.
+/// A closed surface, stored as half-edges. Each half-edge has a twin: the half-edge of the neighboring triangle that
+/// joins the same points in the opposite direction.
 class HalfEdgeMesh {
   public:
     HalfEdgeMesh(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
@@ -81,7 +81,7 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Collapses edges whose ends coincide on the grid (see collapse()), until no more can be collapsed.
+    /// Collapses edges whose ends are equal on the grid (see collapse()), as long as any edge can be collapsed.
     void collapseEdges() {
         for (bool changed = true; changed;) {
             changed = false;
@@ -107,7 +107,7 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Moves each point that coincides with an earlier point to a free grid point nearby.
+    /// Moves each point that is equal to an earlier point to a free grid point nearby.
     void separatePoints() {
         Positions taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
@@ -139,14 +139,14 @@ class HalfEdgeMesh {
 
   private:
     std::uint32_t endOf(std::uint32_t edge) const { return origins_[nextOf(edge)]; }
-    /// Returns the next half-edge with the same origin, counterclockwise.
+    /// Returns the next half-edge with the same origin, in counterclockwise order.
     std::uint32_t turned(std::uint32_t edge) const { return twins_[previousOf(edge)]; }
 
     void pairTwins() {
         struct HalfEdge {
-            std::uint64_t ends;  // two points, the one with the smaller index first
+            std::uint64_t ends;  // both points, the smaller index first
             std::uint32_t edge;
-            bool upward;  // whether the half-edge starts at the point with the smaller index
+            bool upward;  // whether the half-edge starts at the smaller index
         };
         std::vector<HalfEdge> halfEdges;
         halfEdges.reserve(origins_.size());
@@ -154,7 +154,7 @@ class HalfEdgeMesh {
             const auto [low, high] = std::minmax({origins_[edge], endOf(edge)});
             halfEdges.push_back({std::uint64_t{low} << 32U | high, edge, origins_[edge] == low});
         }
-        // After sorting, half-edges with the same ends follow one another, those of one direction first.
+        // After sorting, half-edges with the same ends are neighbors, and those with the same direction, too.
         std::ranges::sort(halfEdges, [](const HalfEdge& a, const HalfEdge& b) {
             return std::tuple(a.ends, a.upward, a.edge) < std::tuple(b.ends, b.upward, b.edge);
         });
@@ -172,8 +172,8 @@ class HalfEdgeMesh {
         }
     }
 
-    // A fan is a ring of triangles around a point. If a point has several fans, gives each fan a point of its own, at
-    // which the half-edges of the fan start.
+    // Gives each fan a point of its own, at which the half-edges of the fan start. A fan is a ring of triangles around
+    // a point; a point may have several fans.
     void separateFans(std::span<const glm::dvec3> points) {
         std::vector<bool> seen(origins_.size());
         std::vector<std::uint32_t> pointOf(origins_.size());
@@ -201,9 +201,9 @@ class HalfEdgeMesh {
         std::ranges::sort(out);
     }
 
-    // Collapses an edge into its origin, and returns true. Returns false and changes nothing if the ends of the edge
-    // have a common neighbor other than the third corners of the two triangles at the edge, or if the surface at the
-    // edge is a tetrahedron, which would become flat.
+    // Collapses an edge into its origin and returns true. Returns false and changes nothing in two cases: the ends of
+    // the edge have a common neighbor other than the third corners of the two triangles at the edge, or the surface is
+    // a tetrahedron, which would become flat.
     bool collapse(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
@@ -228,7 +228,7 @@ class HalfEdgeMesh {
         return true;
     }
 
-    // The components of these vectors are whole numbers.
+    // The components of these vectors are whole numbers, in grid steps.
     glm::dvec3 vectorBetween(std::uint32_t from, std::uint32_t to) const { return glm::dvec3(at_[to] - at_[from]); }
     glm::dvec3 vectorOf(std::uint32_t edge) const { return vectorBetween(origins_[edge], endOf(edge)); }
     double lengthOf(std::uint32_t edge) const {
@@ -242,7 +242,7 @@ class HalfEdgeMesh {
     bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
 
     // Flips an edge: replaces it by an edge between the third corners of the two triangles at the edge. Changes nothing
-    // if an edge already joins these two corners, or if the corners of a new triangle would lie on a line.
+    // if an edge already joins these corners, or if the corners of a new triangle would lie on a line.
     void flip(std::uint32_t h) {
         const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];
@@ -282,11 +282,12 @@ class HalfEdgeMesh {
 
     const RoundingGrid& grid_;
     const Budget& budget_;
-    std::vector<std::uint32_t> origins_, twins_;  // per half-edge: its first point, its twin
-    std::vector<bool> removed_;                   // per triangle
-    std::vector<glm::i64vec3> at_;                // per point: its position in grid steps
-    std::vector<std::uint32_t> sources_;          // per point: the input point from which it was made
-    std::vector<std::uint32_t> outgoing_;         // per point: a half-edge from it; kNone if merged into another point
+    std::vector<std::uint32_t> origins_, twins_;  // for each half-edge: its first point, and its twin
+    std::vector<bool> removed_;                   // for each triangle
+    std::vector<glm::i64vec3> at_;                // for each point: its position in grid steps
+    std::vector<std::uint32_t> sources_;          // for each point: the input point from which it was made
+    // For each point: a half-edge that starts there; kNone if the point was merged into another point.
+    std::vector<std::uint32_t> outgoing_;
     std::vector<std::uint32_t> neighbors_, otherNeighbors_, common_;
 };
 

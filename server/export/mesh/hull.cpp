@@ -12,9 +12,9 @@ namespace {
 using GridPoint = std::array<std::int64_t, 3>;
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Incremental convex hull: for each point, the triangles that are visible from the point are removed, and a fan of
-// triangles from the point to the boundary of the hole replaces them. Triangles whose plane contains the point are
-// kept, so that no new triangle is degenerate.
+// An incremental convex hull. For each new point, triangles that are visible from the point are removed, and a fan of
+// triangles joins the point to the boundary of the hole. Triangles whose plane contains the point are kept, so that no
+// new triangle is degenerate.
 class IncrementalHull {
   public:
     IncrementalHull(const std::vector<glm::dvec3>& points, double step) {
@@ -33,8 +33,8 @@ class IncrementalHull {
     }
 
   private:
-    /// Returns ((b − a) × (c − a)) · (p − a) for a triangle t with the corners a, b and c: six times the volume of the
-    /// tetrahedron abcp, with a positive sign if p is on the outer side of t.
+    /// Returns ((b − a) × (c − a)) · (p − a) for a triangle t with the corners a, b and c. This is six times the volume
+    /// of the tetrahedron abcp, positive if p is on the outer side of t.
     std::int64_t sixVolume(const Triangle& t, std::uint32_t p) const {
         const GridPoint& o = points_[t[0]];
         const auto from = [&](std::uint32_t i) {
@@ -55,7 +55,7 @@ class IncrementalHull {
         return minor(0, 1) == 0 && minor(1, 2) == 0 && minor(2, 0) == 0;
     }
 
-    /// Finds the initial tetrahedron. Returns false if all points lie in one plane.
+    /// Finds four points for the first tetrahedron. Returns false if all points lie in one plane.
     bool begin() {
         const auto count = static_cast<std::uint32_t>(points_.size());
         std::uint32_t b = 1;
@@ -71,7 +71,7 @@ class IncrementalHull {
     }
 
     void add(std::uint32_t p) {
-        std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // directed edges of the removed triangles
+        std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // directed edges of removed triangles
         const auto removed = std::erase_if(triangles_, [&](const Triangle& t) {
             if (sixVolume(t, p) <= 0) return false;
             for (int i = 0; i < 3; ++i) seen.emplace(t[i], t[(i + 1) % 3]);

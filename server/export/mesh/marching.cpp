@@ -28,18 +28,18 @@ std::uint64_t keyOf(const glm::ivec3& point) {
 }
 
 // Returns the position of a cube's corner relative to the cube's lowest corner, or the direction of an edge, in steps
-// of the field. `bits` has one bit per axis: 1 for x, 2 for y, 4 for z.
+// of the field. `bits` has one bit for each axis: 1 for x, 2 for y, 4 for z.
 glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
-// The six tetrahedra of a cube. Corners are numbered by the bits of offset(). The corners of each tetrahedron lie on a
-// path from corner 0 to corner 7 that takes one step along each axis; there is one tetrahedron for each order of the
-// axes. The corners a, b, c, d of a tetrahedron are listed such that ((b − a) × (c − a)) · (d − a) > 0.
+// The six tetrahedra of a cube. The number of a corner is its bits in offset(). The corners of a tetrahedron lie on a
+// path from corner 0 to corner 7 with one step along each axis. There is one tetrahedron for each order of the axes.
+// Its corners a, b, c, d are listed such that ((b − a) × (c − a)) · (d − a) > 0.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 
-// For each set of inside corners of a tetrahedron (bit c stands for corner c): a permutation of the corners that puts
-// the inside corners first or, if only one corner is outside, puts this corner first. All permutations are even, so
-// that the sign of the product above stays positive.
+// A permutation of a tetrahedron's corners for each set of inside corners (bit c stands for corner c). The inside
+// corners come first; but if only one corner is outside, this corner comes first. All permutations are even, so that
+// ((b − a) × (c − a)) · (d − a) stays positive.
 constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
                                                           {0, 1, 2, 3},
                                                           {1, 0, 3, 2},
@@ -75,9 +75,9 @@ class MarchingTetrahedra {
     }
 
   private:
-    // Sets inside_, which says of each corner of the cubes of the block at `corner` whether it is inside the surface.
-    // The cubes of a block are the cubes whose lowest corner is in the block. Some of their corners are therefore in
-    // adjacent blocks.
+    // Sets inside_: for each corner of the cubes of a block, whether the corner is inside the surface. The cubes of the
+    // block at `corner` are those with their lowest corner in the block, so some of their corners are in adjacent
+    // blocks.
     void load(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
@@ -125,17 +125,17 @@ class MarchingTetrahedra {
         }
     }
 
-    // Returns the index of the mesh point on the edge between the corners `inside` and `outside` of the cube at `at`.
-    // Creates the point on first use. A corner is a bit set (see `offset`); on every edge of a tetrahedron, the bits of
-    // one end are a subset of the bits of the other end.
+    // Returns the index of the mesh point on the edge from the corner `inside` to the corner `outside` of the cube at
+    // `at`. Creates the point at the first call. A corner is a set of bits (see offset()). On every edge of a
+    // tetrahedron, the bits of one end are a subset of the bits of the other end.
     std::uint32_t vertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
         const glm::ivec3 lower = at + offset(inside & outside);
         auto& ids = blockIdsOf(lower);
         std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
-            // The least distance of a crossing from each end of its edge, as a fraction of the edge. It keeps crossings
-            // on two edges with a common end several grid steps apart.
+            // The least distance of a crossing from each end of its edge, as a fraction of the edge. Crossings on two
+            // edges with a common end are therefore several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
             const glm::ivec3 from = at + offset(inside);
             const glm::ivec3 to = at + offset(outside);
@@ -147,8 +147,8 @@ class MarchingTetrahedra {
         return id;
     }
 
-    // Assigns each triangle to the cell that at least two of its corners have; if all three cells differ, to the cell
-    // of the first corner.
+    // Assigns each triangle to the cell of at least two of its corners. If all three corners have different cells,
+    // assigns the triangle to the cell of the first corner.
     void assignCells() {
         for (const auto& [a, b, c] : mesh_.triangles) {
             mesh_.cells.push_back(pointCells_[b] == pointCells_[c] ? pointCells_[b] : pointCells_[a]);
@@ -156,9 +156,9 @@ class MarchingTetrahedra {
     }
 
     using EdgePointIndices = std::array<std::uint32_t, static_cast<std::size_t>(kPoints) * 7>;
-    // Returns the table of mesh points of the block that contains `point`. For each field point of the block, the table
-    // has seven entries, one for each edge from the point in a direction of offset(): the index of the mesh point on
-    // the edge, or kNone. Creates the table on first use.
+    // Returns the table of mesh points for the block that contains `point`. Each field point of the block has seven
+    // entries, one for each direction of offset(): the index of the mesh point on the edge in this direction, or kNone.
+    // Creates the table at the first call.
     EdgePointIndices& blockIdsOf(const glm::ivec3& point) {
         const std::uint64_t key = keyOf(point);
         if (last_ == nullptr || lastKey_ != key) {

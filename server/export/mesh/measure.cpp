@@ -9,8 +9,8 @@ namespace oval4d::exports {
 
 namespace {
 
-// Let e be the greatest distance of a vertex of the slice from the mean of the vertices. A volume up to this fraction
-// of e³, or an area up to this fraction of e², counts as a rounding error.
+// The fraction of e³ up to which a volume, or of e² up to which an area, counts as a rounding error. Here, e is the
+// greatest distance of a vertex of the slice from the mean of the vertices.
 constexpr double kRoundingError = 1e-12;
 
 struct WeightedMean {
@@ -31,7 +31,7 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     WeightedMean ofPoints;
     for (std::size_t v = 0; v < count; ++v) ofPoints.add(points[v], 1);
-    // The following sums use coordinates relative to the mean of the points, which keeps rounding errors small.
+    // The sums below use coordinates relative to the mean of the points, to keep rounding errors small.
     const glm::dvec3 base = ofPoints.sum / ofPoints.weight;
     double extent = 0;
     for (std::size_t v = 0; v < count; ++v) extent = std::max(extent, glm::distance(points[v], base));
@@ -41,7 +41,8 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1];) {
         const std::uint32_t cell = slices.faceSource[f];
         glm::dvec3 area(0);
-        glm::dvec3 moment(0);  // the sum over the triangles of signed area · centroid
+        // The sum of signed area · centroid over all triangles.
+        glm::dvec3 moment(0);
         double signedArea = 0;
         for (; f < slices.faceBegin[i + 1] && slices.faceSource[f] == cell; ++f) {
             const auto at = [&](std::uint32_t corner) { return points[slices.corners[corner]] - base; };
@@ -52,8 +53,8 @@ SliceMeasurements measureSlice(const slicing::SliceSet& slices, int i) {
                 const glm::dvec3 r = at(c + 1);
                 const glm::dvec3 part = glm::cross(q - p, r - p) / 2.0;
                 ofVolume.add((p + q + r) / 4.0, glm::dot(p, glm::cross(q, r)) / 6);
-                // The area vectors of the triangles of a planar face are parallel. A triangle whose vector is opposite
-                // to the sum so far counts as negative.
+                // The area vectors of triangles of a planar face are parallel. A triangle whose vector is opposite to
+                // the sum so far counts as negative.
                 const double size = std::copysign(glm::length(part), glm::dot(part, area) < 0 ? -1.0 : 1.0);
                 area += part;
                 moment += size * (p + q + r) / 3.0;

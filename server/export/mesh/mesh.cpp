@@ -9,29 +9,29 @@
 namespace oval4d::exports {
 
 RoundingGrid::RoundingGrid(double size, double extent) {
-    // A float32 has 24 significant bits. Therefore it represents exactly all multiples, from −extent to extent, of a
-    // step that is a power of two ≥ extent / 2^23. With a step ≥ size / 2^17 (0.46 µm for a size of 60 mm), the object
-    // spans at most 2^17 steps along each axis, which convexHullOfGridPoints() can process.
+    // A 32-bit float has 24 significant bits. So it represents all multiples of the step from −extent to extent
+    // exactly, if the step is a power of two ≥ extent / 2^23. If also step ≥ size / 2^17 (0.46 µm for 60 mm), the
+    // object spans at most 2^17 steps along each axis, which convexHullOfGridPoints() can process.
     const double needed = std::max(size / 131'072, extent / 8'388'608);
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }
 
 RoundingGrid RoundingGrid::forDoubles(double size, double extent) {
-    // A double has 53 significant bits, so the sum of a point and a position, both on the grid, is exact.
+    // A double has 53 significant bits. So the sum of a point and a position, both on the grid, is exact.
     RoundingGrid grid(size, extent);
     grid.step_ = std::exp2(std::ceil(std::log2(std::max(size * 0x1p-40, extent * 0x1p-50))));
     return grid;
 }
 
 glm::dvec3 RoundingGrid::snap(const glm::dvec3& point) const {
-    // Adding 0 turns −0 into 0, so that equal coordinates are also written as equal text and bytes.
+    // Add 0 to turn −0 into 0, so that equal coordinates have equal texts and bytes in files.
     return glm::round(point / step_) * step_ + 0.0;
 }
 
 bool isClosedManifold(const Mesh& mesh) {
-    // `fans` has, for each point, one entry for each triangle at the point: the corner that follows the point in the
-    // triangle, and the corner that precedes it. In the ring of triangles around the point, the triangle in which c
-    // precedes the point comes before the triangle in which c follows it. The entries of point p begin at begin[p].
+    // `fans` has an entry for each triangle at each point p: the next and the previous corner in the triangle, seen
+    // from p. Triangles are neighbors in the ring around p if the previous corner of one is the next corner of the
+    // other. The entries of p begin at begin[p].
     std::vector<std::uint32_t> begin(mesh.points.size() + 1, 0);
     for (const auto& triangle : mesh.triangles) {
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];
@@ -92,7 +92,7 @@ std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh) {
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];
     }
     for (std::size_t p = 0; p < mesh.points.size(); ++p) begin[p + 1] += begin[p];
-    std::vector<std::uint32_t> around(3 * count);  // the triangles around each point
+    std::vector<std::uint32_t> around(3 * count);  // triangles around each point
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
     for (std::uint32_t t = 0; t < count; ++t) {
         for (const std::uint32_t corner : mesh.triangles[t]) around[cursor[corner]++] = t;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kCubes = 128;  // number of cubes along the slice's largest dimension
 
-/// A triangle of the fan into which a face is divided. Even for a star polygon, the winding number of the face around a
-/// point of its plane is the sum of the winding numbers of these triangles.
+/// A triangle of the fan into which a face is divided. The winding number of the face around a point of its plane is
+/// the sum of the winding numbers of these triangles, even for a star polygon.
 struct FanTriangle {
     std::array<std::uint32_t, 3> corners;
     std::uint32_t cell;
@@ -45,8 +45,8 @@ class OuterSurfaceMesher {
         const glm::dvec3 size = box_.size();
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
         if (!(cube > kGoodFieldStep * grid.step())) return {};
-        // The offset keeps the points of the field away from the symmetry planes of the slice, where they might lie
-        // exactly on faces.
+        // The offset keeps the points of the field away from the symmetry planes of the slice. On these planes, points
+        // might lie exactly on faces.
         SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
         fill(field);
         sortIntoBoxes(4 * cube);
@@ -59,19 +59,18 @@ class OuterSurfaceMesher {
     }
 
   private:
-    // A crossing of a line with a triangle. `at` is the position of the crossing on the line: in fill(), its x; in
-    // findCrossing(), the fraction of the way from the outside point to the inside point. `windingChange` is the change
-    // of the winding number at the crossing.
+    // A crossing of a line with a triangle. `at` is the position of the crossing on the line. In fill(), this is its x.
+    // In findCrossing(), this is the fraction of the way from the outside point to the inside point. `windingChange` is
+    // the change of the winding number at the crossing.
     struct LineCrossing {
         double at;
         int windingChange;
         std::uint32_t cell;
     };
 
-    // Projects the edge from a to b onto the yz-plane. Consider the ray at y = row.y on which z > row.z. Returns −1 if
-    // the projected edge crosses this ray in the direction +y; 1 if the edge crosses the ray in the direction −y; else
-    // 0. The results for (a, b) and (b, a) are exactly opposite. Therefore, despite rounding, a closed surface crosses
-    // every line along x equally often in both directions.
+    // Returns −1 if the edge from a to b, projected to the yz-plane, crosses the ray y = row.y, z > row.z in the
+    // direction +y; 1 if it crosses the ray in the direction −y; else 0. The results for (a, b) and (b, a) are exactly
+    // opposite. So despite rounding, a closed surface crosses every line along x equally often in both directions.
     int signedCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
         if (a > b) return -signedCrossing(b, a, row);
         const glm::dvec3& p = points_[a];
@@ -82,7 +81,7 @@ class OuterSurfaceMesher {
         return p.y <= row.y ? -1 : 1;
     }
 
-    /// Sets the field to −1 at all points inside the surface, line by line along x.
+    /// Sets the field to −1 at all points inside the surface, along one line in the direction x after another.
     void fill(SampledField& field) const {
         std::unordered_map<std::uint64_t, std::vector<LineCrossing>> lines;
         for (const FanTriangle& triangle : triangles_) {
@@ -116,8 +115,8 @@ class OuterSurfaceMesher {
                 const int first = field.floorIndex({hits[h].at, 0, 0}).x + 1;
                 const int last = field.floorIndex({hits[h + 1].at, 0, 0}).x;
                 for (int i = first; i <= last; ++i) field[{i, j, k}] = -1;
-                // marchTetrahedra() visits a cube only if the block of its lowest corner exists. Creates that block for
-                // each cube that has one of the points set above as a corner.
+                // marchTetrahedra() visits a cube only if the block of its lowest corner exists. Create this block for
+                // all cubes around the points that were set above.
                 for (int i = first - 1; i <= last; ++i) {
                     for (const int n : {j - 1, j}) {
                         field.ensureBlock({i, n, k});
@@ -128,7 +127,7 @@ class OuterSurfaceMesher {
         }
     }
 
-    /// Divides space into cubic boxes of the given width, and lists for each box the triangles that may intersect it.
+    /// Divides space into cubic boxes with this width. Lists, for each box, the triangles that may intersect it.
     void sortIntoBoxes(double width) {
         width_ = width;
         for (std::uint32_t p = 0; p < triangles_.size(); ++p) {
@@ -152,8 +151,8 @@ class OuterSurfaceMesher {
         }
     }
 
-    /// Returns the crossing at which the winding number first becomes nonzero on the way from `outside` to `inside`. If
-    /// rounding errors hide all crossings, returns the middle of the way and kNoCell.
+    /// Returns the first crossing on the way from `outside` to `inside` at which the winding number becomes nonzero. If
+    /// rounding errors hide all crossings, returns the middle of the way with kNoCell.
     EdgeCrossing findCrossing(const glm::dvec3& inside, const glm::dvec3& outside) const {
         std::vector<std::uint32_t> near;
         const glm::ivec3 least = boxAt(glm::min(inside, outside));
@@ -171,7 +170,7 @@ class OuterSurfaceMesher {
         std::vector<LineCrossing> hits;
         const glm::dvec3 way = inside - outside;
         for (const std::uint32_t p : near) {
-            // T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+            // The method of T. Möller, B. Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
             const auto& [a, b, c] = triangles_[p].corners;
             const glm::dvec3 u = points_[b] - points_[a];
             const glm::dvec3 v = points_[c] - points_[a];

@@ -13,12 +13,12 @@ namespace oval4d::exports {
 
 namespace {
 
-/// A capsule: a bar with round ends, or a ball if the ends coincide.
+/// A capsule: a bar with round ends. If both ends are equal, the capsule is a ball.
 struct Capsule {
     glm::dvec3 from, to;
     double radius;
 
-    /// Returns the distance from the capsule's surface; negative inside.
+    /// Returns the distance from `place` to the capsule's surface; negative inside the capsule.
     double distance(const glm::dvec3& place) const {
         const glm::dvec3 along = to - from;
         const double squared = glm::dot(along, along);
@@ -27,20 +27,20 @@ struct Capsule {
     }
 };
 
-/// Adds a capsule to a field of distances: at each point near the capsule, lowers the value to the distance from the
-/// capsule, if this is less. The points near the capsule include all corners of each cube that has a corner inside the
-/// capsule.
+/// Adds a capsule to a field of distances. At each point near the capsule, the value becomes the distance from the
+/// capsule, if this is less than the old value. Points near the capsule include all corners of each cube with a corner
+/// inside the capsule.
 void addCapsule(const Capsule& capsule, SampledField& field) {
     const double reach = capsule.radius + 1.01 * std::sqrt(3) * field.step();
     const glm::ivec3 least = field.floorIndex(glm::min(capsule.from, capsule.to) - reach);
     const glm::ivec3 most = field.floorIndex(glm::max(capsule.from, capsule.to) + reach) + 1;
-    // Visits the lines of points along x and, on each line, only the points near the capsule.
+    // Visit the lines of points along x and, on each line, only the points near the capsule.
     const glm::dvec3 along = capsule.to - capsule.from;
     for (int k = least.z; k <= most.z; ++k) {
         for (int j = least.y; j <= most.y; ++j) {
             const glm::dvec3 row = field.positionOf({0, j, k});
-            // The part of the capsule's axis from the fraction `low` to the fraction `high` is near the line `row`: its
-            // y and z differ by at most `reach` from those of the line.
+            // Find the part of the capsule's axis near the line `row`, from the fraction `low` to the fraction `high`:
+            // the part where y and z differ by at most `reach` from those of the line.
             double low = 0;
             double high = 1;
             for (const int axis : {1, 2}) {
@@ -95,14 +95,14 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
             area += 2 * std::numbers::pi * radii.bar * std::max(0.0, length - 2 * radii.ball);
         }
     }
-    constexpr double kPerSquare = 9;  // the number of triangles on an area of radii.bar², as measured
+    constexpr double kPerSquare = 9;  // measured number of triangles on an area of radii.bar²
     return kPerSquare * area / (radii.bar * radii.bar);
 }
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
                 const RoundingGrid& grid, const Budget& budget) {
-    // The offset keeps the sample points off the symmetry planes of the polytope. On these planes, many samples could
-    // be exactly 0, and triangles with corners at such points would degenerate.
+    // The offset keeps sample points off the symmetry planes of the polytope. On these planes, many samples could be
+    // exactly 0, and triangles with corners there would degenerate.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
     for (const Capsule& capsule : capsulesOf(slices, i, scale, radii)) {
         budget.checkTimeAndStop();

@@ -22,7 +22,7 @@ std::span<const std::uint32_t> cornersOf(const slicing::SliceSet& slices, std::u
     return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
 }
 
-/// Returns the normal of a face; its length is twice the face's area.
+/// Returns the normal of a face. Its length is twice the face's area.
 glm::dvec3 doubleAreaNormalOfFace(const slicing::SliceSet& slices, int i, std::uint32_t face) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const auto corners = cornersOf(slices, face);
@@ -40,7 +40,7 @@ glm::dvec3 unitNormalOfFace(const slicing::SliceSet& slices, int i, std::uint32_
     return length > 0 ? normal / length : glm::dvec3(0);
 }
 
-/// Returns whether the whole slice is on the inner side of every face, except for rounding errors.
+/// Returns whether the slice is convex: it lies on the inner side of every face, apart from rounding errors.
 bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const std::size_t count = slices.vertexCount(i);
@@ -51,7 +51,7 @@ bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
         budget.checkTimeAndStop();
         const glm::dvec3 base = points[cornersOf(slices, f)[0]];
         glm::dvec3 normal = doubleAreaNormalOfFace(slices, i, f);
-        // The normal of a face with almost no area is unreliable. It suffices to test the neighboring faces.
+        // Skip a face with almost no area, because its normal is unreliable. Testing the neighboring faces is enough.
         if (glm::length(normal) < kFlat * extent * extent) continue;
         normal = glm::normalize(normal);
         for (std::size_t v = 0; v < count; ++v) {
@@ -61,8 +61,7 @@ bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
     return true;
 }
 
-/// The vertices of a slice, in millimeters and rounded to the grid. Vertices that become equal are merged into one
-/// point.
+/// The vertices of a slice, in millimeters and rounded to the grid. Vertices that become equal are one point.
 class WeldedVertices {
   public:
     WeldedVertices(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid) {
@@ -74,8 +73,8 @@ class WeldedVertices {
             index_.push_back(at->second);
         }
     }
-    /// Converts the corners of a face, indices of vertices of the slice, to indices into points(). Omits edges of
-    /// length zero.
+    /// Converts the corners of a face from indices of the slice's vertices to indices into points(). Leaves out edges
+    /// of length zero.
     Loop loop(std::span<const std::uint32_t> corners) const {
         Loop out;
         for (const std::uint32_t corner : corners) {
@@ -91,7 +90,8 @@ class WeldedVertices {
     std::vector<std::uint32_t> index_;
 };
 
-/// Triangulates a convex loop as a fan from the corner that maximizes the area of the smallest triangle.
+/// Triangulates a convex loop as a fan from one corner. Chooses the corner that maximizes the area of the smallest
+/// triangle.
 void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh, const Budget& budget) {
     const std::size_t n = loop.size();
     std::size_t best = 0;
@@ -123,9 +123,9 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Rou
     return mesh;
 }
 
-/// Returns the convex hull of the points of `faces`, the rounded faces of a convex slice. Assigns each triangle to the
-/// cell of the slice face with the most similar normal. The hull is needed if points of the slice coincide on the grid,
-/// because two of the rounded faces may share more than one edge in that case.
+/// Returns the convex hull of the points of `faces`, the rounded faces of a convex slice. The hull is needed if
+/// vertices of the slice become equal on the grid, because two rounded faces may then share several edges. Each
+/// triangle gets the cell of the slice face with the most similar normal.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid,
                 const Budget& budget) {
     Mesh hull = convexHullOfGridPoints(faces.points, grid, &budget);

@@ -9,18 +9,18 @@ namespace oval4d::exports {
 
 namespace {
 
-// The data that the callbacks of GLU's tessellator share. The tessellator needs no OpenGL context. The tessellator
-// passes pointers to elements of `corners` to the callback `vertex`: the pointers that tessellate() gave to it, and
-// those that the callback `combine` made where contours cross.
+// The data that the callbacks of GLU's tessellator share. (The tessellator needs no OpenGL context.) The tessellator
+// passes pointers to elements of `corners` to the callback `vertex`. tessellate() made these elements or, where
+// contours cross, the callback `combine`.
 struct TessellatorData {
-    // The position (x, y, 0) of each corner, and its index: the position in the order in which tessellate() passes the
-    // corners of all contours to GLU, or 0xffffffff if `combine` made it. The container is a deque, because the
-    // tessellator keeps pointers to its elements, and these remain valid when elements are appended.
+    // The position (x, y, 0) and the index of each corner. The index counts all corners in the order in which
+    // tessellate() passes them to GLU; it is 0xffffffff for a corner made by `combine`. A deque keeps pointers to its
+    // elements valid when elements are appended.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
-    std::vector<std::uint32_t> out;  // the indices of the corners of the output; three for each triangle
-    std::vector<Contour> contours;   // the polygons of the output: the outline, if it was asked for
+    std::vector<std::uint32_t> out;  // indices of the corners of the output, three for each triangle
+    std::vector<Contour> contours;   // polygons of the output, if the outline was requested
     bool crossed = false;            // whether contours cross, so that `combine` made a corner
-    bool failed = false;             // whether GLU reported an error
+    bool failed = false;             // whether GLU has reported an error
 };
 
 using TessellatorCorner = decltype(TessellatorData::corners)::value_type;
@@ -34,7 +34,7 @@ void vertex(void* data, void* to) {
     tessellation->contours.back().emplace_back(corner->first[0], corner->first[1]);
 }
 
-// Does nothing. GLU outputs independent triangles, not strips or fans, if an edge flag callback is registered.
+// An empty callback. If it is registered, GLU outputs separate triangles instead of strips and fans.
 void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
 void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {
