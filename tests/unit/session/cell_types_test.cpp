@@ -1,4 +1,4 @@
-// Coloring, and hidden and faded kinds of cells.
+// Tests of coloring by kind, and of hidden and faded kinds of cells.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace {
 
 using scene::CellTypeFilter;
 
-/// Returns a session whose polytope has four kinds of cells, two of them with the same name.
+/// Returns a session with a polytope that has four kinds of cells. Two kinds have the same name.
 Session withKinds() {
     auto polytope = support::named("24-cell");
     polytope.name = "mixed";

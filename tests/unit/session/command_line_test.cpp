@@ -77,7 +77,7 @@ TEST(CommandLine, EverySettingCanBeSet) {
 
 TEST(Query, KeepsEverySetting) {
     for (const SettingValue& setting : settingValues()) {
-        if (setting.name == "turning" || setting.name == "playing") continue;  // a view does not move
+        if (setting.name == "turning" || setting.name == "playing") continue;  // an address does not contain motion
         SCOPED_TRACE(setting.name);
         Session session;
         line(session, setting.object);

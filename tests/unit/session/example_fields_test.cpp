@@ -22,8 +22,8 @@ float valueAt(const fields::Field& field, const glm::dvec4& point) {
     return value;
 }
 
-/// Returns the Julia set among the examples for c = a + b i + c j + d k, where `constants` are the values of a, b, c
-/// and d as in a formula.
+/// Returns the field "Julia set" of the examples, with c = a + b i + c j + d k. `constants` contains the values of a,
+/// b, c and d in the syntax of formulas.
 fields::Field juliaSet(std::string_view constants) {
     constexpr std::string_view kConstants = "a=-0.2, b=0.6, c=0.2, d=0.2";
     std::string text = exampleNamed("Julia set")->formula;
@@ -34,7 +34,8 @@ fields::Field juliaSet(std::string_view constants) {
     return *field;
 }
 
-// Without c, squaring a quaternion squares its absolute value: the function is log |q| - 0.02.
+// Without the constant c, the Julia set is a ball. Squaring a quaternion q squares its absolute value, so the function
+// is log |q| − 0.02.
 TEST(ExampleFields, JuliaSetOfZeroIsABall) {
     const fields::Field ball = juliaSet("a=0, b=0, c=0, d=0");
     std::mt19937 random(1);
@@ -47,7 +48,8 @@ TEST(ExampleFields, JuliaSetOfZeroIsABall) {
     }
 }
 
-// If c is a complex number, turning j and k into each other commutes with each step.
+// If the constant c is a complex number, the Julia set is symmetric: rotations of the plane of j and k commute with
+// each step of the iteration.
 TEST(ExampleFields, JuliaSetOfAComplexNumberIsSymmetric) {
     const fields::Field julia = juliaSet("a=-0.2, b=0.6, c=0, d=0");
     std::mt19937 random(2);
@@ -58,8 +60,9 @@ TEST(ExampleFields, JuliaSetOfAComplexNumberIsSymmetric) {
     }
 }
 
-// The points (i s³, s²) of the curve u² + v³ = 0, with |s| = const, are a closed curve that winds around two circles
-// three times and twice: a trefoil knot. The points (s³, s²) are between its windings.
+// The torus link is a tube around a trefoil knot. The points (i s³, s²) with constant |s|, on the curve u² + v³ = 0,
+// form a closed curve that winds three times around one circle and twice around another. The points (s³, s²) lie
+// between its windings.
 TEST(ExampleFields, TorusLinkIsATubeAroundATrefoilKnot) {
     const fields::Field& link = *exampleNamed("torus link")->field;
     constexpr double kSize = 1.2;

@@ -19,7 +19,7 @@ struct Arithmetic {
 class Expressions : public testing::TestWithParam<Arithmetic> {};
 
 TEST_P(Expressions, HaveTheirValue) {
-    // Numbers above 2π without a unit are refused, but not in a term with a function.
+    // evaluateAngle() refuses numbers above 2π without a unit, but not in a term with a function.
     const auto result = evaluateAngle("(" + GetParam().text + ")/sqrt(1)");
     ASSERT_TRUE(result) << result.error().message;
     EXPECT_DOUBLE_EQ(*result, GetParam().value);

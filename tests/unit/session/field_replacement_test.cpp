@@ -19,8 +19,8 @@
 namespace oval4d::session {
 namespace {
 
-// A level of an image in the data folder, whose finest level has the box from 0 to 8 along each axis. The samples of a
-// coarser one are in the middle of those of the finest level.
+// Returns a resolution level of an image in the data folder. The box of the finest level is from 0 to 8 along each
+// axis. Samples of a coarser level lie in the middle of samples of the finest level.
 fields::Field levelOfImage(std::uint32_t level, std::uint32_t finer, float greatest) {
     const double margin = (static_cast<double>(1U << level) - 1) / 2;
     fields::FieldArray array;
@@ -38,7 +38,7 @@ fields::Field levelOfImage(std::uint32_t level, std::uint32_t finer, float great
 
 slicing::Object objectOf(const fields::Field& field) { return std::make_shared<const fields::Field>(field); }
 
-// Loads a field, as a message does.
+// Loads a field, as a `load` message does.
 void load(Session& session, const slicing::Object& field) {
     const FileReader reader = [&](const LoadObject&, const Limits&) -> Result<ObjectWithWarnings> {
         return ObjectWithWarnings{field, {}};

@@ -1,4 +1,4 @@
-// Formulas that a setting or an address gives with the name of a field.
+// Tests of formulas that a setting or an address contains together with the name of a field.
 
 #include <gtest/gtest.h>
 
@@ -63,7 +63,7 @@ TEST(Formulas, OfASettingThatIsRefusedAreNotLoaded) {
     must(session, formulaNamed("mine", "y"), one);
 }
 
-// The examples that come with the program are shared, so that their own formulas need not be loaded.
+// The formula of an example field is not loaded again, because all sessions share the example fields.
 TEST(Formulas, OfExamplesAreNotLoaded) {
     Session session;
     must(session, objectNamed(exampleFields().front().name));

@@ -1,4 +1,4 @@
-// Keys that highlight one element after another.
+// Tests of the keys that highlight one element after another.
 
 #include <cmath>
 #include <cstddef>
@@ -17,7 +17,7 @@ namespace {
 using slicing::Element;
 using slicing::ElementKind;
 
-// Presses the keys; returns the index of the highlighted element. Expects that it is of this kind.
+// Presses keys, and returns the index of the highlighted element. Expects an element of the kind `kind`.
 std::size_t indexAfter(Session& session, const std::string& keys, ElementKind kind) {
     press(session, keys);
     const std::optional<Element> highlight = session.current.look.highlight;
@@ -29,14 +29,14 @@ std::size_t indexAfter(Session& session, const std::string& keys, ElementKind ki
     return highlight->index;
 }
 
-// Returns the indices of the elements that are highlighted in turn while the keys are pressed this many times.
+// Presses keys `times` times. Returns the indices of all elements that are highlighted in the meantime.
 std::set<std::size_t> visitedBy(Session& session, const std::string& keys, ElementKind kind, std::size_t times) {
     std::set<std::size_t> visited;
     for (std::size_t i = 0; i < times; ++i) visited.insert(indexAfter(session, keys, kind));
     return visited;
 }
 
-// Returns the index of the first element of this kind whose center has this w.
+// Returns the index of the first element of a kind whose center has this w.
 std::size_t firstWithCenterAt(double w, const State& state, ElementKind kind) {
     for (std::size_t i = 0; i < slicing::elementCount(state.object, kind); ++i) {
         if (std::abs(slicing::measureElement(state.object, {kind, i}).center.w - w) < 1e-9) return i;
@@ -78,7 +78,7 @@ TEST(HighlightKeys, BeginWithTheFirstElementThatTheFocusSliceCuts) {
         Session session;
         line(session, "polytope tesseract");
         const State& state = session.current;
-        // The vertices of the tesseract are at w = ±1. Its elements with the center at w = 0 extend from −1 to 1.
+        // The vertices of the tesseract are at w = ±1. An element with its center at w = 0 extends from w = −1 to 1.
         for (const double w : {0, 1}) {
             const std::string command = "set w=" + std::to_string(w);
             EXPECT_EQ(after(command, 'c', ElementKind::cell), firstWithCenterAt(w, state, ElementKind::cell));
@@ -105,7 +105,7 @@ TEST(HighlightKeys, SkipWhatIsHidden) {
     EXPECT_EQ(cells, visitedBy(session, "vC", ElementKind::cell, 12));
     EXPECT_EQ(cells.size(), 5U) << "one heptagonal prism for each edge of the pentagon";
     for (const std::size_t cell : cells) EXPECT_EQ(types[cell], types[*cells.begin()]);
-    // Each of the seven pentagons lies between two pentagonal prisms; all other elements belong to heptagonal prisms.
+    // Each of the seven pentagons lies between two pentagonal prisms. All other elements belong to heptagonal prisms.
     EXPECT_EQ(visitedBy(session, "vf", ElementKind::face, 47).size(), 40U);
     EXPECT_EQ(visitedBy(session, "ve", ElementKind::edge, 70).size(), 70U);
     EXPECT_EQ(visitedBy(session, "vv", ElementKind::vertex, 35).size(), 35U);
@@ -125,7 +125,7 @@ TEST(HighlightKeys, LeaveAHiddenElement) {
     line(session, "polytope rectified 5-cell");
     const auto types = slicing::typesOfCells(session.current.object);
     const std::size_t first = indexAfter(session, "vc", ElementKind::cell);
-    line(session, "hide");  // the kind of the highlighted cell
+    line(session, "hide");  // hides the kind of the highlighted cell
     EXPECT_NE(types[indexAfter(session, "vc", ElementKind::cell)], types[first]);
     EXPECT_EQ(visitedBy(session, "vC", ElementKind::cell, 10).size(), 5U);
 }

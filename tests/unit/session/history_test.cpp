@@ -26,7 +26,8 @@ TEST(History, UndoAndRedoReturnEqualStatesOverRandomKeys) {
             if (session.undoSteps.size() > steps) {
                 seen.push_back(session.current);
             } else {
-                seen.back() = session.current;  // a change without a step: turning stopped, or nothing changed
+                seen.back() = session.current;  // a change without an undo step: turning has stopped, or nothing has
+                                                // changed
             }
         }
         ASSERT_EQ(session.undoSteps.size() + 1, seen.size());
@@ -209,8 +210,7 @@ TEST(History, TurningByTheAngleZeroChangesNothing) {
     EXPECT_EQ(session, before);
 }
 
-// Sessions stored by earlier versions of the program may have steps that equal the current state. Other sessions may
-// have steps that differ from it only in the camera.
+// Undo skips steps that equal the current state apart from the camera. Stored sessions may contain such steps.
 TEST(History, StoredStepsMayEqualTheCurrentState) {
     Session session;
     press(session, "r");
@@ -276,7 +276,7 @@ TEST(History, TheOlderHalfIsForgotten) {
     EXPECT_TRUE(session.undoSteps.empty());
 }
 
-// A gesture sends many rotations, which are one undo step and one rotation.
+// The rotations of a gesture, such as a drag, are one undo step. The key '.' repeats all of them as one rotation.
 TEST(Gestures, AreOneRotation) {
     using geometry::Plane;
     using geometry::Rotation;

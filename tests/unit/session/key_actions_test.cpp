@@ -38,7 +38,7 @@ std::vector<Key> strokesOf(const nlohmann::json& row) {
     return strokes;
 }
 
-// Returns a session with a history and changed settings, so that every key has an effect.
+// Returns a session with a history and changed settings, in which every key has an effect.
 Session busy() {
     Session session;
     line(session, "polytope 24-cell");
@@ -84,7 +84,7 @@ TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
         EXPECT_EQ(names.contains(action), !row.value("client", false)) << action;
         unused.erase(action);
     }
-    // An action that the table of settings provides, and that has the name of a setting, needs no key.
+    // An action that the table of settings defines for a setting itself needs no key.
     forEachSetting([&](const auto& setting) { unused.erase(setting.name.text); });
     EXPECT_TRUE(unused.empty()) << "no key has the action " << *unused.begin();
 }
@@ -164,8 +164,8 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
         const auto pressAll = [&](const Strokes& strokes) {
             for (const Key& stroke : strokes) must(session, stroke);
         };
-        pressAll(key);             // if nothing is highlighted, a key chooses where to begin, which has no inverse
-        line(session, "focus 0");  // a new polytope starts with focus 0
+        pressAll(key);             // without a highlight, a key chooses the first element, which has no inverse
+        line(session, "focus 0");  // a new polytope has the focus 0
         const State before = session.current;
         pressAll(key);
         EXPECT_FALSE(session.current == before);
@@ -232,7 +232,7 @@ TEST(Keys, SpaceHasManyNames) {
 
 TEST(Keys, TwoGsGoToTheFirstSliceThatIsNotEmpty) {
     Session session;
-    line(session, "polytope 8-cell");  // w from −1 to 1, spacing 0.2
+    line(session, "polytope 8-cell");  // w is from −1 to 1, and the spacing is 0.2
     must(session, Key{"g", false, false});
     EXPECT_EQ(session.current.slices.focus, 0);
     must(session, Key{"g", false, false});
@@ -255,7 +255,8 @@ TEST(Keys, ARefusedActionEndsItsSequence) {
     EXPECT_FALSE(session.current.look.parts.faces) << "f acts by itself, and not as zf";
 }
 
-// A slice of a point cloud contains the points within half a spacing of its hyperplane.
+// The keys "gg" and "G" find the first and the last slice with points of a point cloud. A slice of a point cloud
+// contains the points within half a spacing of its hyperplane.
 TEST(Keys, TwoGsGoToTheFirstPointsOfACloud) {
     Session session;
     must(session, LoadObject{"two points", "cloud", "0 0 0 -0.96\n0 0 0 0.97\n"});

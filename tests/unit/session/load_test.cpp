@@ -1,4 +1,4 @@
-// Objects that are loaded into a session. Time steps that are appended are in time_steps_test.cpp.
+// Tests of objects that are loaded into a session. Appended time steps are tested in time_steps_test.cpp.
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
@@ -106,7 +106,7 @@ TEST(Load, AFileWithoutCellsIsASurface) {
         EXPECT_EQ(slicing::elementCounts(read->object), (std::array<std::size_t, 4>{3, 3, 1, 0}));
         EXPECT_EQ(slicing::infoOf(read->object).name, "triangle");
     }
-    // The fourth count may stand on a line of its own.
+    // The fourth count may be on a line of its own.
     std::string pentachoron = kPentachoron;
     pentachoron.replace(pentachoron.find("5 10 7 5"), 8, "5 10 10\n5");
     const auto solid = readObject({"p", "off", pentachoron}, Limits{});
@@ -216,7 +216,7 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
-    // The elements of this polytope coincide, which is found only when it is built.
+    // Elements of this polytope coincide. This is found only when the polytope is built.
     ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);
@@ -286,7 +286,7 @@ TEST(Load, ASecondFunctionColorsTheSurfaces) {
     EXPECT_NE(moments->message.find("moments have no formula of values"), std::string::npos) << moments->message;
 }
 
-// The vertices of a 16-cell of circumradius 1.
+// Returns the vertices of a 16-cell with the circumradius 1 and the given center, as the text of a file.
 std::string crossAt(const glm::dvec4& center) {
     std::string text;
     for (int axis = 0; axis < 4; ++axis) {
@@ -338,7 +338,8 @@ TEST(Load, ObjectsTurnAboutThePointThatIsAskedFor) {
     expectRefused(session, formula, ErrorCode::bad_message, "only polytopes, surfaces and points take a center");
 }
 
-// People set w and the focus point in the coordinates of the file; the slices lie around the center.
+// Settings are in the coordinates of the file: users set w and the focus point in them. The slices lie around the
+// center of the object.
 TEST(Load, SettingsAreInTheCoordinatesOfTheFile) {
     Session session;
     const glm::dvec4 center(10, -20, 5e6, 5e6);
@@ -357,7 +358,7 @@ TEST(Load, SettingsAreInTheCoordinatesOfTheFile) {
     EXPECT_EQ(session.current.slices.offset, 0.5);
     press(session, "uuu");
     EXPECT_EQ(session.current, first);
-    // The center moves with the frame of reference.
+    // The frame of reference moves the center, too.
     line(session, "set pace=2");
     EXPECT_EQ(infoOf(session.current).originInFile, glm::dvec4(10, -20, 5e6, 1e7));
     line(session, "polytope 24-cell");

@@ -1,4 +1,4 @@
-// What needsLoading() computes of a command, apply() does not compute again.
+// Tests that apply() uses what needsLoading() has computed for a command, and does not compute it again.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace oval4d::session {
 namespace {
 
-// A formula takes milliseconds to compile, and its field to be sampled.
+// The outcome of a command is computed once, because compiling a formula and sampling its field take milliseconds.
 TEST(Outcome, IsComputedOnlyOnce) {
     for (const Command& command : {Command(ShowLinkedView{"formula=x*y-z*w"}), Command(CommandLine{"polytope 24-cell"}),
                                    Command(Key{"n", false, false}), Command(ShowLinkedView{"formula=x*"})}) {

@@ -1,4 +1,4 @@
-// The focus that moves from end to end and back.
+// Tests of playing: the focus moves from end to end and back.
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kStep = 0.25;  // seconds
 
-// Shows a tesseract, whose w is from −1 to 1: at the speed 1, the focus moves by a quarter per second.
+// Returns a session with a tesseract, whose w is from −1 to 1. At speed 1, the focus moves by a quarter per second.
 Session tesseract() {
     Session session;
     line(session, "polytope tesseract");

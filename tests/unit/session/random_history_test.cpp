@@ -1,4 +1,5 @@
-// Random sequences of commands and motions: the revision counts the changes, and the history leads back and forth.
+// Tests with random sequences of commands and motions: the revision counts the changes, and undo and redo lead back and
+// forth.
 
 #include <array>
 #include <cstring>
@@ -28,7 +29,8 @@ const auto& oneOf(const List& list, Random& random) {
 
 bool happens(double probability, Random& random) { return std::bernoulli_distribution(probability)(random); }
 
-// Returns whether the states differ at most in the camera, and in images of the same object in the same frame.
+// Returns whether states are equal apart from the camera. Different transformations of one object to the same frame of
+// reference count as equal.
 bool isSame(State a, const State& b) {
     a.look.orbit = b.look.orbit;
     if (a.source == b.source && a.referenceFrame == b.referenceFrame) a.object = b.object;
@@ -142,7 +144,7 @@ Set randomSet(Random& random) {
     return set;
 }
 
-// Returns a NumPy file of 2 × 2 × 2 × `times` samples.
+// Returns a NumPy file with 2 × 2 × 2 × `times` samples.
 std::string numpyFile(std::size_t times, Random& random) {
     std::string header =
         "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2, 2, " + std::to_string(times) + "), }";
@@ -231,7 +233,7 @@ bool isAppend(const Command& command) {
     return load != nullptr && load->append;
 }
 
-// Returns whether the command moves in the history.
+// Returns whether a command undoes or redoes steps.
 bool isUndoOrRedo(const Command& command) {
     if (const auto* key = std::get_if<Key>(&command)) return key->key == "u" || (key->key == "r" && key->ctrl);
     if (const auto* line = std::get_if<CommandLine>(&command))
@@ -241,8 +243,8 @@ bool isUndoOrRedo(const Command& command) {
 
 // --- Invariants
 
-// Moves through the history with `move`, at most `atMost` times, and returns the number of moves. Each move must change
-// the state but not the camera, and increase the revision by one. If a move is refused, it must change nothing.
+// Calls `move`, which is undo() or redo(), at most `atMost` times. Returns the number of successful calls. Each call
+// must change the state but not the camera, and increase the revision by one. A call that fails must change nothing.
 std::size_t moveThrough(Session& session, Result<std::monostate> (*move)(Session&), std::size_t atMost) {
     for (std::size_t moves = 0;; ++moves) {
         if (moves == atMost) return moves;
@@ -259,7 +261,8 @@ std::size_t moveThrough(Session& session, Result<std::monostate> (*move)(Session
 
 constexpr std::size_t kAll = 1'000'000;
 
-// `first`: the first state of the session, or null if the history may have forgotten it.
+// Expects that undo and redo lead back and forth. `first` is the first state of the session, or null if the limits of
+// the history may have removed it.
 void expectHistory(const Session& session, const State* first) {
     for (const auto& [there, back] : {std::pair(&undo, &redo), std::pair(&redo, &undo)}) {
         Session moved = session;
@@ -280,7 +283,7 @@ void expectHistory(const Session& session, const State* first) {
     EXPECT_TRUE(isSame(moved.current, newest)) << "redo leads to the newest step";
 }
 
-// Executes a command, and checks what it does to the session.
+// Executes a command, and checks its effects on the session.
 void execute(Session& session, const Command& command, const Limits& limits) {
     const Session before = session;
     const auto done = apply(session, command, limits);
@@ -301,7 +304,7 @@ void execute(Session& session, const Command& command, const Limits& limits) {
     State running = before.current;
     running.turning = running.turning && session.current.turning;
     running.playing = running.playing && session.current.playing;
-    if (isSame(running, session.current)) {  // at most the camera has moved, or a motion has stopped
+    if (isSame(running, session.current)) {  // only the camera has moved, or a motion has stopped
         EXPECT_EQ(session.undoSteps, before.undoSteps);
         EXPECT_EQ(session.redoSteps, before.redoSteps);
         return;
@@ -322,7 +325,7 @@ void advanceAndCheck(Session& session, double seconds) {
     EXPECT_EQ(session.redoSteps, before.redoSteps);
 }
 
-// Returns the commands from which a sequence is drawn. A short list makes it likely that states recur.
+// Returns the commands from which random sequences are drawn. The list is short, so that states are likely to recur.
 std::vector<Command> commandsToDraw(Random& random) {
     std::vector<Command> commands(happens(0.5, random) ? 6 : 60);
     for (Command& command : commands) command = randomCommand(random);
@@ -359,7 +362,7 @@ TEST(RandomHistory, TheRevisionCountsTheChangesAndUndoLeadsBack) {
                 const Command& command = oneOf(commands, random);
                 const auto* key = std::get_if<Key>(&command);
                 const bool searches = key != nullptr && (key->key == ")" || key->key == "(");
-                if (searches && slicing::fieldIn(session.current.object) != nullptr) continue;  // takes long
+                if (searches && slicing::fieldIn(session.current.object) != nullptr) continue;  // takes too long
                 log += "\n" + textOf(command);
                 execute(session, command, limits);
             }

@@ -1,4 +1,4 @@
-// Random orientations.
+// Tests of random orientations.
 
 #include <cstdint>
 
@@ -26,8 +26,9 @@ TEST(TurnAtRandom, DependsOnlyOnTheSeed) {
     EXPECT_NE(one.current.orientation, two.current.orientation) << "without a seed, orientations differ";
 }
 
-// Each row and each column of the matrix is a random direction, so each entry has the mean 0 and the variance 1/4; the
-// mean of 2,000 entries has the standard deviation 0.011, and that of their squares 0.004.
+// All rotations are equally probable. Each row and column of the matrix is then a random direction, so each entry has
+// the mean 0 and the variance 1/4. Over 2,000 matrices, the mean of an entry has the standard deviation 0.011, and the
+// mean of its square 0.004.
 TEST(TurnAtRandom, MakesAllRotationsEquallyProbable) {
     constexpr int kCount = 2000;
     glm::dmat4 sum(0), squares(0);

@@ -25,7 +25,7 @@ TEST(SettingTable, SaysWhatAnotherObjectAndResetSetBack) {
         line(session, "reset");
         EXPECT_EQ(setting.isIn(session.current), found->second != ResetOccasion::by_reset_or_another_object)
             << setting.name;
-        if (setting.name == "spacing") continue;  // it is scaled with the object
+        if (setting.name == "spacing") continue;  // the spacing changes with the size of the object
         line(session, isOfField ? "formula x^2+y^2+z^2 < 2-w" : "polytope 16-cell");
         EXPECT_EQ(setting.isIn(session.current), found->second == ResetOccasion::never) << setting.name;
     }
@@ -33,8 +33,8 @@ TEST(SettingTable, SaysWhatAnotherObjectAndResetSetBack) {
 }
 
 TEST(SettingTable, ASettingChangesNoOther) {
-    // For some settings: the other settings that they may change. w of the focus point is that of the focus slice, and
-    // the slices span the object.
+    // The other settings that a setting may change. The w of the focus point is that of the focus slice, and the slices
+    // span the object.
     const std::map<std::string, std::set<std::string>, std::less<>> others{{"pace", {"spacing"}},
                                                                            {"follow", {"spacing"}},
                                                                            {"boost", {"spacing"}},

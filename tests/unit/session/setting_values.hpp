@@ -19,20 +19,23 @@
 
 namespace oval4d::session {
 
-/// A setting: its name, a value, the command that shows an object that has it, and whether a state holds the value.
+/// A setting with a value: its name, the value, the command that shows an object with this setting, and a function that
+/// returns whether a state has the value.
 struct SettingValue {
     std::string name, value, object;
     std::function<bool(const State&)> isIn;
-    std::string place;       ///< in a message, as a JSON pointer (RFC 6901)
-    nlohmann::json message;  ///< the value in a message
+    std::string place;  ///< the place of the setting in a message, as a JSON pointer (RFC 6901)
+    /// The value in a message.
+    nlohmann::json message;
 };
 
-/// Returns the properties in a schema.
+/// Returns the properties in the schema called `schema`.
 inline nlohmann::json propertiesIn(const std::string& schema) {
     return nlohmann::json::parse(protocol_data::embeddedFile("schema/" + schema + ".schema.json")).at("properties");
 }
 
-/// Returns the schema of a setting, which is in settings.schema.json or, for what is shown, in parts.schema.json.
+/// Returns the schema of a setting. Settings are in settings.schema.json, except visible parts, which are in
+/// parts.schema.json.
 inline nlohmann::json schemaOf(const SettingName& name) {
     const std::string object(name.object), member(name.member);
     if (object == "shown") return propertiesIn("parts").at(member);
@@ -40,7 +43,7 @@ inline nlohmann::json schemaOf(const SettingName& name) {
     return object.empty() ? settings.at(member) : settings.at(object).at("properties").at(member);
 }
 
-/// Returns a value of a message as it is written on the command line.
+/// Returns a value of a message in the form of the command line.
 inline std::string lineText(const nlohmann::json& value) {
     if (value.is_boolean()) return value.get<bool>() ? "on" : "off";
     if (value.is_string()) return value.get<std::string>();
@@ -51,7 +54,8 @@ inline std::string lineText(const nlohmann::json& value) {
     }
     if (value.is_number()) return value.dump();
     if (value.contains("element")) return lineText(value.at("element")) + ":" + lineText(value.at("number"));
-    std::string point = lineText(value.at("value")) + ":" + lineText(value.at("opacity"));  // of fog
+    // A control point of the fog.
+    std::string point = lineText(value.at("value")) + ":" + lineText(value.at("opacity"));
     if (value.contains("color")) {
         char digits[16];
         std::snprintf(digits, sizeof digits, "%06x", value.at("color").get<unsigned>());
@@ -60,8 +64,8 @@ inline std::string lineText(const nlohmann::json& value) {
     return point;
 }
 
-/// Returns a value that is not the initial one: the first example of the schema or, without examples, the opposite of
-/// the default.
+/// Returns a value of a setting that is not the initial value. This is the first example in the schema or, without
+/// examples, the opposite of the default.
 inline nlohmann::json exampleOf(const SettingName& name) {
     const nlohmann::json schema = schemaOf(name);
     if (schema.contains("examples")) return schema.at("examples").at(0);
@@ -70,7 +74,7 @@ inline nlohmann::json exampleOf(const SettingName& name) {
     return !schema.value("default", false);
 }
 
-/// Returns whether a setting has this value in a state, both as texts.
+/// Returns a function that returns whether a setting has this value in a state.
 inline std::function<bool(const State&)> isTextIn(const std::string& name, const std::string& value) {
     Set set;
     const auto done = parseSetting(name, value, set);
@@ -81,7 +85,7 @@ inline std::function<bool(const State&)> isTextIn(const std::string& name, const
     };
 }
 
-/// Returns a value of each setting that is not its initial one.
+/// Returns a value for each setting that is not the setting's initial value.
 inline std::vector<SettingValue> settingValues() {
     std::vector<SettingValue> values{{"polytope", "16-cell", "polytope 8-cell",
                                       [](const State& state) { return infoOf(state).name == "16-cell"; }, "/polytope",
@@ -112,15 +116,15 @@ inline std::vector<SettingValue> settingValues() {
     return values;
 }
 
-/// Returns a session with an object that has the setting.
+/// Returns a session with an object that has this setting, before the setting is changed.
 inline Session sessionBefore(const SettingValue& setting) {
     Session session;
     line(session, setting.object);
-    press(session, "2");  // a rotation, which turning repeats
+    press(session, "2");  // a rotation, which `turning` repeats
     return session;
 }
 
-/// Returns a session that has the value.
+/// Returns a session in which the setting has this value.
 inline Session sessionWith(const SettingValue& setting) {
     Session session = sessionBefore(setting);
     EXPECT_FALSE(setting.isIn(session.current)) << setting.name << " has this value initially";

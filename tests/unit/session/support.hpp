@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by the tests of sessions.
+// Helpers for the tests of sessions.
 
 #include <algorithm>
 #include <cmath>
@@ -19,8 +19,8 @@ namespace oval4d::session {
 
 inline const geometry::ObjectInfo& infoOf(const State& state) { return slicing::infoOf(state.object); }
 
-/// Executes a command, and loads the objects that it needs on the calling thread, with the polytope cache of the test
-/// program.
+/// Executes a command. Loads the objects that it needs on the calling thread, with the test program's cache of
+/// polytopes.
 inline Result<std::monostate> apply(Session& session, const Command& command, const Limits& limits = {}) {
     ObjectLoader loader(limits, support::cache());
     return apply(session, command, limits, loader);
@@ -53,7 +53,7 @@ inline void expectNear(const State& a, const State& b, double tolerance) {
     EXPECT_EQ(a.playing, b.playing);
 }
 
-/// Expects that the command succeeds.
+/// Executes a command, and expects that it succeeds.
 inline void must(Session& session, const Command& command, const Limits& limits = {}) {
     const auto done = apply(session, command, limits);
     ASSERT_TRUE(done) << done.error().message;
@@ -65,8 +65,8 @@ inline void press(Session& session, const std::string& keys) {
 
 inline void line(Session& session, const std::string& text) { must(session, CommandLine{text}); }
 
-/// Expects that the command fails with this code and with `says` in its message, and does not change the session,
-/// except that a key whose action is refused ends a sequence.
+/// Executes a command, and expects that it fails with this code and with `says` in the message. The session must not
+/// change, except that the refused action of a key ends a sequence of keys.
 inline void expectRefused(Session& session, const Command& command, ErrorCode code, const std::string& says,
                           const Limits& limits = {}) {
     Session expected = session;
@@ -78,7 +78,7 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
     EXPECT_TRUE(session == expected) << done.error().message;
 }
 
-/// Applies a command as a server does, and sets `done` to the result. Returns how many times the server must wait for
+/// Executes a command as a server does, and sets `done` to the result. Returns how many times the server must wait for
 /// `loader` to load an object.
 inline int ordersOf(Session& session, const Command& command, ObjectLoader& loader, Result<std::monostate>& done) {
     const Session before = session;

@@ -19,7 +19,7 @@
 namespace oval4d::session {
 namespace {
 
-// An array with the samples 0, 1, 2 ….
+// Returns a field of an array with the samples 0, 1, 2 ….
 slicing::Object arrayOf(const fields::Shape& shape, const fields::Box& box = {glm::dvec4(0), {1, 1, 1, 3}}) {
     fields::FieldArray array;
     array.shape = shape;
@@ -113,7 +113,7 @@ TEST(Load, TheHistoryGrowsWithTheField) {
     EXPECT_EQ(slicing::fieldIn(session.loaded.at("run"))->array->shape()[3], 7U);
 }
 
-// Adds a second array, which has the negatives of the samples.
+// Returns the field with a second array, whose samples are the negatives of the first.
 slicing::Object withSecond(const slicing::Object& object) {
     fields::Field field = *slicing::fieldIn(object);
     fields::FieldArray second;

@@ -1,4 +1,4 @@
-// Elements that are turned toward +w, and the focus that moves from vertex to vertex.
+// Tests of turning elements toward +w, and of moving the focus from vertex to vertex.
 
 #include <cmath>
 #include <numbers>
@@ -18,7 +18,7 @@ using slicing::ElementKind;
 
 double topOf(const State& state) { return slicing::rangeOfW(state.object, state.orientation).second; }
 
-// Lets the motion go on to its end, in steps of 1/60 s; returns its duration in seconds.
+// Lets all motion end, in steps of 1/60 s. Returns its duration in seconds.
 double finish(Session& session) {
     double seconds = 0;
     for (; session.current.isMoving() && seconds < 10; seconds += 1.0 / 60) advance(session, 1.0 / 60);
@@ -116,7 +116,8 @@ TEST(Focus, MovesFromVertexToVertex) {
     line(session, "polytope 600-cell");
     line(session, "toward vertex 0");
     finish(session);
-    // Coxeter, Regular Polytopes, table V(iii): the vertices lie at cos 0°, 36°, 60°, 72°, 90° and so on.
+    // The w of the vertices is cos 0°, 36°, 60°, 72°, 90° and so on, times the circumradius (Coxeter, Regular
+    // Polytopes, table V(iii)).
     const double radius = slicing::infoOf(session.current.object).circumradius;
     std::vector<double> cosines;
     for (const double degrees : {90, 72, 60, 36, 0}) cosines.push_back(std::cos(degrees * std::numbers::pi / 180));

@@ -1,4 +1,5 @@
-// Files as people and programs have written them, in tests/wild: what is read from each, or why it is refused.
+// Tests with files of other people and programs, in tests/wild: the object that is read from each file, or the reason
+// why the file is refused.
 
 #include <array>
 #include <fstream>
@@ -15,7 +16,7 @@ namespace {
 
 struct WildFile {
     const char* name;
-    /// The numbers of vertices, edges, 2-faces and cells, then any warnings; or the message of the error.
+    /// The numbers of vertices, edges, 2-faces and cells, followed by warnings; or the error message.
     const char* right;
 };
 
