@@ -10,7 +10,8 @@
 namespace oval4d::store {
 namespace {
 
-/// If the session were queued, an update without changes would overwrite its newest state in the store with nothing.
+/// An old id in the queue does not queue a session that was added again. Otherwise, an update without changes would
+/// overwrite the newest state in the store.
 TEST(CachedSessions, AnIdLeftInTheQueueDoesNotQueueTheSessionWhenItIsAddedAgain) {
     CachedSessions sessions;
     sessions.add({"id", "secret"});
@@ -49,7 +50,8 @@ TEST(CachedSessions, EvictedSessionsLeaveTheQueue) {
     EXPECT_EQ(sessions.queueLength(), 1U);
 }
 
-/// A session that alone exceeds the quota must be evicted in any case. If it is evicted first, the others can stay.
+/// A session that alone exceeds the quota is evicted first, because it must be evicted in any case. The other sessions
+/// can then stay.
 TEST(CachedSessions, EvictsSessionsBeyondTheWholeQuotaFirst) {
     CachedSessions sessions;
     CachedSession::Clock::time_point time;

@@ -1,5 +1,5 @@
-// What the server accepts can be read from the store, also at the bounds of the settings; what exceeds these bounds, a
-// later version may have stored.
+// Tests of the bounds of stored settings. All values that the server accepts, even at the bounds, can be read from the
+// store. Values beyond the bounds count as values of a later version.
 
 #include <cmath>
 #include <cstddef>
@@ -22,13 +22,13 @@ namespace {
 
 using session::Session;
 
-// Returns the session after it was stored and read again.
+// Returns the session after encoding and decoding it.
 Session readAgain(const Session& session) {
     ObjectTable table;
     return decodeSession(encodeWhole(session, 1000, table.keyOf), "", table.objectOf, support::cache());
 }
 
-// Makes a field of an array.
+// Returns a field of an array.
 slicing::Object fieldOf(const fields::Shape& shape, const fields::Box& box, const std::vector<float>& samples) {
     fields::FieldArray array;
     array.shape = shape;
@@ -66,11 +66,12 @@ TEST(Codec, ReadsFieldsWithSamplesBeyondAllLevels) {
     }
 }
 
-// The second time step changes the proportions of the domain, and with them the bounds of the settings.
+// A session can be read after its field has got a second time step. This changes the proportions of the domain, and so
+// the bounds of the settings.
 TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
     struct Array {
-        std::size_t samples;  // along x, y and z
-        glm::dvec4 max;       // of its box
+        std::size_t samples;  // number along x, y and z
+        glm::dvec4 max;       // upper end of the box
     };
     for (const auto& [samples, max] : {Array{2, {1, 1, 1, 0}}, Array{1, {0, 0, 0, 100}}}) {
         const session::FileReader reader = [&](const session::LoadObject&, const session::Limits&) {
@@ -109,7 +110,8 @@ TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
     }
 }
 
-// The bounds of the settings, and the kinds of cells that may be hidden, are those of the box in the new file.
+// A session can be read after its file was replaced. The bounds of the settings and the kinds of cells are then those
+// of the box in the new file.
 TEST(Codec, ReadsSessionsWhoseFileHasBeenReplaced) {
     const auto fieldInFile = [](const glm::dvec4& end) -> slicing::Object {
         fields::FieldArray array;
@@ -165,7 +167,8 @@ TEST(Codec, ReadsTheFocusPointAtItsBoundsFarFromTheOrigin) {
     EXPECT_TRUE(same(session, readAgain(session)));
 }
 
-// A later version may have wider bounds. Clients keep a session of a later version, but forget one that is unreadable.
+// Values beyond the bounds throw LaterRecord, because a later version may have wider bounds. Clients keep a session of
+// a later version, but forget an unreadable session.
 TEST(Codec, TakesValuesBeyondItsBoundsForThoseOfALaterVersion) {
     using session::State;
     const auto expectLater = [](auto change) {
@@ -190,7 +193,7 @@ TEST(Codec, TakesValuesBeyondItsBoundsForThoseOfALaterVersion) {
     expectLater([](State& state) { state.look.cellTypes.hidden = {1'000}; });
 }
 
-// The limit of a later version may be higher.
+// Too many vertices throw LaterRecord, because a later version may have a higher limit.
 TEST(Codec, TakesTooManyVerticesForThoseOfALaterVersion) {
     ObjectTable table;
     const auto list = nlohmann::json::array({nlohmann::json::array({"5-cell"})});

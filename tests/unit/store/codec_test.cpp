@@ -35,8 +35,8 @@ TEST(Codec, DecodesWhatItEncodes) {
     EXPECT_GT(own, 10U) << "the sessions have loaded objects";
 }
 
-// A new member of Session is a new element of the record, which differs from that of a new session only if this test
-// gives the member another value.
+// No member of a session is lost. The test notices the loss of a new member only if it gives the member another value
+// than a new session has.
 TEST(Codec, LosesNoMemberOfASession) {
     Session session;
     session::line(session, "polytope 24-cell");
@@ -68,7 +68,7 @@ TEST(Codec, LosesNoMotion) {
     Session session;
     session::press(session, "2P");
     session.current.playsDownward = true;
-    session.undoSteps.back().turning = true;  // it has a last rotation
+    session.undoSteps.back().turning = true;  // allowed, because there is a last rotation
     session.current.ongoingTurnToward = session::OngoingTurnToward{geometry::Rotation(*session.current.lastTurn), 0.5};
     ObjectTable table;
     const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, support::cache());
@@ -152,7 +152,8 @@ TEST(Codec, StoresEachPartUnderItsNumber) {
     }
 }
 
-// If a record with an unknown member were read, the member would be lost when the session is stored again.
+// A record with a member of a later version is refused. Otherwise, the member would be lost when the session is stored
+// again.
 TEST(Codec, RefusesMembersOfLaterVersions) {
     using nlohmann::json;
     Session session;
@@ -176,11 +177,11 @@ TEST(Codec, RefusesMembersOfLaterVersions) {
         return "";
     };
     ASSERT_EQ(refusalOf(whole), "");
-    // All arrays that a later version may extend: the record; its state; the angles, the slices, the look, the turn
-    // toward an element and the frame of reference; the parts, the camera's orbit, the highlight, the settings of the
-    // field and a control point of its fog; and a state of the history. Lists of a fixed length: the name and the key
-    // of an object; a quaternion, a turn, a velocity and the focus point; a plane and its angle; the name and the index
-    // of a loaded object.
+    // These are all arrays that a later version may extend: the record; its state; the angles, the slices, the look,
+    // the turn toward an element and the frame of reference; the visible parts, the camera's orbit, the highlight, the
+    // settings of the field and a control point of its fog; and a state of the history. Some lists have a fixed length:
+    // the name and the key of an object; a quaternion, a turn, a velocity and the focus point; a plane and its angle;
+    // the name and the index of a loaded object.
     for (const char* place :
          {"",        "/3",          "/3/3", "/3/4", "/3/5", "/3/8", "/3/9",   "/3/5/1", "/3/5/2",   "/3/5/8",
           "/3/5/10", "/3/5/10/2/0", "/4/0", "/2/0", "/3/1", "/3/7", "/3/9/1", "/3/5/9", "/4/0/7/0", "/6/0"}) {
@@ -221,7 +222,7 @@ TEST(Codec, BuildsComposedPolytopesFromTheirNames) {
           "polytope dual of bipyramid of 7-gonal antiprism"})
         session::line(session, text);
     ObjectTable table;
-    polytopes::PolytopeCache cache;  // which has none of the session's polytopes
+    polytopes::PolytopeCache cache;  // contains no polytope of the session
     const Session back = decodeSession(encodeWhole(session, 10, table.keyOf), "", table.objectOf, cache);
     EXPECT_EQ(table.size(), 0U) << "their names suffice";
     ASSERT_EQ(back.undoSteps.size(), session.undoSteps.size());
@@ -310,7 +311,7 @@ TEST(Codec, RefusesOtherVersionsAndOtherData) {
     }
 }
 
-/// The records are well-formed, but no session can have these values.
+/// Records with values that no session can have are refused, even if they are well-formed.
 TEST(Codec, RefusesInvalidValues) {
     const ObjectLookup none = [](const std::string&) { return std::nullopt; };
     ObjectTable table;
@@ -347,7 +348,7 @@ TEST(Codec, RefusesInvalidValues) {
     refused([](State&) {});
 }
 
-/// Declared sizes do not reserve memory, and deep nesting does not overflow the stack.
+/// Wrong sizes in a record do not reserve memory, and deep nesting does not overflow the stack.
 TEST(Codec, RefusesExcessiveSizesAndNesting) {
     const ObjectLookup none = [](const std::string&) { return std::nullopt; };
     const std::string huge("\xff\xff\xff\xff\xff\xff\xf0", 7);
@@ -357,7 +358,7 @@ TEST(Codec, RefusesExcessiveSizesAndNesting) {
     inputs.push_back(maps);
     for (const char kind : {'\x5b', '\x7b', '\x9b', '\xbb'})  // bytes, text, an array, a map
         inputs.push_back(std::string("\x82\x01") + kind + '\0' + huge);
-    // Many polytopes with names of the catalogue, each with almost a million vertices.
+    // Many polytopes with names that the catalogue knows. Each has almost a million vertices.
     std::string many("\x88\x01\x00\x98\x20", 5);
     for (int i = 0; i < 32; ++i)
         many += "\x81\x70" + std::to_string(1000 - i) + "," + std::to_string(900 + i) + "-duoprism";
@@ -368,8 +369,8 @@ TEST(Codec, RefusesExcessiveSizesAndNesting) {
     }
 }
 
-/// An image in a frame of reference is not made before its size is checked. Each object that is made takes the next
-/// serial number, so the test checks that none was taken.
+/// The size of a transformed object is checked before the object is made. The test checks that no serial number was
+/// taken, because each new object takes the next one.
 TEST(Codec, MakesNoImageBeyondTheLimitOfVertices) {
     const geometry::ReferenceFrame frame{.pace = 2}, other{.pace = 3};
     const auto list = nlohmann::json::array({nlohmann::json::array({"mesh", "key"})});
@@ -388,7 +389,7 @@ TEST(Codec, MakesNoImageBeyondTheLimitOfVertices) {
     EXPECT_EQ(geometry::nextSerial(), before + 1);
 }
 
-/// Damaged bytes decode to a session that can be sliced, or throw UnreadableRecord.
+/// Damaged records decode to a session that can be sliced, or throw UnreadableRecord.
 TEST(Codec, SurvivesDamage) {
     std::mt19937 random(7);
     Session session;

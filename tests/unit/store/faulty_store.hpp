@@ -1,5 +1,5 @@
 #pragma once
-// A store that tests observe and make fail.
+// A session store that tests can observe and make fail.
 
 #include <atomic>
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace oval4d::store {
 
-/// What a test sets and observes in a FaultyStore.
+/// The controls of a FaultyStore, and what a test observes of it.
 struct StoreControl {
     explicit StoreControl(std::size_t quota = kDefaultQuota,
                           Store::WritePolicy writePolicy = Store::WritePolicy::at_once)
@@ -28,14 +28,16 @@ struct StoreControl {
     const Store::WritePolicy policy;
     support::VirtualClock clock;
     std::atomic<bool> fails = false;
-    std::atomic<int> attempts = 0, saves = 0, refreshes = 0;  // numbers of operations, saved updates, expire()
+    // The numbers of all operations, of saved updates, and of calls of expire().
+    std::atomic<int> attempts = 0, saves = 0, refreshes = 0;
     std::mutex mutex;
-    MemoryStore kept;                    // guarded by mutex
-    std::vector<RecordUpdate> updates;   // of all calls of save() that did not fail, in order; guarded by mutex
-    std::vector<TakenOverSession> lost;  // the result of the next poll; guarded by mutex
+    MemoryStore kept;  // guarded by mutex
+    // The updates of all successful calls of save(), in order. Guarded by mutex.
+    std::vector<RecordUpdate> updates;
+    std::vector<TakenOverSession> lost;  // result of the next poll; guarded by mutex
 };
 
-/// A store in memory that a test controls: its write policy, and whether its operations fail.
+/// A session store in memory that a test controls. The test chooses its write policy, and whether its operations fail.
 class FaultyStore final : public Store {
   public:
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}

@@ -1,5 +1,5 @@
-// The records of objects. codec_test.cpp has further tests of the records of polytopes, and object_record_v1_test.cpp
-// of records that earlier versions have stored.
+// Tests of the records of objects. codec_test.cpp has further tests of polytopes, and object_record_v1_test.cpp tests
+// records of earlier versions.
 
 #include "store/object_codec.hpp"
 
@@ -72,7 +72,7 @@ TEST(ObjectCodec, FieldsKeepTheirSecondFunction) {
     for (std::size_t i = 0; i < samples.size(); ++i) samples[i] = static_cast<float>(i);
     array.samples = fields::SampleStorage(std::move(samples));
     fields::Field twoArrays = *fields::fieldFromArray("run", array), withFormula = twoArrays;
-    std::string longName;  // of 256 characters, but more bytes
+    std::string longName;  // has 256 characters, but more bytes
     while (longName.size() < 512) longName += "é";
     EXPECT_FALSE(fields::setSecondArray(twoArrays, array, longName));
     EXPECT_FALSE(fields::setSecondFormula(withFormula, "x + a; a=2"));
@@ -92,7 +92,7 @@ TEST(ObjectCodec, FieldsKeepTheirSecondFunction) {
                  LaterRecord);
 }
 
-// A field of an array with units, and with a second array if `hasSecond` is true.
+// Returns a field of an array with units. If `hasSecond` is true, the field has a second array.
 fields::Field fieldWithUnits(bool hasSecond) {
     fields::FieldArray array;
     array.shape = {2, 1, 1, 1};
@@ -157,7 +157,7 @@ TEST(ObjectCodec, RefusesInvalidUnits) {
     EXPECT_THROW(decodeObjectRecord(record), UnreadableRecord) << "not UTF-8";
 }
 
-// A field of the data folder whose samples are not stored.
+// Returns a field in the data folder, whose samples are not stored.
 fields::Field fieldInFile() {
     fields::Field field = fieldWithUnits(false);
     field.source = std::make_shared<const fields::FileSource>(
@@ -199,7 +199,7 @@ TEST(ObjectCodec, FieldsInFilesKeepTheirSource) {
         UnreadableRecord);
 }
 
-// Objects of each kind.
+// Returns objects of all kinds.
 std::vector<slicing::Object> objectsOfAllKinds() {
     geometry::JaggedArray faces, cells;
     for (const auto& face : std::vector<std::vector<std::uint32_t>>{{0, 1, 2},
@@ -270,7 +270,8 @@ TEST(ObjectCodec, RefusesRecordsOfLaterVersions) {
     }
 }
 
-// Collects the values of all stored members, by their places, such as "/0/1" for the member 1 of the member 0.
+// A visitor that collects the values of all stored members, by their places. The place "/0/1" means member 1 of member
+// 0.
 class MemberValues {
   public:
     using Values = std::map<std::string, std::set<std::string>>;
@@ -309,8 +310,8 @@ class MemberValues {
     Values& values_;
 };
 
-// What a function that makes an object drops is missing when the object is stored again. The test sees this if an
-// object gives each member another value than an empty object has.
+// No member of an object is lost when the object is decoded and encoded again. The test notices a loss only if some
+// object has another value of the member than an empty object.
 TEST(ObjectCodec, LosesNoMember) {
     const auto open = [](const session::LoadObject&) {
         return Result<slicing::Object>(std::make_shared<const fields::Field>(fieldInFile()));
@@ -349,15 +350,15 @@ TEST(ObjectCodec, LosesNoMember) {
     empty.array.emplace();
     empty.second.emplace().array.emplace();
     collect("field", empty);
-    // The cells of a surface; the origin of a field; of its second array, the units, whether it is a part, and the
-    // levels.
+    // These members are always empty: the cells of a surface; the origin of a field; of the second array, the units,
+    // whether it is a part, and the levels.
     const std::set<std::string> unused{"surface/0/3", "surface/0/4",   "field/0/1",     "field/5/2/3",
                                        "field/5/2/5", "field/5/2/6/0", "field/5/2/6/1", "field/5/2/6/2"};
     for (const auto& [place, found] : values)
         EXPECT_EQ(found.size() > 1, !unused.contains(place)) << place << ": an object needs another value";
 }
 
-// The static_assert beside a struct with a base class fails if the struct gets a member.
+// If a struct with a base class gets a new member, the static_assert beside the struct fails.
 struct Base {
     std::string name;
     bool isSmall = true;
@@ -365,7 +366,7 @@ struct Base {
 struct WithoutMembers : Base {};
 struct WithTwoMembers : Base {
     std::shared_ptr<const int> pointer;
-    bool isLarge = false;  // which may lie in the padding of another member
+    bool isLarge = false;  // may lie in the padding of another member
 };
 static_assert(serialization::HasOwnMembers<WithoutMembers, Base, 0>);
 static_assert(!serialization::HasOwnMembers<WithoutMembers, Base, 1>);

@@ -1,4 +1,4 @@
-// Records of objects that earlier versions have stored. The records in this file never change.
+// Tests of object records that earlier versions have stored. The records in this file must never change.
 
 #include "store/object_record_v1.hpp"
 

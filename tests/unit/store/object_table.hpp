@@ -12,7 +12,7 @@
 
 namespace oval4d::store {
 
-/// Stores objects in encoded form.
+/// A table of encoded objects, which provides the functions that encode and decode sessions.
 class ObjectTable {
   public:
     ObjectKeyLookup keyOf = [this](const slicing::Object& object) {

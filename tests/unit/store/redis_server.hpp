@@ -1,5 +1,5 @@
 #pragma once
-// A Redis server for the tests of stores.
+// A Redis server for the tests of session stores.
 
 #include <hiredis/hiredis.h>
 #include <netinet/in.h>
@@ -22,9 +22,9 @@
 
 namespace oval4d::store {
 
-/// A port on which only programs of this test listen. While a socket is bound to a port but does not listen, the system
-/// gives the port to no program that asks for a free one, but programs that set SO_REUSEADDR, such as Redis, can listen
-/// on it.
+/// A free port that no other program takes. The port is bound to a socket that does not listen, so the system gives it
+/// to no other program that asks for a free port. Programs that set SO_REUSEADDR, such as Redis, can still listen on
+/// it.
 class Port {
   public:
     Port() : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
@@ -72,7 +72,7 @@ class Redis {
         waitpid(std::exchange(process_, 0), nullptr, 0);
     }
 
-    /// Returns a store that is connected to this Redis, or null if that is not possible.
+    /// Returns a store that is connected to this Redis server, or null if connecting fails.
     std::unique_ptr<Store> connect(Milliseconds expiry = std::chrono::hours(1),
                                    ClockFunction<RedisStore::Clock> now = RedisStore::Clock::now) const {
         StoreOptions options;
@@ -91,7 +91,8 @@ class Redis {
         return process_ != 0 && support::eventually(answers) ? std::move(store) : nullptr;
     }
 
-    /// Returns the time after which Redis deletes a key; a negative number if it never does or has no such key.
+    /// Returns the time until Redis deletes a key. Returns a negative number if Redis never deletes the key, or has no
+    /// such key.
     Milliseconds expiryOf(const std::string& key) const {
         const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
                                                                           redisFree);
@@ -100,7 +101,7 @@ class Redis {
         return Milliseconds(reply ? reply->integer : -1);
     }
 
-    /// Returns whether the hash `key` has the field `field`.
+    /// Returns whether the Redis hash `key` has the field `field`.
     bool hasField(const std::string& key, const std::string& field) const {
         const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
                                                                           redisFree);
@@ -109,7 +110,7 @@ class Redis {
             freeReplyObject);
         return reply && reply->integer == 1;
     }
-    /// Loads a script, as a server that uses it does.
+    /// Loads a Lua script into Redis, as oval4d servers do.
     void loadScript(const std::string& script) const {
         const std::unique_ptr<redisContext, decltype(&redisFree)> context(redisConnect("127.0.0.1", port_.number),
                                                                           redisFree);

@@ -72,7 +72,7 @@ TEST(RedisStore, PollTellsTheFenceOfSessionsThatTheServerHasClaimedBack) {
     EXPECT_EQ(one->pollTakenOverSessions(), (std::vector<TakenOverSession>{{"id", 0}}));
 }
 
-// The script with which servers of version 0.1.0 save sessions.
+// The Lua script with which servers of version 0.1.0 save sessions.
 constexpr const char* kSaveScriptOfFirstVersion = R"(
 local fence, owner = unpack(redis.call('HMGET', KEYS[1], 'fence', 'owner'))
 local mine = tonumber(ARGV[3])
@@ -165,7 +165,7 @@ TEST(RedisStore, RecoversWhenRedisHasLostAllData) {
     const RecordUpdate head{{"id", "secret"}, 1, "head", "", {}, {}, false};
     EXPECT_EQ(one->save({&head, 1}).at(0), SaveResult::missing);
     EXPECT_EQ(one->save({&first, 1}).at(0), SaveResult::saved);
-    // Another server may have the same fence, from a claim before the loss.
+    // Another server may have the same fence from a claim before Redis lost its data.
     EXPECT_EQ(two->save({&first, 1}).at(0), SaveResult::claimed);
 }
 

@@ -89,7 +89,7 @@ TEST(SqliteStore, FilesArePrivate) {
     }
 }
 
-/// Claims a session. If the first attempt finds damage, makes a second one, which first repairs the file.
+/// Claims a session. If the first attempt finds damage, makes a second attempt, which repairs the file first.
 std::optional<SessionRecord> claimed(SqliteStore& store, const std::string& id) {
     try {
         return store.claim(id);
@@ -98,8 +98,8 @@ std::optional<SessionRecord> claimed(SqliteStore& store, const std::string& id) 
     }
 }
 
-/// Flips bits of the file, or truncates it: every session that can be claimed is unchanged, and the damaged file is
-/// kept under another name.
+/// Intact sessions of a damaged file survive. After bits were flipped or the file was truncated, every session that can
+/// be claimed is unchanged, and the damaged file has another name.
 TEST(SqliteStore, SalvagesIntactSessionsOfADamagedFile) {
     std::mt19937 random(3);
     const auto bytesOfSession = [](int number) {

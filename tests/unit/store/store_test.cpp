@@ -1,4 +1,4 @@
-// The tests that all stores must pass, and the order in which stores with a quota evict sessions.
+// Tests that all session stores must pass, and tests of the order in which stores with a quota evict sessions.
 
 #include <gtest/gtest.h>
 
@@ -53,13 +53,13 @@ class AnyStore : public testing::TestWithParam<std::string> {
 INSTANTIATE_TEST_SUITE_P(Stores, AnyStore, testing::Values("memory", "sqlite", "redis"),
                          [](const auto& kind) { return kind.param; });
 
-/// A store that must be asked to remove expired sessions.
+/// Tests of stores that must be asked to remove expired sessions.
 class ExpiringStore : public AnyStore {};
 
 INSTANTIATE_TEST_SUITE_P(Stores, ExpiringStore, testing::Values("memory", "sqlite"),
                          [](const auto& kind) { return kind.param; });
 
-// Records may contain any bytes.
+// Records that contain any bytes must be kept.
 const std::string kBytes("a\0b\r\n\xff", 6);
 
 TEST_P(AnyStore, ReturnsSavedRecords) {
@@ -170,7 +170,7 @@ TEST_P(AnyStore, RemovesSessionsWithTheirPolytopes) {
     EXPECT_TRUE(store->claim("one")->objects.empty());
 }
 
-/// Checks which sessions a store with a quota of 1 MiB evicts first.
+/// Expects that a store with a quota of 1 MiB evicts sessions in the right order.
 void expectEvictionOrder(Store& store, support::VirtualClock& clock, std::size_t bytes) {
     const auto saved = [&](const std::string& id, bool changed, std::size_t size) {
         const RecordUpdate update{{id, "secret"}, 1, "", std::string(size, 'x'), {}, {}, true, changed};
@@ -192,8 +192,8 @@ void expectEvictionOrder(Store& store, support::VirtualClock& clock, std::size_t
     EXPECT_TRUE(store.tokenHash("changed, new"));
     EXPECT_TRUE(store.tokenHash("filler 9"));
     EXPECT_EQ(store.save({&large, 1}).at(0), SaveResult::saved);
-    // An update of the first size does not fit beside the pinned sessions; one of the second size does not fit even
-    // alone.
+    // An update with the first size does not fit beside the pinned sessions. An update with the second size does not
+    // even fit into the empty store.
     for (const std::size_t size : {2 * bytes, std::size_t{2'000'000}}) {
         const RecordUpdate largest{{"largest", "secret"}, 1, "", std::string(size, 'x'), {}, {}, false, true};
         EXPECT_THROW(store.save({&largest, 1}), NotWritable);

@@ -1,5 +1,5 @@
-// The numbers that stored sessions contain. Servers of earlier versions have written them: a line of this file is never
-// changed or removed, and a new enumerator, part or setting with choices adds one.
+// Tests of the numbers in stored sessions. Servers of earlier versions have written these numbers, so no line of this
+// file may change. A new enumerator, part of the picture, or setting with choices adds a line.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by the tests of the stores: random sessions, and their comparison after decoding.
+// Helpers for the tests of session stores: random sessions, and comparing them after decoding.
 
 #include <gtest/gtest.h>
 
@@ -14,20 +14,19 @@
 
 namespace oval4d::store {
 
-/// Makes `other` refer to the same object as `one` if the encodings of the two objects are equal.
+/// Makes `other` refer to the same object as `one` if both objects have the same encoding.
 inline void share(const slicing::Object& one, slicing::Object& other) {
     if (encodeObjectRecord(one) == encodeObjectRecord(other)) other = one;
 }
 
-/// Where an object of `other` is equal to that of `one`, makes `other` refer to the object of `one`. A state has a
-/// source object and the image of this object in the frame of reference; the images are equal if the sources and the
-/// frames are.
+/// Makes `other` refer to the objects of `one` that are equal to its own. A state has a source object, and this object
+/// transformed to a frame of reference. The transformed objects are equal if the sources and the frames are equal.
 inline void share(const session::State& one, session::State& other) {
     share(one.source, other.source);
     if (one.source == other.source && one.referenceFrame == other.referenceFrame) other.object = one.object;
 }
 
-/// Returns whether the sessions are equal. Two objects count as equal if their encodings are equal.
+/// Returns whether two sessions are equal. Objects count as equal if their encodings are equal.
 inline bool same(const session::Session& one, session::Session other) {
     if (one.undoSteps.size() != other.undoSteps.size() || one.redoSteps.size() != other.redoSteps.size()) return false;
     share(one.current, other.current);
@@ -40,8 +39,8 @@ inline bool same(const session::Session& one, session::Session other) {
     return one == other;
 }
 
-/// Returns a command that loads the convex hull of 12 random points, which depend only on `seed`. If the seed is odd,
-/// the hull turns about a point other than the origin.
+/// Returns a command that loads the convex hull of 12 random points. The points depend only on `seed`. If the seed is
+/// odd, the hull turns about a point other than the origin.
 inline session::LoadObject ownObject(const std::string& name, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> coordinate(-1, 1);

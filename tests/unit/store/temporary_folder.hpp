@@ -1,5 +1,5 @@
 #pragma once
-// A temporary folder for the tests of stores.
+// A temporary folder for the tests of session stores.
 
 #include <cstdlib>
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace oval4d::store {
 
-/// A temporary folder.
+/// A temporary folder. The destructor deletes it.
 class Folder {
   public:
     Folder() {

@@ -13,10 +13,10 @@ namespace {
 using namespace std::chrono_literals;
 using session::Session;
 
-/// Tests in virtual time: the cache's thread regards only the time of the test's clock.
+/// Tests in virtual time: the thread of the cache reads only the clock of the test.
 class WriteBehindStoreTest : public testing::Test {
   protected:
-    /// `quota`: the quota of the cache. `storeQuota`: the quota of the store.
+    /// `quota` is the quota of the cache, and `storeQuota` the quota of the store behind the cache, in bytes.
     explicit WriteBehindStoreTest(std::size_t quota = kDefaultQuota, std::size_t storeQuota = kDefaultQuota)
         : control(std::make_shared<StoreControl>(storeQuota)), settings{1h, 100, quota} {}
 
@@ -32,18 +32,18 @@ class WriteBehindStoreTest : public testing::Test {
         writeBehind.save(id, fence, session, scope, [&](bool ours) { promise.set_value(ours); });
         return promise.get_future().get();
     }
-    /// Waits until `happened` returns true, while the clock stands still.
+    /// Waits until `happened` returns true. The clock stands still.
     void atOnce(const std::function<bool()>& happened) {
         EXPECT_TRUE(support::eventually(happened, [&] { wake(); }));
     }
-    /// Waits until `happened` returns true, while the clock advances.
+    /// Waits until `happened` returns true. The clock advances.
     void eventually(const std::function<bool()>& happened) {
         EXPECT_TRUE(support::eventually(happened, [&] {
             control->clock.advance(10ms);
             wake();
         }));
     }
-    /// Makes the cache's thread look at the clock. Saving an unknown session has no other effect.
+    /// Makes the thread of the cache read the clock. Saving an unknown session has no other effect.
     void wake() { writeBehind.save("nobody", kFirstFence, {}, WriteBehindStore::SaveScope::head); }
     Session at(std::uint64_t revision) const {
         Session session;
@@ -125,7 +125,7 @@ TEST_F(WriteBehindStoreTest, DoesNotWriteSessionsClaimedByOthers) {
     EXPECT_EQ(kept(credentials.id), 1U);
 }
 
-/// Another server has taken the session over, and this one has claimed it back before it polled.
+/// A session stays open if another server has claimed it and this server has claimed it back before the next poll.
 TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
     const SessionCredentials credentials = writeBehind.create();
     writeBehind.close(credentials.id, at(1));
@@ -168,7 +168,8 @@ TEST_F(WriteBehindStoreTest, CountsChangesThatWillSoonBeSaved) {
     eventually([&] { return writeBehind.unsaved() == 0; });
 }
 
-/// The server needs this so that it does not serve a session that another server claims while its record is decoded.
+/// The cache knows whether it still owns a fetched session. So the server does not serve a session that another server
+/// has claimed while the record was decoded.
 TEST_F(WriteBehindStoreTest, KnowsWhetherItStillOwnsAFetchedSession) {
     const SessionCredentials credentials = writeBehind.create();
     EXPECT_TRUE(writeBehind.owns(credentials.id, kFirstFence));
@@ -189,8 +190,8 @@ TEST_F(WriteBehindStoreTest, KnowsWhetherItStillOwnsAFetchedSession) {
     EXPECT_FALSE(writeBehind.owns(credentials.id, own));
 }
 
-/// A command that runs on after another server has taken the session over may end when this server has fetched the
-/// session again.
+/// A save with the fence of an earlier fetch is refused. A command may end after another server has claimed the session
+/// and this server has fetched it again.
 TEST_F(WriteBehindStoreTest, DoesNotSaveAnEarlierFetchOfASession) {
     const SessionCredentials credentials = writeBehind.create();
     EXPECT_TRUE(save(credentials.id, at(1)));
@@ -226,7 +227,7 @@ TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
     EXPECT_LT(control->saves, 5000);
 }
 
-/// Each fetch requests the next one at once, so that a request always waits. The change must be written nevertheless.
+/// Changes are written even if requests always wait. Here, each fetch requests the next fetch.
 TEST_F(WriteBehindStoreTest, WritesBetweenFetches) {
     constexpr int kMost = 1000;
     const SessionCredentials credentials = writeBehind.create();
@@ -268,7 +269,8 @@ TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
     EXPECT_EQ(writeBehind.unsaved(), 0U);
 }
 
-/// Polytopes are normally written once; a store that failed may have lost them.
+/// Objects are written again after a failure, because the store may have lost them. Otherwise, an object is written
+/// only once.
 TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
     const SessionCredentials credentials = writeBehind.create();
     Session session;
@@ -295,8 +297,8 @@ class SmallWriteBehindStoreTest : public WriteBehindStoreTest {
     SmallWriteBehindStoreTest() : WriteBehindStoreTest(100'000) {}
 };
 
-/// While the store is unavailable, closed sessions in memory are limited by the quota: those that were never changed
-/// are evicted first, then the oldest.
+/// While the store is unavailable, the quota limits the closed sessions in memory. Sessions that were never changed are
+/// evicted first, and then the oldest.
 TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
     control->fails = true;
     eventually([&] { return !writeBehind.lastError().empty(); });
@@ -325,7 +327,7 @@ class FullStoreTest : public WriteBehindStoreTest {
     FullStoreTest() : WriteBehindStoreTest(kDefaultQuota, 15'000) {}
 };
 
-/// If a session would not fit into the store even after all evictions, no other session is evicted for it.
+/// If a session would not fit into the store even after all evictions, no other session is evicted.
 TEST_F(FullStoreTest, EvictsNoSessionsInVain) {
     const auto stored = [&] {
         const std::lock_guard lock(control->mutex);
