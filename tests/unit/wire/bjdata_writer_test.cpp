@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// The bytes of the specification of BJData, draft 2.
+// Numbers have the shortest markers. The expected bytes follow the specification of BJData, draft 2.
 TEST(BjdataWriter, WritesTheShortestMarkers) {
     const auto bytes = written<BjdataWriter>([](BjdataWriter& w) {
         w.beginObject();

@@ -13,7 +13,7 @@
 namespace oval4d::wire {
 namespace {
 
-/// Returns an object of four members. `writeInner` writes two of them.
+/// Returns an encoded object with four members. `writeInner` writes two of them.
 template <typename W, typename WriteInner>
 std::string objectAround(WriteInner writeInner) {
     return written<W>([&](W& w) {
@@ -49,7 +49,7 @@ TEST(Writers, MembersOfAnObjectAreAsIfWrittenThere) {
     expectMembersAsIfWrittenThere<BjdataWriter>();
 }
 
-// The bytes of RFC 8949 and RFC 8746.
+// Numbers and arrays have the shortest heads. The expected bytes follow RFC 8949 and RFC 8746.
 TEST(CborWriter, WritesTheShortestHeads) {
     const auto bytes = written<CborWriter>([](CborWriter& w) {
         w.beginObject();

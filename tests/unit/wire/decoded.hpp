@@ -1,5 +1,5 @@
 #pragma once
-// Decodes `slices` messages in every encoding.
+// Decodes `slices` messages in every encoding, for tests.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,14 +15,14 @@
 
 namespace oval4d::wire {
 
-/// Follows a message in BJData in order to find the types of its optimized arrays, which nlohmann::json decodes to
-/// ordinary arrays of numbers.
+/// A reader that follows a BJData message to find the types of its optimized arrays. nlohmann::json decodes such arrays
+/// to ordinary arrays of numbers.
 class BjdataArrayTypes {
   public:
     explicit BjdataArrayTypes(std::string_view message) : message_(message) {}
 
-    /// Replaces the arrays in `value`, which nlohmann::json has decoded from the next bytes, as decoded() describes it.
-    /// Throws std::exception if the value and the bytes differ in their structure.
+    /// Replaces optimized arrays in `value` by binary values, as decoded() describes. nlohmann::json has decoded
+    /// `value` from the next bytes. Throws std::exception if the value and the bytes have different structures.
     void restore(nlohmann::json& value) {
         const char marker = next();
         if (marker == '{') {
@@ -54,7 +54,7 @@ class BjdataArrayTypes {
     static void require(bool agrees) {
         if (!agrees) throw std::logic_error("a message in BJData differs from what was decoded");
     }
-    /// Returns the size of a number.
+    /// Returns the size, in bytes, of a number with this marker.
     static std::size_t bytesOf(char marker) {
         constexpr std::string_view kMarkers = "iUIulmdLMD";
         const std::size_t i = kMarkers.find(marker);
@@ -82,7 +82,7 @@ class BjdataArrayTypes {
         return message_.substr(std::exchange(at_, at_ + bytes), bytes);
     }
     char next() { return take(1).front(); }
-    /// Reads a length.
+    /// Reads a length, which is a marker and a number.
     std::size_t count() {
         std::size_t length = 0;
         unsigned shift = 0;
@@ -97,8 +97,8 @@ class BjdataArrayTypes {
     std::size_t at_ = 0;
 };
 
-/// Returns a decoded message. The typed arrays of binary encodings become binary values whose subtypes are the numbers
-/// of ArrayType. Throws nlohmann::json::exception if the bytes are not a message in this encoding.
+/// Returns a decoded message. Typed arrays of binary encodings become binary values, whose subtypes are the numbers of
+/// ArrayType. Throws nlohmann::json::exception if the bytes are not a message in this encoding.
 inline nlohmann::json decoded(const std::string& message, Encoding encoding) {
     using nlohmann::json;
     switch (encoding) {

@@ -57,7 +57,7 @@ void expectSame(const State& a, const State& b) {
     }
     State likeA = b;
     likeA.orientation = a.orientation;
-    likeA.object = a.object;  // the image of the same object in the same frame
+    likeA.object = a.object;  // the same object in the same frame of reference
     EXPECT_EQ(likeA, a) << "all but the orientation's last bits";
 }
 
@@ -187,7 +187,7 @@ TEST(StateMessage, RestoresAFormulaInANewSession) {
     EXPECT_EQ(fresh.current.referenceFrame, session.current.referenceFrame);
 }
 
-// A field of an array that states its units, and a second array.
+// Returns a field of an array with units, and with a second array.
 fields::Field fieldWithUnits() {
     fields::FieldArray array;
     array.shape = {2, 1, 1, 1};

@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-// The bytes of the specification of MessagePack.
+// Numbers have the shortest formats. The expected bytes follow the specification of MessagePack.
 TEST(MsgpackWriter, WritesTheShortestFormats) {
     const auto bytes = written<MsgpackWriter>([](MsgpackWriter& w) {
         w.beginObject();

@@ -139,7 +139,7 @@ TEST(Parse, SetsEverySetting) {
     EXPECT_EQ(*set.orientation * glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0));
     EXPECT_EQ(set.lastTurn, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
 
-    // Each setting of the schema is among them.
+    // Expects that the list contains each setting of the schema.
     std::set<std::string> settings;
     const nlohmann::json properties = readSchema("set.schema.json").at("properties");
     for (const auto& [name, property] : properties.items()) {
@@ -178,7 +178,7 @@ TEST_P(BadMessages, GetTheirError) {
     EXPECT_FALSE(wire::errorMessage(bad->error, bad->id).empty());
 }
 
-/// Returns the names of all views as the title of the setting in its schema lists them: "oval", "single" or "matrix".
+/// Returns the names of all views in the form of the schema: "oval", "single" or "matrix".
 std::string quotedViews() {
     std::vector<std::string> quoted;
     for (const scene::ViewRow& row : scene::kViews) quoted.push_back('"' + std::string(row.name) + '"');
@@ -315,7 +315,7 @@ TEST(Parse, ManyBadNumbersAreNoWork) {
 }
 
 TEST(Parse, LongStringsBesideABadNumberAreNoWork) {
-    const std::string word(8 << 20, 'a');  // in time that grows with its square, this would take hours
+    const std::string word(8 << 20, 'a');  // an algorithm with quadratic time would take hours
     const auto result = parseRequest(R"({"type":"undo","x":")" + word + R"(\"NaN","id":5,"y":NaN})");
     const auto& bad = std::get<BadRequest>(result);
     EXPECT_EQ(bad.id, 5);
@@ -335,7 +335,7 @@ TEST(Quotes, KeepToPrintableText) {
     EXPECT_EQ(text::inQuotes("24-cell"), "'24-cell'");
     EXPECT_EQ(text::inQuotes("a\n\x7f\xff\xe2\x82"), "'a" + std::string(5, '?') + "'");
     EXPECT_EQ(text::inQuotes("π"), "'π'");
-    // Overlong forms, surrogates and code points above U+10FFFF are not UTF-8 (RFC 3629, sections 3 and 4).
+    // Overlong forms, surrogates and code points above U+10FFFF are not valid UTF-8 (RFC 3629, sections 3 and 4).
     for (const char* wrong : {"\xc0\xaf", "\xe0\x8c\x8f", "\xed\xa0\x80", "\xf0\x80\x80\x80", "\xf4\x90\x80\x80"}) {
         EXPECT_FALSE(text::isUtf8(wrong));
         EXPECT_EQ(text::inQuotes(wrong), "'" + std::string(std::string_view(wrong).size(), '?') + "'");

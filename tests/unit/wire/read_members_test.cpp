@@ -1,4 +1,4 @@
-// parse.cpp reads every member of the messages whose members are not described.
+// Tests that parse.cpp reads every member of those messages that are not described with Boost.Describe.
 
 #include <boost/describe/members.hpp>
 #include <boost/mp11/algorithm.hpp>
@@ -24,16 +24,16 @@ namespace {
 
 using nlohmann::json;
 
-/// A message, and other values of its members, or values of members that it lacks. The message is valid with each of
-/// these values alone.
+/// A message, and values that replace or add members of the message. The message is valid with each of these values
+/// alone.
 struct Variation {
     const char* message;
     const char* values;
 };
 using Variations = std::vector<Variation>;
 
-// Of each type of message without described members, variations with a value of each member of its schema. Without
-// them, this file does not compile.
+// Returns variations of each type of message without described members. The variations contain a value for each member
+// of the schema. The file does not compile if a type has no variations.
 
 Variations variationsOf(std::type_identity<Hello> /*type*/) {
     return {{R"({"type": "hello", "width": 100, "height": 100})",
@@ -83,7 +83,8 @@ template <typename Body>
 bool isSame(const Body& a, const Body& b) {
     return a == b;
 }
-// Of a Set, only the members that are not in the table of settings are compared, which has tests of its own.
+// Returns whether two Set commands are equal. Compares only members outside the table of settings, because the table
+// has tests of its own.
 bool isSame(const session::Set& a, const session::Set& b) {
     const auto own = [](const session::Set& set) {
         return std::tie(set.continues, set.object, set.formula, set.orientation, set.lastTurn);
@@ -91,7 +92,7 @@ bool isSame(const session::Set& a, const session::Set& b) {
     return own(a) == own(b);
 }
 
-/// Returns the members of a message that are not read by hand: a Set has the settings in the table, and members that
+/// Returns the members of a message that parse.cpp does not read one by one: settings in the table, and members that
 /// the schema calls ignored.
 std::set<std::string> membersReadOtherwise(const std::string& type, const json& properties) {
     std::set<std::string> names{"type", "id"};
@@ -130,7 +131,8 @@ TEST(ReadMembers, AreThoseOfTheSchemas) {
     });
 }
 
-// session::kFileParameters names them, too, because the folder session/ does not read them.
+// The options of exports are the parameters that session::kFileParameters lists. The list exists, because the folder
+// session/ does not read these options.
 TEST(ReadMembers, TheOptionsOfFilesAreThoseOfQueries) {
     std::set<std::string_view> options;
     exports::ExportRequest request;

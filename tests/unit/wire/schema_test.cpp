@@ -1,4 +1,4 @@
-// The data files and the specification in protocol/ agree with the code.
+// Tests that the data files and the specification in protocol/ agree with the code.
 
 #include <algorithm>
 #include <boost/describe/members.hpp>
@@ -36,7 +36,7 @@ std::string textOf(const std::string& path) {
     return text.str();
 }
 
-/// Returns the types of all messages: the names of the schemas that describe an object with a constant "type".
+/// Returns all message types: the names of the schemas of objects with a constant "type".
 std::set<std::string> messageTypes() {
     constexpr std::string_view kEnding = ".schema.json";
     std::set<std::string> types;
@@ -78,7 +78,7 @@ TEST(Tables, EveryExampleOfTheSpecificationFitsItsSchema) {
         std::string line, example;
         while (std::getline(examples, line)) {
             example += line;
-            if (!json::accept(example)) continue;  // an example may have several lines
+            if (!json::accept(example)) continue;  // an example may extend over several lines
             SCOPED_TRACE(example);
             const std::string type = json::parse(example).at("type");
             fitting(example);
@@ -94,7 +94,7 @@ TEST(Tables, EveryExampleOfTheSpecificationFitsItsSchema) {
     EXPECT_EQ(seen, messageTypes()) << "an example of each message";
 }
 
-// The keywords that valijson checks correctly; it would silently ignore others in a schema.
+// Expects that a schema has only keywords that valijson checks. valijson silently ignores other keywords.
 void expectKnownKeywords(const json& schema, const std::string& where) {
     static const std::set<std::string> known{"$schema",
                                              "$anchor",
@@ -118,12 +118,12 @@ void expectKnownKeywords(const json& schema, const std::string& where) {
     if (!schema.is_object()) return;
     if (schema.contains("$ref")) {
         const std::string reference = schema.at("$ref");
-        if (reference.starts_with('#')) return;  // a part of this schema, which is checked at its place in "$defs"
+        if (reference.starts_with('#')) return;  // "$defs" contains this part, which is checked there
         expectKnownKeywords(readSchema(reference), where + "/" + reference);
     }
     for (const auto& [keyword, content] : schema.items()) {
         if (keyword == "$ref" || keyword == "default" || keyword == "examples" || keyword.starts_with("x-"))
-            continue;  // these check nothing
+            continue;  // these keywords check nothing
         if (keyword == "$defs") {
             for (const auto& [name, member] : content.items()) expectKnownKeywords(member, where + "/" + name);
             continue;
@@ -155,7 +155,8 @@ TEST(Tables, SetAndStateHaveTheSettings) {
     });
 }
 
-/// Expects that the schema of a number allows this range, and that its title, if it states bounds, states these.
+/// Expects that the schema of a number allows this range, and that its title states the same bounds, if it states
+/// bounds.
 void expectRange(const json& schema, const geometry::Range& range) {
     const bool isOpen = schema.contains("exclusiveMinimum");
     const double minimum = schema.at(isOpen ? "exclusiveMinimum" : "minimum"), maximum = schema.at("maximum");
@@ -289,7 +290,7 @@ TEST(Tables, DescribedMessagesHaveTheMembersOfTheirSchemas) {
     forEachType<Answer>(compare);
 }
 
-/// Returns the enum of a property, given as a path with dots: "scene.view".
+/// Returns the allowed values (enum) of a property. `property` is a path with dots, such as "scene.view".
 Names allowedIn(const std::string& type, const std::string& property) {
     json schema = readSchema(type + ".schema.json");
     std::istringstream path(property);

@@ -1,4 +1,4 @@
-// The `slices` message says the same in all encodings.
+// Tests that the `slices` message says the same in all encodings.
 
 #include <algorithm>
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::json;
 
-// Returns the numbers of a typed array.
+// Returns the numbers in a typed array, and checks its type.
 template <typename T>
 json numbersOf(const json& typed, std::uint64_t tag) {
     const auto& bytes = typed.get_binary();
@@ -29,7 +29,7 @@ json numbersOf(const json& typed, std::uint64_t tag) {
     return numbers;
 }
 
-// Returns the integers of a typed array, whose width is the least possible.
+// Returns the integers in a typed array. Expects that they have the smallest possible width.
 std::vector<std::uint32_t> integersOf(const json& typed) {
     const std::uint64_t tag = typed.get_binary().subtype();
     const json numbers = tag == 64   ? numbersOf<std::uint8_t>(typed, tag)
@@ -40,7 +40,7 @@ std::vector<std::uint32_t> integersOf(const json& typed) {
     return numbers;
 }
 
-// Takes elements from the front of a list; expects at the end that none is left.
+// A reader that takes elements from the front of a list. The destructor expects that no element is left.
 class Reader {
   public:
     explicit Reader(json list) : list_(std::move(list)) {}
@@ -67,7 +67,7 @@ class Reader {
 
 constexpr std::uint64_t kFloat32 = 85, kFloat64 = 86;
 
-// Converts the slices of a binary message to the form of the JSON message.
+// Converts the slices of a binary message to the form of a JSON message.
 json slicesOf(const json& columns) {
     const auto floats = [&](const char* name) { return numbersOf<float>(columns.at(name), kFloat32); };
     const auto ofEach = [&](const char* name, const char* kind) { return integersOf(columns.at(name).at(kind)); };
@@ -100,8 +100,7 @@ json slicesOf(const json& columns) {
     return slices;
 }
 
-// Returns a decoded binary message in the form of the JSON message. `vertices` is the number of the polytope's
-// vertices.
+// Converts a decoded binary message to the form of a JSON message. `vertices` is the number of the polytope's vertices.
 json asJson(json message, std::size_t vertices) {
     Reader coordinates(numbersOf<float>(message.at("coordinates"), kFloat32));
     message["coordinates"] = coordinates.rows(vertices, 4);
@@ -116,7 +115,7 @@ json asJson(json message, std::size_t vertices) {
 
 TEST(SlicesMessage, AllEncodingsSayTheSame) {
     for (const char* name : {"5-cell", "8-cell", "120-cell"}) {
-        // Unrotated, so that the message has tints.
+        // Without a rotation, the message contains tints (cells that color faces).
         const Picture picture = pictureOf({std::string("polytope ") + name});
         const json plain = json::parse(messageOf(picture, Encoding::json));
         for (const Encoding encoding : binaryEncodings()) {

@@ -36,7 +36,7 @@ TEST(SlicesMessage, IsWhatWasCut) {
 }
 
 TEST(SlicesMessage, SaysWhichCellColorsAFaceInTheHyperplane) {
-    const Picture picture = pictureOf({"polytope 8-cell"});  // spacing 0.2: w = ±1 holds a whole cell
+    const Picture picture = pictureOf({"polytope 8-cell"});  // spacing 0.2; the slice w = ±1 is a whole cell
     const json slices = fitting(messageOf(picture, Encoding::json)).at("slices");
     expectSlices(slices, picture);
     int tinted = 0;
@@ -233,7 +233,7 @@ TEST(SlicesMessage, ReusesItsMemory) {
     EXPECT_EQ(static_cast<const void*>(out.data()), memory);
 }
 
-// A writer caches parts of previous messages; this must not change its output.
+// A message does not depend on earlier messages, although the writer caches parts of them.
 TEST(SlicesMessage, DoesNotDependOnTheMessagesBefore) {
     std::deque<Picture> pictures;
     for (const char* text :

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers of the tests of the `slices` message.
+// Helpers for the tests of the `slices` message.
 
 #include <gtest/gtest.h>
 

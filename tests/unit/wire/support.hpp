@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by the tests of the protocol.
+// Helpers for the tests of messages.
 
 #include <string>
 #include <variant>
@@ -14,7 +14,7 @@
 
 namespace oval4d::wire {
 
-/// Returns the parsed message. Throws std::runtime_error if it is invalid.
+/// Parses a message and returns it. Throws std::runtime_error if the message is invalid.
 inline Request parsed(std::string_view text) {
     auto result = parseRequest(text);
     if (const auto* bad = std::get_if<BadRequest>(&result)) throw std::runtime_error(bad->error.message);
@@ -26,8 +26,8 @@ C parsedCommand(std::string_view text) {
     return std::get<C>(std::get<session::Command>(parsed(text).body));
 }
 
-/// Parses a message and returns it. Expects that the message conforms to the schema of its type. Throws an exception if
-/// the text is not JSON or has no type.
+/// Parses a JSON message and returns it. Expects that it conforms to the schema of its type. Throws an exception if the
+/// text is not JSON or has no type.
 inline nlohmann::json fitting(std::string_view text) {
     nlohmann::json message = nlohmann::json::parse(text);
     const auto fault = validationError(message.at("type").get<std::string>(), message);
@@ -35,7 +35,7 @@ inline nlohmann::json fitting(std::string_view text) {
     return message;
 }
 
-/// Calls `write` with a writer of the class W, and returns the bytes that it writes.
+/// Returns the bytes that `write` writes with a writer of the class W.
 template <typename W, typename Write>
 std::string written(Write write) {
     std::string out = "what was there before";
