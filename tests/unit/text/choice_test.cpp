@@ -17,7 +17,7 @@ constexpr auto kFruits =
 static_assert(valueNamed(kFruits, "pear") == Fruit::pear);
 static_assert(nameOf(kFruits, Fruit::pear) == "pear");
 
-// A table is complete if it names every enumerator, however often, but no name is there twice.
+// A table is complete if it contains every enumerator at least once, and no name twice.
 using FruitRow = NamedValue<Fruit>;
 constexpr auto kAllFruits = std::to_array<FruitRow>(
     {{"pear", Fruit::pear}, {"apple", Fruit::apple}, {"plum", Fruit::plum}, {"pome", Fruit::pear}});
@@ -36,7 +36,7 @@ static_assert(!hasNoAliases(kAllFruits));
 enum class Equal { first = 1, second = 1 };
 static_assert(!hasNoAliases(std::to_array<NamedValue<Equal>>({{"first", Equal::first}, {"second", Equal::second}})));
 
-// Numbers need not follow one another.
+// The numbers of enumerators may have gaps.
 enum class Sparse : unsigned char { two = 2, last = kMaxEnumerators - 1 };
 static_assert(isComplete(std::to_array<NamedValue<Sparse>>({{"two", Sparse::two}, {"last", Sparse::last}})));
 static_assert(!isComplete(std::to_array<NamedValue<Sparse>>({{"two", Sparse::two}})));

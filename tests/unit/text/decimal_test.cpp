@@ -22,8 +22,8 @@ std::string textOf(const std::vector<glm::dvec3>& list) {
 
 float floatOf(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
-// Each number must read back as the same float, and be at most as long as the output of std::to_chars in the same
-// notation.
+// Expects that each number is read back as the same float, and that its text is at most as long as that of
+// std::to_chars in the same notation.
 void expectExact(const std::vector<float>& numbers) {
     std::vector<glm::dvec3> list(numbers.size() / 3);
     ASSERT_EQ(numbers.size(), 3 * list.size());
@@ -57,7 +57,7 @@ TEST(Decimal, FloatsOfEveryExponentReadBackTheSame) {
     for (std::uint32_t exponent = 0; exponent < 255; ++exponent) {
         const std::uint32_t power = exponent << 23;
         std::vector<float> numbers;
-        for (std::uint32_t i = 0; i < 40; ++i) {  // floats just above a power of two, and just below the next
+        for (std::uint32_t i = 0; i < 40; ++i) {  // floats just above a power of two, and just below the next power
             numbers.push_back(floatOf(power + i));
             numbers.push_back(-floatOf(power + 0x7F'FFFF - i));
         }
