@@ -1,4 +1,4 @@
-// The channel that carries messages between processes.
+// Tests of the channel, which carries messages between processes.
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -29,18 +29,18 @@ std::pair<int, int> socketPair() {
 
 WaitLimit soon() { return {WaitLimit::Clock::now() + 5ms, {}}; }
 
-/// A limit that ends an operation only where it would wait.
+/// Returns a limit that ends an operation only if the operation would wait.
 WaitLimit stopped() {
     std::stop_source stop;
     stop.request_stop();
     return {WaitLimit::Clock::time_point::max(), stop.get_token()};
 }
 
-/// Returns whether the main thread of this process waits in the kernel.
+/// Returns whether the main thread of this process waits for a system call.
 bool mainThreadWaits() {
     std::ifstream file("/proc/self/stat");
     const std::string stat(std::istreambuf_iterator<char>(file), {});
-    return stat.at(stat.rfind(')') + 2) == 'S';  // the state follows the name, which is in parentheses (proc(5))
+    return stat.at(stat.rfind(')') + 2) == 'S';  // the state follows the process name in parentheses (proc(5))
 }
 
 TEST(Channel, KnowsWhenNobodyIsThere) {
@@ -64,7 +64,7 @@ TEST(Channel, WaitsForNoneThatHangs) {
     // A message that does not fit into the socket's buffer times out if the receiver does not read.
     const std::string text(5'000'000, 'x');
     EXPECT_EQ(channel.send(MessageType::object, text, Channel::kNoFile, soon()), TransferResult::timed_out);
-    // The sender stopped in the middle of the message: the receiver gets the header and only some of the bytes.
+    // The sender has stopped in the middle of the message, so the receiver gets the header and only some of the bytes.
     EXPECT_EQ(hanging.receive(type, body, nullptr, stopped()), TransferResult::timed_out);
     EXPECT_EQ(type, MessageType::object);
 }

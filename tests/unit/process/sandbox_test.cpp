@@ -1,4 +1,4 @@
-// What the sandbox lets a process do.
+// Tests of what the sandbox allows a process to do.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@
 namespace oval4d::process {
 namespace {
 
-/// Calls `act` in a sandboxed child process; returns the child's status as from waitpid(2), 0 if `act` returns true.
+/// Calls `act` in a sandboxed child process. Returns the child's status as waitpid(2) does: 0 if `act` returns true.
 int endOf(SandboxRole role, const Confinement& confinement, const std::function<bool()>& act) {
     const pid_t child = fork();
     if (child == 0) {
