@@ -32,7 +32,7 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     limits = {};
     limits.triangles = 100'000'000;
     limits.time = std::chrono::seconds(1);
-    std::atomic<int> seconds = 0;  // pass by one whenever the export looks at the clock
+    std::atomic<int> seconds = 0;  // increases by one whenever the export reads the clock
     limits.now = [&seconds] { return std::chrono::steady_clock::time_point(std::chrono::seconds(++seconds)); };
     EXPECT_NE(fileOf(p, none, oval, skeleton, limits).find("takes longer than"), std::string::npos);
     EXPECT_NE(fileOf(p, none, {90, 1, 1}, {}).find("is empty"), std::string::npos);
@@ -43,7 +43,8 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     EXPECT_EQ(std::get<ExportRefusal>(given).cause, ExportRefusal::Cause::too_long);
 }
 
-// The bars of this slice, three long edges, are much thinner than it is long.
+// A file is refused if the bars of the slice would be too thin. Here, three bars are much longer than they can be
+// thick.
 TEST(File, isRefusedIfItsBarsAreTooThin) {
     const Polytope& p = named("3,12000-duoprism");
     ExportRequest request{.format = formatNamed("stl"), .body = BodyKind::skeleton};
@@ -52,7 +53,7 @@ TEST(File, isRefusedIfItsBarsAreTooThin) {
     EXPECT_EQ(fileOf(p, {}, {0, 1, 1, 0.1}, request, kUnhurried).find("too thin"), std::string::npos);
 }
 
-// The measurements of a field take long. They stop in time, and count their memory.
+// Exporting the measurements of a field takes long, but respects the limits on time and memory.
 TEST(File, ofAFieldIsBounded) {
     const SlicedBall ball({-2, 5, 0.2});
     const auto refusal = [&](const char* format, const ExportLimits& limits, std::stop_token stop = {}) {
@@ -78,7 +79,7 @@ TEST(File, ofAFieldIsBounded) {
 
 TEST(File, tellsWhatItLacks) {
     const Polytope& p = named("16-cell");
-    const double top = std::sqrt(2);  // w of a vertex, of which the slice is a point
+    const double top = std::sqrt(2);  // the w of a vertex, at which the slice is one point
     const Hyperplanes planes{0, 5, 0.1, 0, {0.5, -2, top, 0, 3}};
     const auto warnings = [&](const ExportRequest& request) {
         return std::get<ExportedFile>(exported(p, {}, planes, request)).warnings;
@@ -93,7 +94,7 @@ TEST(File, tellsWhatItLacks) {
     EXPECT_EQ(warnings({.format = formatNamed("vtp"), .contents = ExportContentsKind::oval}),
               Warnings{"3 of 5 slices are without faces and left out: w = −2, 1.41421, 3"});
     EXPECT_EQ(warnings({.format = formatNamed("csv"), .contents = ExportContentsKind::oval}), Warnings{});
-    // The slice at 1.2 is too small for letters, and the others are large enough.
+    // The slice at 1.2 is too small for letters, and the other slice is large enough.
     const Hyperplanes labeled{0, 2, 0.1, 0, {0, 1.2}};
     const auto made = exported(
         p, {}, labeled,
@@ -115,14 +116,14 @@ TEST(File, listsOnlySomeOfManySlices) {
 }
 
 TEST(File, namesBodiesByTheirW) {
-    // There are enough decimals to distinguish the slices.
+    // The names of bodies have enough decimals to distinguish the slices.
     const std::string text = fileOf(named("16-cell"), {}, {0, 3, 0.1, 0, {0.25, -0.5, 0.2504}},
                                     {.format = formatNamed("obj"), .contents = ExportContentsKind::oval});
     for (const char* name : {"o 16-cell,_w_=_0.25000\n", "o 16-cell,_w_=_\u22120.50000\n", "o 16-cell,_w_=_0.25040\n"})
         EXPECT_NE(text.find(name), std::string::npos) << name;
 }
 
-/// Returns the points of each body of an OBJ file.
+/// Returns the points of each body in an OBJ file.
 std::vector<std::vector<glm::dvec3>> bodiesIn(const std::string& text) {
     std::vector<std::vector<glm::dvec3>> bodies;
     std::istringstream in(text);

@@ -1,6 +1,5 @@
 #pragma once
-// Helpers shared by the tests of exports: a check of meshes that does not use the code under test, and objects to
-// export.
+// Helpers for the tests of exports: a check of meshes that is independent of the tested code, and objects to export.
 
 #include <array>
 #include <cmath>
@@ -36,8 +35,8 @@ using namespace exports;
 using Key = std::tuple<float, float, float>;
 
 /// Expects that a mesh can be printed: every edge belongs to two triangles, which traverse it in opposite directions;
-/// the triangles around every point form one ring; the volume is positive. Like the software of a 3-D printer,
-/// identifies points by their float32 coordinates and not by their indices.
+/// the triangles around every point form one ring; the volume is positive. Points with the same 32-bit coordinates
+/// count as one point, as in the software of 3-D printers.
 inline void expectPrintable(const Mesh& mesh) {
     ASSERT_FALSE(mesh.triangles.empty());
     ASSERT_EQ(mesh.cells.size(), mesh.triangles.size());
@@ -61,7 +60,7 @@ inline void expectPrintable(const Mesh& mesh) {
     ASSERT_NEAR(volume, volumeOf(mesh), 1e-9 * std::abs(volume));
 }
 
-/// The default limits, but with 24 hours of time, so that no export fails on a slow machine.
+/// The default limits with 24 hours of time, so that no export fails on a slow machine.
 inline const ExportLimits kUnhurried{.time = std::chrono::hours(24)};
 
 inline const Budget& unhurried() {
@@ -79,12 +78,13 @@ inline Polygon pentagram() {
         star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
     return star;
 }
-/// The area of the points with nonzero winding number in a pentagram of circumradius 1: ten triangles between the
-/// center, a tip at distance 1 and an inner corner at distance φ⁻², 36° apart.
+/// The area of the region with nonzero winding number in a pentagram with the circumradius 1. It consists of ten
+/// triangles. The corners of a triangle are the center, a tip at the distance 1, and an inner corner at the distance
+/// φ⁻², 36° apart.
 inline const double kPentagramArea =
     10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
 
-/// Returns the scene of a polytope's slices. The scene refers to `slices`, which must outlive it.
+/// Returns the scene of a polytope's slices. The scene refers to `slices`, which must outlive the scene.
 inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                              const slicing::SliceSet& slices) {
     scene::Scene scene;
@@ -95,7 +95,7 @@ inline scene::Scene composed(const polytopes::Polytope& polytope, const geometry
     return scene;
 }
 
-/// Slices a polytope and exports the slices.
+/// Slices a polytope, and returns the exported slices.
 inline std::variant<ExportedFile, ExportRefusal> exported(
     const polytopes::Polytope& polytope, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
     const ExportRequest& request, const ExportLimits& limits = kUnhurried, std::stop_token stop = {}) {
@@ -105,7 +105,7 @@ inline std::variant<ExportedFile, ExportRefusal> exported(
                                 limits, std::move(stop));
 }
 
-/// The slices of a field, a ball of radius 1, and their scene.
+/// The slices and the scene of a field whose inside is a ball with the radius 1.
 struct SlicedBall {
     slicing::Object object;
     slicing::SliceSet slices;
@@ -130,20 +130,21 @@ struct SlicedBall {
     }
 };
 
-/// Returns the bytes of the file, or "refused: " and the reason.
+/// Returns the bytes of an exported file. If the export was refused, returns "refused: " and the reason.
 inline std::string bytesOf(std::variant<ExportedFile, ExportRefusal> made) {
     if (auto* refusal = std::get_if<ExportRefusal>(&made)) return "refused: " + refusal->message;
     return std::get<ExportedFile>(std::move(made)).bytes;
 }
 
-/// Slices a polytope and exports the slices. Returns the bytes of the file, or "refused: " and the reason.
+/// Slices a polytope and exports the slices. Returns the bytes of the file or, if the export was refused, "refused: "
+/// and the reason.
 inline std::string fileOf(const polytopes::Polytope& polytope, const geometry::Rotation& orientation,
                           const geometry::Hyperplanes& planes, const ExportRequest& request,
                           const ExportLimits& limits = kUnhurried) {
     return bytesOf(exported(polytope, orientation, planes, request, limits));
 }
 
-/// Returns a polytope that consists of `a`, and of `b` translated by `by`.
+/// Returns a polytope that consists of `a` and of `b`, translated by the vector `by`.
 inline polytopes::Polytope compound(const polytopes::Polytope& a, const polytopes::Polytope& b, const glm::dvec4& by) {
     std::vector<glm::dvec4> vertices = a.vertices;
     for (const auto& v : b.vertices) vertices.push_back(v + by);

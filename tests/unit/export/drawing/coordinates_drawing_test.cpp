@@ -1,4 +1,4 @@
-// The highlighted element in drawings of the parallel coordinates.
+// Tests of the highlighted element in drawings of the parallel coordinates.
 
 #include "export/drawing/coordinates_drawing.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 
 using namespace oval4d;
 
-// A polytope, and the drawing of its parallel coordinates.
+// A polytope with the drawing of its parallel coordinates.
 struct DrawnPolytope {
     slicing::Object object;
     slicing::SliceSet slices;
@@ -40,7 +40,7 @@ struct DrawnPolytope {
     DrawnPolytope(const DrawnPolytope&) = delete;
     DrawnPolytope& operator=(const DrawnPolytope&) = delete;
 
-    // Returns the shapes of a group; null if there is no such group.
+    // Returns the shapes of the group `id`, or null if there is no such group.
     const std::vector<exports::DrawnShape>* group(std::string_view id) const {
         const auto found = std::ranges::find(drawing.groups, id, &exports::ShapeGroup::id);
         return found == drawing.groups.end() ? nullptr : &found->shapes;

@@ -1,4 +1,4 @@
-// Drawings of the projection of the whole object.
+// Tests of drawings of the projection of the whole object.
 
 #include <cstddef>
 #include <variant>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace oval4d;
 
-// Returns the opacities of all shapes of the rectified 5-cell, in drawing order.
+// Returns the opacities of all shapes in the drawing of a rectified 5-cell, in drawing order.
 std::vector<double> opacities(const scene::CellTypeFilter& filter) {
     const polytopes::Polytope polytope = support::rectifiedFiveCell();
     slicing::SliceSet slices;
@@ -42,7 +42,8 @@ std::vector<double> opacities(const scene::CellTypeFilter& filter) {
 
 TEST(ProjectionDrawing, fadesWhatThePictureFades) {
     const std::vector<double> full = opacities({}), faded = opacities({{}, {0, 1}});
-    // 10 vertices, 30 edges with a halo each, and 30 triangles; the focus slice has more.
+    // The shapes are at least 10 vertices, 30 edges (each with a white line behind it) and 30 triangles. The focus
+    // slice has shapes, too.
     ASSERT_GE(full.size(), 10U + 2 * 30 + 30);
     ASSERT_EQ(faded.size(), full.size());
     for (std::size_t i = 0; i < full.size(); ++i)

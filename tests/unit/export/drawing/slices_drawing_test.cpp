@@ -1,4 +1,4 @@
-// Drawings of slices.
+// Tests of drawings of slices.
 
 #include <cstddef>
 #include <memory>
@@ -17,7 +17,7 @@ namespace {
 
 using namespace oval4d;
 
-// Returns the number of disks in the slices of a drawing of the scene.
+// Returns the number of disks (balls) in the drawing of a scene's slices.
 std::size_t disks(const scene::Scene& scene, const slicing::Object& object) {
     std::size_t count = 0;
     for (const exports::ShapeGroup& group : exports::drawSlices(scene, object, support::unhurried()).groups) {
@@ -46,7 +46,7 @@ TEST(SlicesDrawing, showsThePointsOfACloudWithoutBalls) {
 }
 
 TEST(SlicesDrawing, showsVerticesWithoutBarsWhereBarsAreShown) {
-    slicing::SliceSet slices;  // two vertices with an edge, and one without
+    slicing::SliceSet slices;  // two vertices with an edge between them, and one without edges
     slices.planes = {0, 1, 1};
     slices.vertexBegin = {0, 3};
     slices.vertices = {{-0.5, 0, 0}, {0.5, 0, 0}, {0, 0.5, 0}};

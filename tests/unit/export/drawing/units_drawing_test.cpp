@@ -1,4 +1,4 @@
-// The units in drawings of fields.
+// Tests of the units in drawings of fields.
 
 #include <algorithm>
 #include <memory>
@@ -37,7 +37,8 @@ slicing::Object fieldWithUnits() {
     return std::make_shared<const fields::Field>(*fields::fieldFromArray("run", array));
 }
 
-// Returns the texts of the drawing of a field: of its histogram or, in the matrix view, of its planar sections.
+// Returns the texts in the drawing of a field: in the drawing of its planar sections if `view` is the matrix view,
+// otherwise in the drawing of its histogram.
 std::vector<std::string> textsOf(const slicing::Object& object, scene::View view) {
     slicing::SliceSet slices;
     slicing::Slicer().sliceWithoutSurfaces(object, {}, {0, 1, 1}, slices);

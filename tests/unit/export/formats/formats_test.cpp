@@ -56,7 +56,8 @@ TEST(Formats, haveOnlyMembersThatTheTableDescribes) {
     }
 }
 
-// Returns whether a file may begin as these bytes do, as the table of binary messages in protocol/README.md states.
+// Returns whether an exported file may begin with these bytes, according to the table of binary messages in
+// protocol/README.md.
 bool mayBeginAFile(std::string_view bytes) {
     return !bytes.empty() && bytes[0] > ' ' && bytes[0] <= '~' && !bytes.starts_with("{U");
 }
@@ -65,7 +66,8 @@ TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
         for (const ExportContentsKind contents : format.contents) {
             using enum ExportContentsKind;
-            if (contents == projection || contents == matrix || contents == highlight) continue;  // need other scenes
+            // These need other scenes.
+            if (contents == projection || contents == matrix || contents == highlight) continue;
             const Hyperplanes planes = contents == oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
             const ExportRequest request{.format = &format, .contents = contents};
             const std::string bytes = format.objects == Format::Objects::fields
@@ -88,7 +90,7 @@ PlacedMesh tetrahedron(const std::string& name) {
     return body;
 }
 
-// Returns a file of two bodies with this name.
+// Returns a file with two bodies, both called `name`.
 std::string fileOfBodies(const Format& format, const std::string& name, const Budget& budget = unhurried()) {
     const std::vector<PlacedMesh> solids{tetrahedron(name), tetrahedron(name)};
     return format.writeBodies({solids, {}, name, budget});
@@ -114,11 +116,11 @@ TEST(Formats, ofBodiesAreNotBrokenByNames) {
         if (format.writeBodies == nullptr) continue;
         SCOPED_TRACE(format.name);
         const std::string plain = fileOfBodies(format, "body");
-        if (plain.find('\0') != std::string::npos) continue;  // a binary file
+        if (plain.find('\0') != std::string::npos) continue;  // skip binary files
         const std::string bytes = fileOfBodies(format, kHostileName);
         EXPECT_TRUE(text::isUtf8(bytes));
         EXPECT_EQ(countOf(bytes, "\r\n"), countOf(plain, "\r\n"));
-        if (!plain.starts_with('<')) continue;  // no XML
+        if (!plain.starts_with('<')) continue;  // the rest is for XML
         EXPECT_EQ(countOf(bytes, "<>\"'"), countOf(plain, "<>\"'"));
         EXPECT_EQ(bytes.find("& "), std::string::npos);
     }
@@ -158,7 +160,7 @@ TEST(Scad, isAProgramWithAModuleForEachBody) {
               "translate([1, 2, 3]) body_1();\n");
 }
 
-/// Returns the first vector of three numbers in a line of an OpenSCAD program.
+/// Returns the first vector "[x, y, z]" in a line of an OpenSCAD program.
 glm::dvec3 vectorIn(const std::string& line) {
     std::istringstream in(line.substr(line.find('[') + 1));
     glm::dvec3 v(NAN);
@@ -167,7 +169,7 @@ glm::dvec3 vectorIn(const std::string& line) {
     return v;
 }
 
-/// Returns the bodies of an OpenSCAD program that was exported. Their triangles are oriented as in the program.
+/// Returns the bodies in an exported OpenSCAD program. Their triangles have the orientation of the program.
 std::vector<PlacedMesh> bodiesOfScad(const std::string& text) {
     std::vector<PlacedMesh> bodies;
     std::size_t placed = 0;
@@ -205,7 +207,7 @@ std::vector<PlacedMesh> bodiesOfScad(const std::string& text) {
 }
 
 TEST(Scad, hasFacesThatAreClockwiseSeenFromOutside) {
-    // The slice of the tesseract with a circumscribed sphere of 60 mm is a cube of 30 mm.
+    // With a circumscribed sphere of 60 mm, the slice of the tesseract is a cube with edges of 30 mm.
     auto bodies = bodiesOfScad(fileOf(named("8-cell"), {}, {0, 1, 1}, {.format = formatNamed("scad")}));
     ASSERT_EQ(bodies.size(), 1U);
     Mesh& mesh = bodies.front().mesh;
@@ -218,14 +220,14 @@ TEST(Scad, hasTheBodiesOfTheSlices) {
     const ExportRequest request{.format = formatNamed("scad"), .contents = ExportContentsKind::oval};
     const auto bodies = bodiesOfScad(fileOf(named("16-cell"), {}, {-2, 5, 0.5}, request));
     ASSERT_EQ(bodies.size(), 5U);
-    const double scale = 30 / std::sqrt(2);  // millimeters per unit: the circumradius is √2
+    const double scale = 30 / std::sqrt(2);  // in millimeters per unit; the circumradius is √2
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const PlacedMesh& body = bodies[i];
         const int n = static_cast<int>(i) - 2;
         SCOPED_TRACE(body.name);
         EXPECT_TRUE(body.name.starts_with("16-cell, w = "));
         EXPECT_EQ(body.color, scene::style().ball);
-        // At ±w the slice is the octahedron of radius √2 − |w|.
+        // The slice at ±w is an octahedron with the circumradius √2 − |w|.
         const double radius = scale * (std::sqrt(2) - std::abs(n * 0.5));
         const double volume = 4.0 / 3 * radius * radius * radius;
         EXPECT_NEAR(volumeOf(body.mesh), -volume, 1e-3 * volume);

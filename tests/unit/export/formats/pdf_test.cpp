@@ -1,4 +1,4 @@
-// PDF documents.
+// Tests of PDF documents.
 
 #include <string>
 
@@ -26,7 +26,7 @@ std::string bentLineTo(const glm::dvec2& end) {
 }
 
 TEST(Pdf, keepsTheDirectionsOfLinesFarBeyondThePage) {
-    // libharu would write the first two ends as the same position.
+    // The two ends of lines are far outside the page. libharu alone would write them as the same position.
     EXPECT_NE(lineTo({1e6, 1e6}), lineTo({1e6, 5e5}));
     EXPECT_EQ(lineTo({2e6, 1e6}), lineTo({1e6, 5e5}));
     EXPECT_EQ(lineTo({-2e6, 1e6}), lineTo({-1e6, 5e5}));

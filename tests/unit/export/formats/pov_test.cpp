@@ -1,4 +1,4 @@
-// Scenes of POV-Ray.
+// Tests of scenes for POV-Ray.
 
 #include <algorithm>
 #include <memory>
@@ -20,7 +20,7 @@ using namespace oval4d;
 using namespace oval4d::support;
 using exports::ExportContentsKind;
 
-/// The scene of the slices of a polytope, as a picture with this look shows it, and its file.
+/// A POV-Ray file with the slices of a polytope, and the scene from which it was made.
 struct PovOfPolytope {
     slicing::SliceSet slices;
     scene::Scene scene;  ///< refers to `slices`
@@ -46,7 +46,7 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
     return count;
 }
 
-/// Returns the vectors "<x, y, z>" that directly follow an occurrence of `name` in a part of a file.
+/// Returns the vectors "<x, y, z>" that directly follow `name` in a part of a file.
 std::vector<glm::dvec3> vectorsAfter(const std::string& text, const std::string& name) {
     std::vector<glm::dvec3> found;
     for (auto at = text.find(name + '<'); at != std::string::npos; at = text.find(name + '<', at + 1)) {
@@ -59,14 +59,14 @@ std::vector<glm::dvec3> vectorsAfter(const std::string& text, const std::string&
     return found;
 }
 
-/// Returns the only one of these vectors.
+/// Returns the vector that follows `name` in a part of a file. Expects that there is only one.
 glm::dvec3 vectorAfter(const std::string& text, const std::string& name) {
     const auto found = vectorsAfter(text, name);
     EXPECT_EQ(found.size(), 1U) << name;
     return found.empty() ? glm::dvec3(0) : found.front();
 }
 
-/// Returns the vectors of a list in the first mesh of a file.
+/// Returns the vectors in the list `name` of the first mesh in a file.
 std::vector<glm::dvec3> vectorsInList(const std::string& text, const std::string& name) {
     const auto begin = text.find(name + " { ");
     if (begin == std::string::npos) return {};
@@ -86,7 +86,7 @@ TEST(Pov, showsEachPointWhereThePictureShowsIt) {
     const auto points = vectorsAfter(pov.text, "sphere { ");
     ASSERT_EQ(points.size(), pov.slices.vertices.size());
     for (const glm::dvec3& p : points) {
-        // The ray through p meets the image at (x, y): direction + x · right · aspect + y · up = t · (p − eye).
+        // The ray through p meets the image at (x, y), where direction + x · right · aspect + y · up = t · (p − eye).
         const glm::dvec3 seen = glm::inverse(glm::dmat3(right * aspect, up, eye - p)) * -direction;
         const glm::dvec4 clip = camera.projection(aspect) * camera.view() * glm::dvec4(p, 1);
         EXPECT_GT(seen.z, 0) << "in front of the eye";
@@ -99,7 +99,7 @@ TEST(Pov, showsEachPointWhereThePictureShowsIt) {
 }
 
 TEST(Pov, hasTheBallsBarsAndFacesOfTheSlices) {
-    // Three slices of the tesseract are cubes, whose six faces belong to six cells.
+    // Three slices of the tesseract are cubes. The six faces of a cube belong to six cells.
     const PovOfPolytope pov("8-cell", {-1, 3, 0.5}, {});
     const auto balls = vectorsAfter(pov.text, "sphere { ");
     ASSERT_EQ(balls.size(), 24U);
@@ -146,7 +146,7 @@ TEST(Pov, hasTheProjectionIfThePictureShowsIt) {
     const PovOfPolytope pov("8-cell", {-1, 3, 0.5}, look);
     const auto at = pov.text.find("// Projection");
     ASSERT_NE(at, std::string::npos);
-    // The tesseract, and the cube in which the focus hyperplane cuts it.
+    // The projection consists of the tesseract, and of the cube in which the focus hyperplane cuts it.
     EXPECT_EQ(vectorsAfter(pov.text.substr(at), "\nsphere { ").size(), 16U + 8);
     EXPECT_EQ(vectorsAfter(pov.text.substr(at), "\ncylinder { ").size(), 32U + 12);
 }
@@ -200,7 +200,8 @@ TEST(Pov, letsTheLightPassTwiceThroughFadedBallsAndBars) {
     scene::Look look;
     look.cellTypes.faded = {0};
     const PovOfPolytope pov("8-cell", {0, 1, 1}, look);
-    // The opacity of what is faded is 1/4, so each of the two surfaces lets √(3/4) of the light pass.
+    // Faded elements have the opacity 1/4. A line of sight crosses two surfaces, so each surface transmits √(3/4) of
+    // the light.
     EXPECT_EQ(occurrences(pov.text, ", 0.8660254> } finish { Shiny }"), 2U);
     EXPECT_EQ(occurrences(pov.text, ", 0.885> } finish { Matte }"), 6U) << "1 − 0.46 / 4";
 }
@@ -229,7 +230,8 @@ TEST(Pov, hasSmoothSurfacesOfFields) {
     }
 }
 
-// The field w < 0 in the slice w = −0.5 has no level set, but fills the box.
+// A field has flat caps where its inside meets the border of the box. The field w < 0 has no level set in the slice w =
+// −0.5, but fills the box.
 TEST(Pov, hasFlatCapsOfFields) {
     auto read = fields::fieldFromFormula("half", "w < 0", {glm::dvec4(-1), glm::dvec4(1)});
     ASSERT_TRUE(read) << read.error().message;

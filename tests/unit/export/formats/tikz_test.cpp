@@ -1,4 +1,4 @@
-// Drawings for LaTeX.
+// Tests of drawings for LaTeX (TikZ).
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +48,7 @@ TEST(Tikz, WritesTheRunsOfEachColumnOfAnImage) {
     EXPECT_FALSE(has(text, "(15,0)"));
 }
 
-// TeX stops at lengths of 16,384 points or more.
+// Shapes are cut, because TeX stops with an error at lengths of 16,384 points or more.
 TEST(Tikz, CutsShapesWhereTexHasNoLengths) {
     for (const double size : {10.0, exports::kDrawingSize, 5000.0}) {
         const double pointsPerUnit = size / exports::kDrawingWidth * 72.27 / 25.4;

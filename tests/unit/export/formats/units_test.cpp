@@ -1,4 +1,4 @@
-// The units in the tables and VTK files of fields.
+// Tests of the units in tables and VTK files of fields.
 
 #include <memory>
 #include <sstream>
@@ -17,7 +17,8 @@ namespace {
 using namespace oval4d;
 using namespace oval4d::exports;
 
-// A field f = x² + y² + z² of an array. Along w, its box has this length, and as an object the length 2.
+// Returns the field x² + y² + z², made from an array. Its box has the length `time` along w; the object has the length
+// 2 there.
 fields::Field fieldWithUnits(double time, const fields::AxisUnits& units, const fields::Quantity& quantity,
                              bool hasSecond = false) {
     fields::FieldArray array;
@@ -42,7 +43,7 @@ fields::Field fieldWithUnits(double time, const fields::AxisUnits& units, const 
     return field;
 }
 
-// Returns the file of the focus slice with the level 0.5.
+// Returns the exported file of the focus slice with the level 0.5.
 std::string fileOf(const fields::Field& field, const std::string& format) {
     const slicing::Object object = std::make_shared<const fields::Field>(field);
     const geometry::Hyperplanes planes{0, 1, 1};

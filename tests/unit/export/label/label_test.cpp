@@ -35,13 +35,13 @@ TEST(Tessellate, trianglesCoverTheRegionWithItsOwnCorners) {
         area += own;
     }
     EXPECT_NEAR(area, 12, 1e-12);
-    EXPECT_TRUE(triangulate({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}).empty());  // a self-intersecting contour
+    EXPECT_TRUE(triangulate({{{0, 0}, {2, 2}, {2, 0}, {0, 2}}}).empty());  // a contour that intersects itself
 }
 
 TEST(Tessellate, anOutlineIsAllThatIsWoundAround) {
-    EXPECT_NEAR(areaOf(outlineOf({pentagram()})), kPentagramArea, 1e-6);  // GLU computes in float32
+    EXPECT_NEAR(areaOf(outlineOf({pentagram()})), kPentagramArea, 1e-6);  // GLU computes with 32-bit floats
     const Contour square{{0, 0}, {2, 0}, {2, 2}, {0, 2}};
-    const Contour beside{{1, 1}, {1, 3}, {3, 3}, {3, 1}};  // the opposite orientation
+    const Contour beside{{1, 1}, {1, 3}, {3, 3}, {3, 1}};  // has the opposite orientation
     EXPECT_NEAR(areaOf(outlineOf({square, Contour(beside.rbegin(), beside.rend())})), 7, 1e-9);
     EXPECT_NEAR(areaOf(outlineOf({square, beside})), 6, 1e-9);
 }
@@ -55,7 +55,7 @@ TEST(Letters, areCenteredAndOneHigh) {
     }
     EXPECT_NEAR(least.x, -text.size.x / 2, 1e-9);
     EXPECT_EQ(text.contours.size(), 3U);
-    EXPECT_EQ(letteringOf({"8"}).contours.size(), 3U);       // two holes
+    EXPECT_EQ(letteringOf({"8"}).contours.size(), 3U);       // the outline and two holes
     EXPECT_EQ(letteringOf({"\u2212"}).contours.size(), 1U);  // the minus sign
     EXPECT_GT(letteringOf({"A", "A"}).size.y, 2);
 }
@@ -78,7 +78,7 @@ TEST(Label, isCutIntoAFaceAndTheBodyStaysClosed) {
             }
             ++cut;
             expectPrintable(mesh);
-            // The letters lie inside the body, and its volume decreases by their area times their depth.
+            // The letters lie inside the body, so the bounding box stays the same, and the volume decreases.
             EXPECT_EQ(boxOf(mesh).size(), boxOf(plain).size());
             EXPECT_LT(volumeOf(mesh), volumeOf(plain));
             double ink = 0;

@@ -29,7 +29,7 @@ using namespace oval4d::exports;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// The exact exports of a field: its slices have no surfaces.
+// A field with its exact exports. Its slices have no surfaces, so exports must compute the surfaces.
 struct ExactField {
     slicing::Object object;
     geometry::Rotation orientation;
@@ -53,7 +53,7 @@ struct ExactField {
         const ExportRequest request{.format = formatNamed(format), .contents = contents, .exact = true};
         return bytesOf(exports::exportScene(scene, object, orientation, request, limits, std::move(stop)));
     }
-    // Returns the number in a column of the first row of the CSV file.
+    // Returns the number in the column `column`, from the first row of the exported CSV file.
     double measured(std::string_view column) const {
         std::istringstream table(file("csv"));
         std::string names, row;
@@ -67,7 +67,7 @@ struct ExactField {
         ADD_FAILURE() << "no column " << column << " in " << names;
         return 0;
     }
-    // The volume in cubic millimeters of a volume in the units of the field.
+    // Converts a volume from cubic units of the field to cubic millimeters.
     double cubicMillimeters(double volume) const { return volume * std::pow(30 / scene.circumradius, 3); }
 };
 
@@ -114,7 +114,7 @@ Number numberAt(const std::string& bytes, std::size_t at) {
     return number;
 }
 
-// Reads a binary STL file as other programs do: points are equal if their coordinates are.
+// Reads a binary STL file as other programs do: points with equal coordinates are one point.
 ParsedMesh parsedStl(const std::string& file) {
     ParsedMesh mesh;
     std::map<Key, std::uint32_t> numbers;
@@ -131,7 +131,8 @@ ParsedMesh parsedStl(const std::string& file) {
     return mesh;
 }
 
-// An array with random samples between −1 and 1, of which some are NaN.
+// Returns a field of an array with random samples between −1 and 1. `holes` is the probability that a sample is NaN
+// (missing).
 fields::Field noise(std::size_t side, std::mt19937& random, double holes = 0) {
     std::uniform_real_distribution<float> value(-1, 1);
     std::uniform_real_distribution<double> chance(0, 1);
@@ -145,7 +146,7 @@ fields::Field noise(std::size_t side, std::mt19937& random, double holes = 0) {
     return field;
 }
 
-// Counts how often its pages are released.
+// A function that counts how many times its pages are released.
 class MappedFunction : public slicing::TestFunction {
   public:
     using TestFunction::TestFunction;
@@ -172,7 +173,8 @@ TEST(FilesOfFields, releaseThePagesOfMappedArraysAfterEachSlice) {
     EXPECT_GE(first->released.load(), beforeLattice + 64) << "after each layer of the lattice";
 }
 
-// In general position, and where the hyperplane contains lattice points, so that many triangles have no area.
+// Exact surfaces are closed, and enclose the volume that the CSV file states. The test includes hyperplanes through
+// lattice points, where many triangles have no area.
 TEST(ExactSurfaces, areClosedAndHaveTheVolumeOfTheTable) {
     std::mt19937 random(60);
     std::uniform_real_distribution<double> height(-0.4, 0.4), levels(-0.4, 0.4);
@@ -192,7 +194,7 @@ TEST(ExactSurfaces, areClosedAndHaveTheVolumeOfTheTable) {
         EXPECT_NEAR(obj.volume() / expected, 1, 1e-9);
         const ParsedMesh stl = parsedStl(field.file("stl"));
         EXPECT_TRUE(stl.isManifold());
-        EXPECT_NEAR(stl.volume() / expected, 1, 2e-3);  // its coordinates are rounded, and parts of this noise are thin
+        EXPECT_NEAR(stl.volume() / expected, 1, 2e-3);  // coordinates are rounded, and parts of the body are thin
     }
 }
 
@@ -206,7 +208,8 @@ TEST(ExactSurfaces, areClosedBesideMissingSamples) {
     }
 }
 
-// The lattice of a formula is that of CSV files. The interactive surface is closer to the sphere.
+// The exact surface of a formula is that of the CSV file, on the same lattice. The surface in pictures is closer to the
+// sphere.
 TEST(ExactSurfaces, ofAFormulaAreThoseOfTheTable) {
     auto ball = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2", {glm::dvec4(-1.2), glm::dvec4(1.2)});
     ASSERT_TRUE(ball);
@@ -220,7 +223,8 @@ TEST(ExactSurfaces, ofAFormulaAreThoseOfTheTable) {
     EXPECT_NEAR(mesh.volume() / field.cubicMillimeters(expected), 1, 1e-9);
 }
 
-// All formats contain the exact surfaces of all slices and, unless they are for printers, of all levels.
+// All formats contain the exact surfaces of all slices. Formats for printers contain one level, and all others all
+// levels.
 TEST(ExactSurfaces, areInAllFormatsWithSurfaces) {
     std::mt19937 random(63);
     const slicing::FieldSettings settings{{0.3, -0.2}};
@@ -241,13 +245,14 @@ TEST(ExactSurfaces, areInAllFormatsWithSurfaces) {
     EXPECT_NE(field.file("vtp").find("type=\"Float64\" Name=\"points\""), std::string::npos);
 }
 
-// Returns the offset of the data of a PLY file.
+// Returns the offset, in bytes, of the data in a PLY file.
 std::size_t dataOf(const std::string& ply) {
     constexpr std::string_view kEnd = "end_header\n";
     return ply.find(kEnd) + kEnd.size();
 }
 
-// The growth of a linear function is the same everywhere on its level set.
+// Exact surfaces have colors, values and growth. The growth of a linear function is the same everywhere on its level
+// set.
 TEST(ExactSurfaces, haveColorsAndValues) {
     std::mt19937 random(64);
     const glm::dvec4 slope(0.7, -1.1, 0.4, 0.9);

@@ -18,7 +18,7 @@ using namespace oval4d::support;
 using namespace oval4d::exports;
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// The closed surface of a random function has many points that are close together.
+// Returns the closed surface of a random function, many of whose points are close together.
 slicing::ClosedSurface waves(std::mt19937& random, int cells) {
     std::normal_distribution<double> normal;
     std::array<glm::dvec4, 4> waves{};
@@ -49,7 +49,8 @@ TEST(GridSnapping, keepsSurfacesClosedManifolds) {
         double volume = 0;
         for (const auto& [a, b, c] : surface.triangles)
             volume += glm::dot(points[a], glm::cross(points[b], points[c])) / 6;
-        for (const double size : {60.0, 10'000.0}) {  // the second has steps of 1/16 of the size of the surface's cells
+        for (const double size : {60.0, 10'000.0}) {  // with the second size, a step is 1/16 of the cells of the
+                                                      // surface
             const RoundingGrid grid(size, size);
             const SnappedSurface snapped = snapSurface(points, surface.triangles, grid, unhurried());
             expectPrintable(snapped.mesh);
@@ -68,7 +69,7 @@ TEST(GridSnapping, keepsSurfacesClosedManifolds) {
     }
 }
 
-// A grid for doubles is so fine that rounding hardly changes the volume.
+// On a grid for doubles, rounding hardly changes the volume.
 TEST(GridSnapping, keepsTheVolumeOnAGridForDoubles) {
     std::mt19937 random(51);
     const double size = 60, extent = 1500;
@@ -93,7 +94,7 @@ TEST(GridSnapping, keepsTheVolumeOnAGridForDoubles) {
     }
 }
 
-// Two tetrahedra with a common corner, and with a common edge: each gets its own.
+// If two tetrahedra share a corner or an edge, each gets its own copy of the shared points.
 TEST(GridSnapping, separatesWhatTouches) {
     const std::vector<glm::dvec3> points{{0, 0, 0},  {1, 0, 0},  {0, 1, 0},  {0, 0, 1},
                                          {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}, {0, -1, -1}};
@@ -126,7 +127,8 @@ TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
     EXPECT_THROW(snapSurface(points, triangles, grid, late), ExportRefused);
 }
 
-// A tetrahedron with an additional point in the middle of an edge, and a triangle without area there.
+// A triangle without area is removed by flipping an edge. Here, a tetrahedron has an additional point in the middle of
+// an edge, and a triangle without area there.
 TEST(GridSnapping, flipsTrianglesWithoutArea) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
     const Triangles triangles{{0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 1, 4}};

@@ -21,13 +21,14 @@ TEST(Measure, cubesOctahedraAndTetrahedra) {
     EXPECT_NEAR(c.area, 24, 1e-12);
     EXPECT_NEAR(glm::length(c.centroid), 0, 1e-12);
 
-    // At w = 0 the 16-cell is an octahedron of edge 2.
+    // The slice of the 16-cell at w = 0 is an octahedron with edges of length 2.
     const SliceMeasurements o = measureSlice(cutAt(named("16-cell"), {}, 0), 0);
     EXPECT_EQ(o.faces, 8U);
     EXPECT_NEAR(o.volume, std::sqrt(2) / 3 * 8, 1e-12);
     EXPECT_NEAR(o.area, 2 * std::sqrt(3) * 4, 1e-12);
 
-    // A 5-cell is a pyramid over a cell: at fraction t of the height, the slice is a tetrahedron of edge 2 · (1 − t).
+    // A 5-cell is a pyramid over a cell. At the fraction t of the height, the slice is a tetrahedron with edges of
+    // length 2 · (1 − t).
     const Polytope& pen = named("5-cell");
     const Rotation up = ontoW(pen.vertices[0]);
     const double top = pen.circumradius;
@@ -56,8 +57,8 @@ TEST(Measure, movesWithTheSlice) {
 }
 
 TEST(Measure, theCentersOfSlicesAreThatOfThePolytope) {
-    // The integral over w of the slices' first moments is the first moment of the polytope, which is 0. Between the w
-    // of vertices the integrand is a polynomial of degree 4, which Boole's rule integrates exactly.
+    // The integral of the slices' first moments over w is the first moment of the polytope, which is 0. Between the
+    // values of w of the vertices, the integrand is a polynomial of degree 4. Boole's rule integrates it exactly.
     std::mt19937 random(4);
     for (const char* name : {"5-cell", "24-cell"}) {
         const Polytope& p = named(name);

@@ -23,12 +23,13 @@ Mesh solid(const Polytope& p, const SliceSet& s) {
     return solidOf(s, 0, scaleOf(p), RoundingGrid(kSize, kSize), unhurried());
 }
 
-/// Expects that the solid of a slice is a closed mesh with the volume of the slice. Returns whether there is a solid.
+/// Expects that the solid body of a slice is a closed mesh with the volume of the slice. Returns whether there is a
+/// body.
 bool expectSolid(const Polytope& p, const Rotation& orientation, double w) {
     const SliceSet s = cutAt(p, orientation, w);
     const Mesh mesh = solid(p, s);
     if (mesh.triangles.empty()) {
-        // No solid: the slice is empty, or thinner than a few steps of the grid.
+        // There is no body if the slice is empty, or thinner than a few steps of the grid.
         const SliceMeasurements m = measureSlice(s, 0);
         const double step = RoundingGrid(kSize, kSize).step();
         EXPECT_LE(m.volume * std::pow(scaleOf(p), 3), 4 * step * m.area * scaleOf(p) * scaleOf(p));
@@ -58,7 +59,7 @@ TEST_P(Solids, areClosedWhereTheHyperplaneMeetsAnElementOrNearlyDoes) {
     std::mt19937 random(6);
     std::vector<Rotation> orientations{Rotation()};
     for (const auto* list : {&p.faces, &p.cells}) {
-        // Rotations that put a 2-face or a cell into a hyperplane.
+        // Use rotations after which a 2-face or a cell lies in a hyperplane.
         glm::dvec4 sum(0);
         for (const auto item : (*list)[0]) {
             if (list == &p.faces) {
@@ -174,8 +175,8 @@ TEST(OuterSurface, ofAStarIsAllThatItWindsAround) {
     }
 }
 
-/// Returns the winding number of the slice's faces around a point, as a sum of solid angles (A. van Oosterom,
-/// J. Strackee, IEEE Transactions on Biomedical Engineering 30, 1983).
+/// Returns the winding number of a slice's faces around a point, as a sum of solid angles (A. van Oosterom, J.
+/// Strackee, IEEE Transactions on Biomedical Engineering 30, 1983).
 double windingAround(const SliceSet& s, const glm::dvec3& place) {
     double sum = 0;
     for (std::uint32_t f = 0; f < s.faceBegin[1]; ++f) {
@@ -211,7 +212,8 @@ TEST(OuterSurface, ofStarPolychoraHoldsThePlacesThatTheFacesWindAround) {
         const double whole = box.size().x * box.size().y * box.size().z;
         const double share = static_cast<double>(inside) / kPlaces;
         EXPECT_GT(share, 0.05);
-        // The tolerance: four standard deviations of the count, and the rounding of edges by the grid of cubes.
+        // The tolerance is four standard deviations of the count, plus the effect of edges that the grid of cubes
+        // rounds.
         EXPECT_NEAR(volumeOf(mesh) / whole, share, 4 * std::sqrt(share / kPlaces) + 0.02 * share) << name;
     }
 }
@@ -280,14 +282,16 @@ TEST(Skeleton, ofAPointIsABall) {
 }
 
 TEST(Skeleton, hasTheVolumeOfItsBallsAndBars) {
-    // Twelve bars of 30 mm between eight balls; the part of a bar inside a ball does not count twice.
+    // The skeleton consists of twelve bars of 30 mm between eight balls. The parts of bars inside balls count only
+    // once.
     const Polytope& p = named("8-cell");
     const SliceSet s = cutAt(p, {}, 0);
     const SkeletonRadii thick{3, 1};
     const Mesh mesh = skeletonOf(s, 0, scaleOf(p), thick, 0.25, RoundingGrid(kSize, kSize), unhurried());
     expectPrintable(mesh);
     const double pi = std::numbers::pi;
-    const double height = 3 - std::sqrt(8.0);  // of the spherical cap above the circle where a bar leaves the ball
+    const double height = 3 - std::sqrt(8.0);  // height of the spherical cap above the circle where a bar leaves the
+                                               // ball
     const double bar = pi * (30 - 2 * std::sqrt(8.0)) - 2 * pi * height * height * (9 - height) / 3;
     EXPECT_NEAR(volumeOf(mesh), 8 * 4.0 / 3 * pi * 27 + 12 * bar, 20);
     const double expected = estimateTriangles(s, scaleOf(p), thick) / (0.25 * 0.25);
@@ -307,7 +311,7 @@ TEST(Mesh, theCheckSeesWhatIsOpenDoubledReversedOrTouching) {
     Mesh doubled = cube;
     for (const auto& t : cube.triangles) doubled.triangles.push_back(t);
     EXPECT_FALSE(isClosedManifold(doubled));
-    Mesh touching = cube;  // a second cube that shares one corner
+    Mesh touching = cube;  // will get a second cube that shares one corner
     for (const auto& point : cube.points) touching.points.push_back(point + boxOf(cube).size());
     for (const auto& t : cube.triangles) touching.triangles.push_back({t[0] + 8, t[1] + 8, t[2] + 8});
     EXPECT_TRUE(isClosedManifold(touching));
@@ -316,7 +320,7 @@ TEST(Mesh, theCheckSeesWhatIsOpenDoubledReversedOrTouching) {
     };
     const auto shared = at(boxOf(cube).max);
     const auto copy = at(boxOf(cube).min + boxOf(cube).size());
-    ASSERT_EQ(shared, copy);  // both searches find the first point at this place
+    ASSERT_EQ(shared, copy);  // both searches find the first point at this position
     for (auto& t : touching.triangles) {
         for (auto& corner : t) {
             if (corner >= 8 && touching.points[corner] == touching.points[shared]) corner = shared;
