@@ -42,7 +42,7 @@ struct ExportRefusal {
         no_body,
         too_large,  ///< the file would exceed ExportLimits::triangles or ExportLimits::bytes
         too_long,   ///< the export exceeds ExportLimits::time, or a stop was requested
-        no_room,    ///< ExportLimits::grantTotalBytes returned false
+        no_room,    ///< ExportLimits::grantTotalBytes has refused the memory
     };
     Cause cause;
     std::string message;

@@ -41,7 +41,7 @@ inline geometry::Range sizeRangeOf(const Format& format) {
 /// The options of an export. `body` and `label` apply only to formats with bodies. `size` applies to formats with
 /// bodies and to drawings.
 struct ExportRequest {
-    const Format* format = formatNamed("stl");  ///< a row of formats(); not null
+    const Format* format = formatNamed("stl");  ///< one of formats(); not null
     ExportContentsKind contents = ExportContentsKind::focus;
     BodyKind body = BodyKind::solid;
     /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, the larger of its width and

@@ -22,13 +22,14 @@ namespace oval4d::process {
 ///   descriptor if there is no such file. If the file cannot be opened on this machine, the server answers `find_file`
 ///   with `file_bytes`.
 enum class MessageType : std::uint32_t {
-    ready,           ///< empty
+    ready,           ///< empty body
     draw,            ///< raster::DrawRequest; carries the file descriptor of the SharedPixels to draw to
     object,          ///< the object, encoded by slicing::encodeObject()
-    object_missing,  ///< empty
+    object_missing,  ///< empty body
     drawn,           ///< raster::DrawTimes, the durations of the parts of drawing
     failed,          ///< the reason, as text
-    file,            ///< file_reading::ReadRequest; may carry the file descriptor of the file
+    file,            ///< the command to read a file (file_reading::ReadRequest); may carry the file descriptor of the
+                     ///< file
     /// Empty. Carries the descriptor of a mapped file, a new file, or a file of a series or folder.
     file_descriptor,
     new_file,    ///< the size in bytes of a new file for the process, as std::size_t
@@ -42,7 +43,7 @@ enum class MessageType : std::uint32_t {
 struct WaitLimit {
     using Clock = std::chrono::steady_clock;
     Clock::time_point until = Clock::time_point::max();
-    std::stop_token stop;  ///< a stop request takes effect within 0.1 s
+    std::stop_token stop;  ///< when a stop is requested, the wait ends within 0.1 s
 };
 
 /// The result of sending or receiving a message. After any result except `complete`, the channel can no longer be used.

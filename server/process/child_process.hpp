@@ -37,7 +37,7 @@ struct ChildOptions {
     /// Whether a conversation during which the child hung is repeated with a new child.
     bool repeatAfterHang = true;
     std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
-    int niceness = 0;                                ///< nice value of the child: 0 (normal) to 19 (lowest priority)
+    int niceness = 0;                                ///< scheduling priority of the child: 0 (normal) to 19 (lowest)
 };
 
 /// An error: a conversation failed because the child process was lost, and either the process that replaced it was
@@ -90,7 +90,7 @@ class ChildProcess {
     void awaitReadyMessage(TransferResult& transfer, const WaitLimit& limit);
 
     const ChildOptions options_;
-    std::unique_ptr<Channel> channel_;  // null while no process is running
+    std::unique_ptr<Channel> channel_;  // null while no process runs
     bool ready_ = false;
     pid_t process_ = 0;
     std::vector<pid_t> unreaped_;  // killed processes that did not exit within kExitTimeout

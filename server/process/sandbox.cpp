@@ -236,8 +236,8 @@ void filterSystemCalls(SandboxRole role) {
 void limitResources(const Confinement& limits) {
     limitResource(RLIMIT_CORE, 0);
     if (kSanitized) return;
-    // Limit RLIMIT_DATA and not RLIMIT_AS: the latter also counts mapped files, which may be larger than the main
-    // memory.
+    // Limit RLIMIT_DATA and not RLIMIT_AS, because RLIMIT_AS also counts mapped files, which may be larger than the
+    // main memory.
     if (limits.memory > 0) limitResource(RLIMIT_DATA, dataInUse() + limits.memory);
     if (limits.files > 0) limitResource(RLIMIT_NOFILE, limits.files);
 }

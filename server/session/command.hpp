@@ -28,7 +28,7 @@
 
 namespace oval4d::session {
 
-/// A key press.
+/// The command that a key press triggers.
 struct Key {
     static constexpr std::string_view kMessageType = "key";
     std::string key;  ///< the value of KeyboardEvent.key in a browser, such as "y", "K", "2" or " "
@@ -47,7 +47,7 @@ struct Rotate {
 /// The command that turns an element (a cell, face, edge or vertex) toward +w by the shortest rotation.
 struct TurnToward {
     static constexpr std::string_view kMessageType = "toward";
-    slicing::ElementKind element = slicing::ElementKind::cell;  ///< the kind of the element
+    slicing::ElementKind element = slicing::ElementKind::cell;  ///< whether to turn a cell, a face, an edge or a vertex
     /// The index of the element among the elements of its kind. If absent, turnToward() in settings.hpp chooses an
     /// element.
     std::optional<std::size_t> number;
@@ -117,18 +117,19 @@ inline constexpr auto kLoadTexts = std::to_array<LoadText>({{"format", &LoadObje
                                                             {"values", &LoadObject::secondFormula},
                                                             {"values_variable", &LoadObject::secondVariable}});
 
-/// Values of the plain settings (see forEachSetting() in setting_table.hpp), by their names on the command line.
+/// The new values of the plain settings: those that a command only stores (see forEachSetting() in setting_table.hpp).
+/// The names are those on the command line.
 class PlainSettings {
   public:
-    /// Returns a reference through which the caller may set the value of a setting; until then, the value is an empty
-    /// optional. `Value` must be the type that the value has in a State. `name` must be a string constant of the
-    /// program, because this object stores only a reference to its characters.
+    /// Returns a reference to the new value of the setting `name`, so that the caller can set it. Until then, the value
+    /// is an empty optional. `Value` must be the type of the value in a State. `name` must be a string constant,
+    /// because only a reference to its characters is stored.
     template <typename Value>
     std::optional<Value>& of(std::string_view name) {
         std::any& value = values_.try_emplace(name, std::optional<Value>()).first->second;
         return std::any_cast<std::optional<Value>&>(value);
     }
-    /// Returns the value of a setting; an empty optional if it is not set.
+    /// Returns the new value of the setting `name`, or an empty optional if the command does not change the setting.
     template <typename Value>
     const std::optional<Value>& of(std::string_view name) const {
         static const std::optional<Value> none;
@@ -139,32 +140,42 @@ class PlainSettings {
   private:
     std::map<std::string_view, std::any> values_;
 };
-/// Changes the settings that are present; the others keep their values.
+/// The command that changes settings. Settings whose member is empty keep their values.
 struct Set {
     static constexpr std::string_view kMessageType = "set";
-    bool continues = false;                   ///< whether the change belongs to the undo step of the previous command
-    std::optional<std::string> object;        ///< the name of the object to show; see findObject()
-    std::optional<LoadObject> formula;        ///< how to make the field called `object` from a formula; the field is
-                                              ///< loaded first, unless the session already has the same one
-    std::optional<double> pace;               ///< ReferenceFrame::pace
-    std::optional<glm::dvec3> follow, boost;  ///< ReferenceFrame::follow, ReferenceFrame::boost
+    bool continues = false;             ///< whether undo treats the change and the previous command as one step
+    std::optional<std::string> object;  ///< the name of the object to show (see findObject())
+    /// The formula of the field called `object`. The field is made and loaded first, unless the session already has the
+    /// same field.
+    std::optional<LoadObject> formula;
+    std::optional<double> pace;  ///< how many units of length are one unit of time (ReferenceFrame::pace)
+    /// Velocities of the frame of reference (ReferenceFrame::follow and ReferenceFrame::boost).
+    std::optional<glm::dvec3> follow, boost;
     std::optional<glm::dmat4> orientation;
-    std::optional<int> count;       ///< HyperplaneSettings::count, which is odd
-    std::optional<double> spacing;  ///< HyperplaneSettings::spacing
-    std::optional<int> focus;       ///< HyperplaneSettings::focus
-    std::optional<double> offset;   ///< HyperplaneSettings::offset
-    std::optional<double> focusW;   ///< w of the focus slice, in the coordinates of the object's file: sets focus and
-                                    ///< offset (see moveFocusTo())
-    std::optional<glm::dvec4> focusPoint;  ///< in the coordinates of the object's file. x, y, z: Look::focusPoint. w:
-                                           ///< like `focusW`, but ignored if `focus`, `offset` or `focusW` is present
-    std::optional<bool> turning;           ///< whether the object turns continuously
-    std::optional<bool> playing;           ///< State::playing
-    std::optional<std::vector<double>> levels;                 ///< FieldSettings::levels; for fields only
-    std::optional<fields::Inside> inside;                      ///< FieldSettings::inside; for fields only
-    std::optional<std::vector<slicing::FogControlPoint>> fog;  ///< FieldSettings::fog; for fields only
-    std::optional<std::vector<std::uint32_t>> hidden, faded;   ///< indices of cell types, in any order
-    /// The element that is drawn in another color. The outer optional is empty if the highlight stays the same; the
-    /// inner optional is empty if the command removes the highlight.
+    std::optional<int> count;       ///< the number of slices, which is odd
+    std::optional<double> spacing;  ///< the distance between neighboring slices
+    std::optional<int> focus;       ///< the index of the focus slice
+    /// The w of the hyperplane with the index 0.
+    std::optional<double> offset;
+    /// The w of the focus slice, in the coordinates of the object's file. Sets the focus and the offset (see
+    /// moveFocusTo()).
+    std::optional<double> focusW;
+    /// The focus point (x, y, z, w), in the coordinates of the object's file. x, y and z set Look::focusPoint. w acts
+    /// like `focusW`, but is ignored if `focus`, `offset` or `focusW` is present.
+    std::optional<glm::dvec4> focusPoint;
+    std::optional<bool> turning;  ///< whether the object turns continuously
+    /// Whether the focus plays, that is, moves to and fro along w.
+    std::optional<bool> playing;
+    /// The isovalues of the surfaces of a field.
+    std::optional<std::vector<double>> levels;
+    /// The side of the isovalues that is inside the surfaces of a field.
+    std::optional<fields::Inside> inside;
+    /// The fog (transfer function) of a field.
+    std::optional<std::vector<slicing::FogControlPoint>> fog;
+    /// Indices of hidden and of faded (translucent) cell types, in any order.
+    std::optional<std::vector<std::uint32_t>> hidden, faded;
+    /// The element that is highlighted in another color. The outer optional is empty if the highlight stays the same.
+    /// The inner optional is empty if the command removes the highlight.
     std::optional<std::optional<slicing::Element>> highlight;
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
     PlainSettings plain;                     ///< all other settings
@@ -179,31 +190,31 @@ struct Redo {
 };
 BOOST_DESCRIBE_STRUCT(Redo, (), ())
 
-/// Restores the initial orientation and focus, and ends all motion.
+/// The command that restores the initial orientation and focus, and ends all motion.
 struct Reset {
     static constexpr std::string_view kMessageType = "reset";
 };
 BOOST_DESCRIBE_STRUCT(Reset, (), ())
 
-/// Replaces the orientation by a random rotation; all rotations are equally probable.
+/// The command that replaces the orientation by a random rotation. All rotations are equally probable.
 struct TurnAtRandom {
     static constexpr std::string_view kMessageType = "random";
-    std::optional<std::uint64_t> seed;  ///< determines the rotation; if it is absent, the seed is random
+    std::optional<std::uint64_t> seed;  ///< the same seed gives the same rotation; if absent, the seed is random
 };
 BOOST_DESCRIBE_STRUCT(TurnAtRandom, (), (seed))
 
-/// Applies a line of the page's command line; see parseCommandLine().
+/// The command that executes a line of the page's command line (see parseCommandLine()).
 struct CommandLine {
     static constexpr std::string_view kMessageType = "command";
     std::string line;  ///< with or without the ':'
 };
 BOOST_DESCRIBE_STRUCT(CommandLine, (), (line))
 
-/// Shows the view that the query of an address describes. Settings that the query does not contain stay as they are.
-/// However, if the query contains an object or rotations, the orientation is first set back to the initial one.
+/// The command that shows the view that the query of an address describes. Settings that the query does not contain
+/// stay the same. But if the query contains an object or rotations, the orientation is first reset to the initial one.
 struct ShowLinkedView {
     static constexpr std::string_view kMessageType = "address";
-    std::string query;  ///< see parseQuery()
+    std::string query;  ///< the query of the address, in the form for parseQuery()
 };
 BOOST_DESCRIBE_STRUCT(ShowLinkedView, (), (query))
 

@@ -160,13 +160,13 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
     return Command{key};
 }
 
-// "highlight cell 17" is short for "set highlight=cell:17".
+// Parses "highlight cell 17", which means "set highlight=cell:17".
 Result<Command> highlightLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (joinedWords(words, ":").size() != 2) return oneSetting("highlight", rest);
     return oneSetting("highlight", std::string(words[0]) + ':' + std::string(words[1]));
 }
 
-// "boost x 0.6" is short for "set boost=0.6,0,0".
+// Parses "boost x 0.6", which means "set boost=0.6,0,0".
 Result<Command> boostLine(std::string_view rest, const Words& words, const State& /*state*/) {
     if (joinedWords(words, ",").size() != 2) return oneSetting("boost", rest);
     const std::size_t axis = words[0].size() == 1 ? std::string_view("xyz").find(words[0]) : std::string_view::npos;
@@ -194,8 +194,8 @@ Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state
     return findCellTypes(rest, slicing::infoOf(state.object));
 }
 
-// Parses the arguments of hide, fade and show; `change` is hide(), fade() or reveal(). `show` without arguments shows
-// all cells.
+// Parses the arguments of hide, fade and show. `change` is the function of the command: hide(), fade() or reveal().
+// Without arguments, show shows all cells.
 template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
 Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, const State& state) {
     Set set;

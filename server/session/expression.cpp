@@ -47,11 +47,11 @@ using text::isLetter;
 struct ValueWithUnit {
     double value = 0;               // in degrees if isInDegrees is true; otherwise in radians if it is an angle
     double plain = 0;               // the sum of those terms that are numbers without units
-    bool isPlain = false;           // whether `plain` is the whole value
+    bool isPlain = false;           // whether `plain` is the whole value, so that all terms are numbers without units
     bool hasUnit = false;           // whether this part contains a unit
     bool isInDegrees = false;       // whether the unit is degrees and `value` is still in degrees
     bool hasUnitlessAngle = false;  // whether this part contains an angle without a unit, such as pi or atan(2)
-    bool isGroup = false;           // whether parentheses enclose this part
+    bool isGroup = false;           // whether parentheses enclose this part of the expression
     std::size_t unitAt = 0;         // the position of the unit in the text
 };
 

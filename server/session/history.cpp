@@ -38,9 +38,9 @@ void addStep(Steps& steps, const State& state) {
     steps.push_back(state);
 }
 
-// Makes the last step of `from` that differs from the current state, apart from the camera, the current state. Keeps
-// the camera, and appends the former current state to `to`. Removes this step and all later ones from `from`. If there
-// is no such step, returns false and changes nothing.
+// Finds the last step of `from` that differs from the current state in more than the camera. Makes this step the
+// current state, with the present camera, and appends the old current state to `to`. Removes this step and all later
+// steps from `from`. Returns false and changes nothing if there is no such step.
 template <typename From, typename To>
 bool moveToLastStep(Session& session, From& from, To& to) {
     const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };
@@ -59,8 +59,9 @@ std::size_t bytesOfFilter(const State& state) {
 }
 
 /// Removes the oldest undo steps until the memory that only undo steps use is at most `maxBytes`. This memory consists
-/// of the lists of hidden and faded cell types of all undo steps, and of the objects that are neither in the current
-/// state nor in Session::loaded. Each such object counts once, with unsharedMemory(). Redo steps are not considered.
+/// of two parts. The first part is the lists of hidden and faded cell types of all undo steps. The second part is the
+/// objects that are neither in the current state nor in Session::loaded; each object counts once, with
+/// unsharedMemory(). Redo steps do not count.
 void limitHistoryBytes(Session& session, std::size_t maxBytes) {
     std::map<const void*, std::size_t> steps;  // how many times undo steps contain an object, by slicing::identityOf()
     std::size_t bytes = 0;

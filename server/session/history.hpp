@@ -22,8 +22,8 @@ namespace oval4d::session {
 /// steps until the history is within `limits`.
 void commit(Session& session, State next, const Limits& limits);
 
-/// Makes `next` the current state, as commit() does, but as a part of the last undo step: undo returns to the state
-/// before that step. If there is no undo step, or if there are redo steps, does the same as commit().
+/// Makes `next` the current state, as a part of the last undo step: undo then returns to the state before that step. If
+/// there is no undo step, or if there are redo steps, works like commit().
 void amend(Session& session, State next, const Limits& limits);
 
 /// Returns the state before the undo step that amend() would extend. Returns null if amend() would do the same as

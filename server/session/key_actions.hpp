@@ -18,7 +18,7 @@ struct ActionContext {
     ObjectLoader& loader;
     geometry::Plane plane;  ///< the plane of the rotation by the angle alpha
     bool isDoubleRotation;  ///< whether to rotate also by the angle beta, in the perpendicular plane
-    bool inverse;           ///< whether to apply the inverse rotation
+    bool inverse;           ///< whether to turn in the opposite direction
 };
 
 /// An action that a key triggers. Exactly one of the two functions is set. `onState` changes a copy of the current
@@ -27,7 +27,7 @@ struct Action {
     std::string name;  ///< the value of "action" in protocol/keymap.json
     std::function<Result<std::monostate>(ActionContext&)> onState = nullptr;
     std::function<Result<std::monostate>(Session&)> onSession = nullptr;
-    bool mayNeedLoading = false;  ///< whether `onState` may use ActionContext::loader
+    bool mayNeedLoading = false;  ///< whether `onState` may need an object that must be loaded first
 };
 
 /// Returns all actions that the server executes:

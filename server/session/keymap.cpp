@@ -97,7 +97,8 @@ Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending) {
         }
         begins = begins || (entry.first == wanted.key && !wanted.shift && !wanted.ctrl);
     }
-    if (!pending.empty()) {  // the key does not continue the sequence, so it is handled as if no sequence had begun
+    // The key does not continue the sequence, so handle the key as if no sequence had begun.
+    if (!pending.empty()) {
         std::string alone;
         auto binding = bindingOf(key, alone);
         if (binding) pending = std::move(alone);

@@ -16,7 +16,7 @@ struct Binding {
     const Action* action = nullptr;
     geometry::Plane plane = geometry::Plane::xy;
     bool isDoubleRotation = false;  ///< whether to rotate also by the angle beta, in the perpendicular plane
-    bool inverse = false;           ///< whether to apply the inverse rotation
+    bool inverse = false;           ///< whether to turn in the opposite direction
 };
 
 /// Returns the action of a key, or an empty optional if the key begins a sequence of two keys. `pending` is the first

@@ -35,7 +35,7 @@ using text_files::FileError;
 
 namespace {
 
-constexpr std::size_t kMaxName = 64;  // in characters
+constexpr std::size_t kMaxName = 64;  // maximum length of an object's name, in characters
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 

@@ -176,7 +176,7 @@ std::size_t ObjectLoader::memoryNeeded() const {
     const auto* design = std::get_if<polytopes::Design>(&pending_);
     if (design == nullptr) return 0;
     const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
-    constexpr std::size_t kPerHullPoint = 10240;  // simplices, their neighbors, and the perturbed points
+    constexpr std::size_t kPerHullPoint = 10240;  // memory for simplices, their neighbors, and the perturbed points
     return kFixed + kPerElement * (counts.vertices + counts.edges + counts.faces + counts.cells) +
            kPerHullPoint * design->recipe->hullPointCount();
 }

@@ -23,7 +23,8 @@
 
 namespace oval4d::session {
 
-/// A function that reads the object that a command specifies. Parameters, result and errors are those of readObject().
+/// A function that reads the object that a command specifies. Its parameters, result and errors are as for
+/// readObject().
 using FileReader = std::function<Result<ObjectWithWarnings>(const LoadObject& load, const Limits& limits)>;
 
 /// Options of the search for critical values of w. At these values, the type of the section changes.
@@ -46,11 +47,12 @@ struct CriticalSearchArguments {
 CriticalSearchArguments criticalSearchArguments(const State& state);
 
 /// A provider of the objects that one command needs, and of critical values of w. With LoadingMode::immediate,
-/// polytopeOf(), objectFrom() and similar functions do their slow work before they return. With LoadingMode::deferred,
-/// they return an error if the result is not available yet, and the work becomes pending. needsLoading() calls them to
-/// find what a command needs. The caller then calls completePending(), on any thread, and needsLoading() again, until
-/// nothing is pending. Results stay available, even if a cache drops them in the meantime. A loader can be moved at any
-/// time.
+/// functions such as polytopeOf() and objectFrom() do slow work before they return. With LoadingMode::deferred, these
+/// functions return an error if the result is not available yet, and the work becomes pending.
+///
+/// needsLoading() calls the functions to find what a command needs. The caller then calls completePending(), on any
+/// thread, and needsLoading() again, until nothing is pending. Results stay available, even if a cache drops them in
+/// the meantime. A loader can be moved at any time.
 class ObjectLoader {
   public:
     /// Whether the loader does slow work at once, or in completePending().
@@ -140,7 +142,7 @@ class ObjectLoader {
     // The array that fieldWithTimeSteps() has extended to `extended_`.
     slicing::Object extendedFrom_;
     std::optional<Result<slicing::Object>> extended_;
-    slicing::Object searched_;  // the object whose critical values of w are `critical_`
+    slicing::Object searched_;  // the object for which `critical_` was computed
     std::optional<Result<slicing::CriticalSectionsPtr>> critical_;
     // Objects in the coordinates of a frame of reference. A command may change both the object and the frame, so it
     // needs an object in the old and in the new frame. There are more than two entries only if the session changes in

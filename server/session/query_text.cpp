@@ -108,7 +108,8 @@ std::optional<QueryParameters> parseQuery(std::string_view text) {
 }
 
 std::string queryText(const QueryParameters& query) {
-    // These characters are allowed in queries without escapes (RFC 3986, section 3.4). Plain, they are easier to read.
+    // Leave these characters as they are: queries may contain them without escapes (RFC 3986, section 3.4), and are
+    // easier to read then.
     constexpr std::string_view kPlain = ",:;/=*()";
     std::string text;
     for (const auto& [name, value] : query) {

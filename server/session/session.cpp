@@ -47,7 +47,7 @@ std::optional<geometry::Turn> turnOfStep(const State& before, const State& curre
     return whole.turn();
 }
 
-// Moves the focus to and fro for `seconds`; State::playing must be true.
+// Moves the focus to and fro along w for `seconds` seconds. State::playing must be true.
 void moveFocusToAndFro(State& state, double seconds) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double distance = state.playSpeed * seconds * (most - least) / kSecondsFromEndToEnd;
@@ -67,7 +67,8 @@ bool isOfConnection(std::string_view name) { return name == "token" || name == "
 // Shoemake, "Uniform random rotations", Graphics Gems III, 1992). The same seed gives the same rotation.
 geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
     std::mt19937_64 random(seed ? *seed : std::random_device()());
-    const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11U), -53); };  // 0 ≤ u < 1
+    // A random number u with 0 ≤ u < 1.
+    const auto uniform = [&] { return std::ldexp(static_cast<double>(random() >> 11U), -53); };
     const auto quaternion = [&] {
         const double u = uniform(), a = 2 * std::numbers::pi * uniform(), b = 2 * std::numbers::pi * uniform();
         const double first = std::sqrt(1 - u), second = std::sqrt(u);

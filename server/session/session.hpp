@@ -32,11 +32,12 @@ using geometry::kMaxOffset, geometry::kMaxSpacing, geometry::kMinSpacing;
 inline constexpr int kMaxFocus = 1'000'000;  ///< the maximum absolute value of HyperplaneSettings::focus
 
 /// The hyperplanes that cut the object into slices: w = offset + n · spacing, for `count` consecutive integers n.
+/// Lengths are in units of the object.
 struct HyperplaneSettings {
     int count = 21;      ///< odd; n runs from focus − h to focus + h, where h = (count − 1) / 2
-    double spacing = 0;  ///< δ, the distance between neighboring hyperplanes, in the object's units
+    double spacing = 0;  ///< δ, the distance between neighboring hyperplanes
     int focus = 0;       ///< the index n of the focus slice (the middle one)
-    double offset = 0;   ///< w of the hyperplane n = 0, in the object's units
+    double offset = 0;   ///< the w of the hyperplane with n = 0
     bool operator==(const HyperplaneSettings&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<HyperplaneSettings> auto& slices, auto& visit) {
@@ -69,7 +70,7 @@ struct State {
     static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};
     /// The range of step, in radians.
     static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};
-    static constexpr geometry::Range kPlaySpeedRange{1.0 / 16, 16};  ///< of playSpeed
+    static constexpr geometry::Range kPlaySpeedRange{1.0 / 16, 16};  ///< the range of playSpeed
 
     slicing::Object source;  ///< the object as built or loaded, in its own coordinates; never null
     geometry::ReferenceFrame referenceFrame;
@@ -80,7 +81,7 @@ struct State {
     double step;         ///< by how much the keys k, j, K and J change alpha or beta, in radians
     HyperplaneSettings slices;
     scene::Look look;
-    bool turning = false;                    ///< whether the object turns continuously: advance() repeats `lastTurn`
+    bool turning = false;                    ///< whether the object turns continuously, by repeating `lastTurn`
     std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat; empty if none
     /// The turn that the command TurnToward has started, until it reaches its goal in advance(). Empty if there is
     /// none, and always empty while `turning` is true.
@@ -97,9 +98,9 @@ struct State {
     std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
-    /// Returns w of the focus slice, in the object's units.
+    /// Returns the w of the focus slice, in units of the object.
     double focusW() const { return slices.offset + slices.focus * slices.spacing; }
-    /// Returns the focus point x, y, z, w in the coordinates of the object's file.
+    /// Returns the focus point (x, y, z, w) in the coordinates of the object's file.
     glm::dvec4 focusPointInFile() const {
         return slicing::infoOf(object).originInFile + glm::dvec4(look.focusPoint, focusW());
     }
@@ -129,7 +130,7 @@ void visitStoredMembers(serialization::ReadOrWritten<State> auto& state, auto& v
     visit.addedMember(12, playSpeed, State::kPlaySpeedRange);
 }
 
-/// Returns the initial state of a session: the 5-cell in the position that it has in Kageyama's paper.
+/// Returns the initial state of a session: the 5-cell in the position of Kageyama's paper.
 State initialState();
 
 /// Returns the spacing at which `count` slices span −r to r, where r = slicing::initialSliceExtent(object). Returns r
@@ -138,7 +139,7 @@ double spanningSpacing(const slicing::Object& object, int count);
 
 /// The limits on a session. The server has an option for each limit.
 struct Limits {
-    int maxSlices = 201;         ///< the maximum of HyperplaneSettings::count
+    int maxSlices = 201;         ///< the maximum number of slices, HyperplaneSettings::count
     std::size_t maxUndo = 1000;  ///< the maximum number of undo steps
     /// The maximum memory, in bytes, of objects and lists of cell types that only undo steps use.
     std::size_t maxUndoBytes = 64U << 20U;

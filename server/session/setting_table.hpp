@@ -14,7 +14,7 @@
 
 namespace oval4d::session {
 
-/// The names of a setting.
+/// The names of a setting on the command line and in messages.
 struct SettingName {
     std::string_view text;  ///< the name on the page's command line and in queries
     /// The name of the JSON object that contains the setting in messages, such as "camera"; empty for the message
@@ -54,9 +54,9 @@ struct NotInState {};
 
 /// The occasion on which a setting returns to its initial value.
 enum class ResetOccasion : std::uint8_t {
-    never,                       ///< never; but the spacing changes in proportion to the size of a new object
-    by_another_object,           ///< when another object replaces the object, because the value belongs to the object
-    by_reset_or_another_object,  ///< when another object replaces the object, and at the command `reset`
+    never,                       ///< never; but a new object of another size changes the spacing in proportion
+    by_another_object,           ///< when another object is shown, because the value belongs to the old object
+    by_reset_or_another_object,  ///< when another object is shown, and after the command `reset`
 };
 
 /// A setting. `ofSet` returns a reference to the setting's value in a Set (a std::optional). `ofState` returns the
@@ -89,7 +89,7 @@ Setting(SettingName, OfSet, OfState, Rule, ResetOccasion, bool) -> Setting<OfSet
 template <typename Visitor>
 void forEachSetting(const Visitor& visit) {
     using scene::Look;
-    // Returns a function that returns a reference to state.*m1.*m2…, for pointers to members m1, m2, …
+    // Returns a function of a state that returns a reference to state.*m1.*m2…, for pointers to members m1, m2, …
     const auto at = [](auto... members) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };

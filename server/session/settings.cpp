@@ -392,7 +392,7 @@ Result<std::monostate> highlightNeighbor(State& state, slicing::ElementKind kind
     std::optional<slicing::Element>& highlight = state.look.highlight;
     std::optional<std::size_t> found;
     if (highlight && highlight->kind == kind) {
-        const std::size_t step = forward ? 1 : count - 1;  // the same as one step backward, modulo count
+        const std::size_t step = forward ? 1 : count - 1;  // `count` − 1 steps forward are one step backward
         std::size_t index = highlight->index;
         for (std::size_t i = 0; i < count && !found; ++i) {
             index = (index + step) % count;

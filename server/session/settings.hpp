@@ -9,7 +9,7 @@
 
 namespace oval4d::session {
 
-/// The maximum absolute value of an angle of a rotation in radians; larger doubles are imprecise.
+/// The maximum absolute value of a rotation's angle, in radians. Larger doubles are imprecise as angles.
 inline constexpr double kMaxAngle = 1e6;
 
 /// Returns whether these control points are valid as FieldSettings::fog. There may be none, or kMinFogControlPoints …
@@ -21,12 +21,16 @@ bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
 slicing::FieldSettings initialFieldSettings(const fields::Field& field);
 
 /// Shows the object `source` in place of State::source, and updates State::object. Does nothing if `source` is already
-/// shown. Keeps the frame of reference, the orientation, and the ratio of the spacing to slicing::initialSliceExtent().
-/// Ends playing and a turn toward an element. Resets the settings with ResetOccasion::by_another_object or
-/// ResetOccasion::by_reset_or_another_object; the field settings become the initial ones of the new field. If only the
-/// new object has a second function, sets Coloring::value. If only the old object has a second function, replaces
-/// Coloring::value by Coloring::cell. Error: the error of `loader` if transforming the object to the frame of reference
-/// is deferred; the state is then unchanged.
+/// shown.
+///
+/// Keeps the frame of reference, the orientation, and the ratio of the spacing to slicing::initialSliceExtent(). Ends
+/// playing and a turn toward an element. Resets the settings with ResetOccasion::by_another_object or
+/// ResetOccasion::by_reset_or_another_object. A new field gets its initial field settings. Sets Coloring::value if only
+/// the new object has a second function. Replaces Coloring::value by Coloring::cell if only the old object has a second
+/// function.
+///
+/// Error: the error of `loader` if transforming the object to the frame of reference is deferred. The state is then
+/// unchanged.
 Result<std::monostate> replaceObject(State& state, slicing::Object source, ObjectLoader& loader);
 
 /// Keeps the settings of a field when `load` has replaced one part of an array in the data folder by another part, or

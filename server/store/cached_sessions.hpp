@@ -43,7 +43,7 @@ struct CachedSession {
     PendingChanges pending;
     bool changed = false;        ///< whether the session has changed since the last save()
     bool everSaved = false;      ///< whether the session has ever been in the store
-    bool queued = false;         ///< whether the session is in the queue of CachedSessions
+    bool queued = false;         ///< whether the session waits in the queue of sessions to write
     bool inFlight = false;       ///< whether the session is being written
     bool closed = false;         ///< whether no client has the session open; a closed session is removed from memory
                                  ///< once it is written

@@ -8,8 +8,9 @@ using nlohmann::json;
 
 namespace {
 
-constexpr std::size_t kMaxDepth = 16;       // maximum nesting depth of arrays and objects
-constexpr std::size_t kMaxNameBytes = 256;  // 64 characters, each of at most 4 bytes in UTF-8
+constexpr std::size_t kMaxDepth = 16;  // maximum nesting depth of arrays and objects
+// The maximum length of a short text: 64 characters with at most 4 bytes each, in UTF-8.
+constexpr std::size_t kMaxNameBytes = 256;
 
 /// A handler of parser events (SAX) that stops parsing if values are nested too deeply. The limit is needed because the
 /// parser uses stack space for each level. Declared sizes of arrays need no limit: the parser allocates nothing for

@@ -182,8 +182,9 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
 }  // namespace
 
 bool refersToFile(std::string_view record) {
-    // In CBOR, an array with n < 24 elements begins with the byte 0x80 + n, a number below 24 is one byte, and true is
-    // the byte 0xf5 (RFC 8949, section 3). A record of version 1 refers to a file if it has three elements.
+    // Compare the first bytes of the record. In CBOR, an array with n < 24 elements begins with the byte 0x80 + n. A
+    // number below 24 is one byte, and true is the byte 0xf5 (RFC 8949, section 3). A record of version 1 refers to a
+    // file if it has three elements.
     constexpr std::size_t kPlaceOfFlag = 3;
     if (record.starts_with('\x83')) return true;
     return record.size() > kPlaceOfFlag && record[0] == '\x84' && record[1] == kObjectRecordVersion &&

@@ -83,8 +83,8 @@ if owner and owner ~= '' and owner ~= ARGV[1] then return end
 redis.call('DEL', KEYS[1], KEYS[2]))";
 
 // A Redis script that reads and empties the list of sessions that other servers have claimed from this server. KEYS:
-// the list. Returns {number of keys in Redis, id, fence, id, fence, …}, where each fence is the one in the session's
-// record, or 0 if there is no record.
+// the list. Returns {number of keys in Redis, id, fence, id, fence, …}. A fence is the one in the session's record, or
+// 0 if there is no record.
 constexpr const char* kPoll = R"(#!lua flags=allow-oom
 local reply = {redis.call('DBSIZE')}
 for _, id in ipairs(redis.call('LRANGE', KEYS[1], 0, -1)) do
@@ -169,7 +169,8 @@ RedisStore::RedisStore(const StoreOptions& options, ClockFunction<Clock> now)
         port_ = numberIn(rest.substr(colon + 1), "port", 1, 65535);
         rest = rest.substr(0, colon);
     }
-    if (rest.size() > 2 && rest.front() == '[') rest = rest.substr(1, rest.size() - 2);  // an IPv6 address
+    // Removes the brackets of an IPv6 address.
+    if (rest.size() > 2 && rest.front() == '[') rest = rest.substr(1, rest.size() - 2);
     host_ = rest;
     if (host_.empty()) throw std::invalid_argument("redis:// must be followed by a host");
 }

@@ -12,10 +12,10 @@
 #include "store/object_list.hpp"
 #include "store/state_codec.hpp"
 
-// A session is encoded as two CBOR arrays, the whole and the head. The whole contains the members of the session, whose
-// numbers are their indices (see visitStoredMembers() in session/session.hpp). Index 0 contains the version, and index
-// 2 the list of objects. The head has only four elements: version, revision, list of objects, current state. Arrays
-// with members that this version does not know are refused.
+// A session is encoded as two CBOR arrays, called the whole and the head. In the whole, the number of a member of the
+// session is its index (see visitStoredMembers() in session/session.hpp). Index 0 contains the version, and index 2 the
+// list of objects. The head has only four elements: version, revision, list of objects, current state. Arrays with
+// members that this version does not know are refused.
 
 namespace oval4d::store {
 
@@ -28,7 +28,7 @@ namespace {
 constexpr std::size_t kVersion = 0, kObjects = 2;  // the indices of elements that are not members of the session
 constexpr std::size_t kHeadMembers = 4;
 
-constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53; JSON readers represent all integers up to this one exactly
+constexpr std::uint64_t kMaxRevision = 1ULL << 53U;  // 2^53; JSON readers represent integers up to this number exactly
 
 /// A list of states, such as the undo steps or the redo steps.
 template <typename T>

@@ -24,7 +24,7 @@ void refuseForeignFile(const std::string& path) {
     std::string start(kFirstPageSize, '\0');
     file.read(start.data(), static_cast<std::streamsize>(start.size()));
     start.resize(static_cast<std::size_t>(file.gcount()));
-    constexpr std::string_view kMagic("SQLite format 3\0", 16);  // with the terminating zero
+    constexpr std::string_view kMagic("SQLite format 3\0", 16);  // 16 bytes, with the terminating zero
     constexpr std::size_t kTableCount = 103;  // offset of two bytes on page 1: the number of rows of sqlite_schema
     const bool isDatabase = start.starts_with(kMagic);
     const bool hasNoTables =

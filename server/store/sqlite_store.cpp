@@ -16,7 +16,7 @@ namespace oval4d::store {
 namespace {
 
 constexpr std::size_t kPageSize = 4096;
-// The maximum number of free pages that one poll returns to the file system.
+// The maximum number of free pages that one call of pollTakenOverSessions() returns to the file system.
 constexpr std::int64_t kMaxReleasedPages = 1024;
 constexpr std::size_t kMaxListedIds = 20;  // maximum number of session ids in a log line
 
@@ -27,7 +27,7 @@ std::int64_t maxPagesFor(std::size_t quota) { return static_cast<std::int64_t>(q
 /// Returns an upper bound of the number of pages that updates need. Short rows share pages that are at least half full,
 /// and long values have pages of their own.
 std::int64_t pagesNeededFor(std::span<const RecordUpdate> updates) {
-    std::size_t pages = 8;  // for the interior pages of tables and indices
+    std::size_t pages = 8;  // room for the interior pages of tables and indices
     std::size_t small = 0;
     for (const RecordUpdate& update : updates) {
         const std::size_t bytes = estimateStoredSize(update);
@@ -223,7 +223,7 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
         setUp();
         database_->run("PRAGMA busy_timeout = 2000");
     } catch (...) {
-        database_.reset();  // the next operation opens the file again
+        database_.reset();  // the next operation will open the file again
         throw;
     }
 }

@@ -19,7 +19,7 @@ namespace oval4d::store {
 /// does not match its digest, on an intact page, is left unchanged. Both kinds of damage are logged.
 class SqliteStore final : public Store {
   public:
-    using Clock = std::chrono::system_clock;  ///< the wall clock, because records outlive the process
+    using Clock = std::chrono::system_clock;  ///< the wall clock, because times in records must outlive the process
 
     /// Opens or creates the file. `quota` is the maximum size, in bytes, of the file and its write-ahead log together.
     /// Only an update larger than an eighth of the quota may exceed the quota for a short time. Throws StoreError if

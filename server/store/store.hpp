@@ -55,7 +55,7 @@ struct RecordUpdate {
     std::string whole;  ///< the new SessionRecord::whole; empty if it stays the same
     /// Objects to add, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
-    std::vector<std::string> dropped;  ///< keys of objects to remove
+    std::vector<std::string> dropped;  ///< keys of objects to remove from the record
     bool closed = false;               ///< whether no client has the session open anymore
     bool changed = true;               ///< whether the session has changed since its creation
 };
@@ -97,13 +97,13 @@ class Store {
     Store& operator=(const Store&) = delete;
     virtual ~Store() = default;
 
-    /// The time at which changes to an open session must be written to the store.
+    /// The latest time at which a change to an open session must be written to the store.
     enum class WritePolicy : std::uint8_t {
         at_close,  ///< when the last client leaves the session
         soon,      ///< within a second
-        at_once,   ///< before the change is acknowledged, because another server may have to take the session over
+        at_once,   ///< before the server acknowledges the change, because another server may claim the session
     };
-    /// Returns when changes must be written to this store.
+    /// Returns when changes must be written to this store at the latest.
     virtual WritePolicy writePolicy() const = 0;
 
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
@@ -158,7 +158,7 @@ class Store {
 
 /// Returns an estimate of the maximum number of bytes by which an update enlarges a store.
 inline std::size_t estimateStoredSize(const RecordUpdate& update) {
-    constexpr std::size_t kOverhead = 640;  // id, hash, times and index entries of a row
+    constexpr std::size_t kOverhead = 640;  // bytes for the id, the hash, the times and the index entries of a row
     std::size_t bytes = kOverhead + update.head.size() + update.whole.size();
     for (const auto& [key, object] : update.objects) bytes += kOverhead + object.size();
     return bytes;
@@ -169,9 +169,9 @@ inline constexpr std::size_t kDefaultQuota = std::size_t{1} << 30U;
 
 /// The options of a session store. The operator of the server sets them.
 struct StoreOptions {
-    std::string url = "memory";         ///< "memory", "sqlite:PATH", "redis://[user:password@]host[:port][/database]"
+    std::string url = "memory";         ///< "memory", "sqlite:PATH" or "redis://[user:password@]host[:port][/database]"
     Milliseconds expiry{1'800'000};     ///< time after which a session is deleted if no client has it open
-    Milliseconds timeout{1000};         ///< maximum time to wait for a reply of a store on the network
+    Milliseconds timeout{1000};         ///< maximum time to wait for the reply of a Redis server
     std::size_t quota = kDefaultQuota;  ///< maximum size of the file, or of the records in memory, in bytes; not used
                                         ///< for Redis
 };

@@ -34,8 +34,8 @@ class StoredObjectKeys {
     /// Records that the store has saved `update`, an update made by encode(). `added` is the result of encode().
     void recordSaved(const std::string& session, const std::vector<std::uint64_t>& added, const RecordUpdate& update);
 
-    /// markObjectsLost() records that the store has lost the objects of a session, and markAllObjectsLost() those of
-    /// all sessions. The next updates then contain the objects again.
+    /// markObjectsLost() records that the store has lost the objects of a session. markAllObjectsLost() records this
+    /// for all sessions. The next updates then contain the objects again.
     void markObjectsLost(const std::string& session);
     void markAllObjectsLost();
 
@@ -47,7 +47,7 @@ class StoredObjectKeys {
         std::string key;
         bool stored = false;
     };
-    using ObjectKeyStates = std::map<std::uint64_t, ObjectKeyState>;  // by ObjectInfo::serial
+    using ObjectKeyStates = std::map<std::uint64_t, ObjectKeyState>;  // the key is ObjectInfo::serial
 
     std::map<std::string, ObjectKeyStates, std::less<>> sessions_;
 };

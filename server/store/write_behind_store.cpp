@@ -1,4 +1,4 @@
-// This file is long, because the functions of the store thread and the functions of its callers share one lock.
+// This file is long, because the functions of the store thread and their callers share one lock.
 
 #include "store/write_behind_store.hpp"
 
@@ -385,7 +385,7 @@ void WriteBehindStore::writeRemovals() {
     }
     const std::lock_guard lock(mutex_);
     removals_.clear();
-    pollAt_ = Clock::time_point();  // poll now, to update the number of stored sessions
+    pollAt_ = Clock::time_point();  // poll soon, to update the number of stored sessions
 }
 
 void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveResult result) {
@@ -395,7 +395,7 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
         if (CachedSession* const cached = cached_.find(job.id)) {
             cached->inFlight = false;
             if (!std::exchange(cached->everSaved, true))
-                pollAt_ = Clock::time_point();  // poll now, to update sessionCount()
+                pollAt_ = Clock::time_point();  // poll soon, to update sessionCount()
             if (cached->closed && !cached->queued) {
                 cached_.remove(job.id);
                 objects_.forget(job.id);

@@ -206,9 +206,9 @@ class WriteBehindStore {
     // Only the store thread uses the following members.
     StoredObjectKeys objects_;
     Backoff backoff_;
-    Clock::time_point refreshAt_;  // time of the next renewAndExpireSessions()
+    Clock::time_point refreshAt_;  // the time of the next call of renewAndExpireSessions()
 
-    // The last member, because the thread uses the others, which must be initialized first.
+    // The last member, because the thread uses all other members, which must be initialized first.
     std::thread storeThread_;
 };
 

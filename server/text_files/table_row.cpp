@@ -117,7 +117,7 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
         const TabColumnCounts between = countTabColumns(content, row);
         // In rows with fewer columns, tabs may be used like blanks.
         tabs = tabs || between.filled >= kMinColumns;
-        if (between.numbers >= kMinColumns) {  // only the tabs separate; other marks are parts of texts
+        if (between.numbers >= kMinColumns) {  // only tabs separate; other marks are parts of texts
             decimalCommas = decimalCommas || between.decimalCommas;
             continue;
         }
@@ -139,7 +139,7 @@ std::optional<TableLine> TableLines::next() {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     const std::string_view whole = rest_.substr(0, end);
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    const bool isComment = text::trimmed(whole).starts_with('%');  // as in files for MATLAB
+    const bool isComment = text::trimmed(whole).starts_with('%');  // MATLAB files have such comments
     const std::size_t hash = std::min(isComment ? whole.find('%') : whole.find('#'), whole.size());
     return TableLine{number_++, whole.substr(0, hash), text::trimmed(whole.substr(std::min(hash + 1, whole.size())))};
 }

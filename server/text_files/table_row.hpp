@@ -34,7 +34,7 @@ class TableLines {
 
 /// The format of a table: the separator of its columns, and the decimal mark of its numbers.
 struct TableFormat {
-    char separator = ' ';  ///< ';', '\t', ',', or ' ' for any number of blanks
+    char separator = ' ';  ///< ';', '\t', ',', or ' ', which stands for any number of blanks
     DecimalMark mark = DecimalMark::point;
 };
 
@@ -43,7 +43,7 @@ TableFormat formatOf(TableLines lines);
 
 /// The columns of a line of a table.
 struct TableRow {
-    std::vector<std::string_view> columns;  ///< without the blanks and quotes around them; some may be empty
+    std::vector<std::string_view> columns;  ///< the columns without surrounding blanks and quotes; may be empty texts
     bool endsWithSeparator = false;         ///< whether a separator other than a blank follows the last column
 };
 

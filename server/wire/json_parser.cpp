@@ -137,7 +137,7 @@ std::size_t lengthOfString(std::string_view text) {
     return text.size();
 }
 
-// Returns the length of the run of letters, digits, signs and points at the start of the text.
+// Returns the length of the word at the start of the text. A word consists of letters, digits, signs and points.
 std::size_t lengthOfWord(std::string_view text) {
     const auto inWord = [](char c) {
         return text::isLetter(c) || text::isDigit(c) || c == '+' || c == '-' || c == '.';

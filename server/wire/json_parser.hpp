@@ -8,7 +8,7 @@
 
 namespace oval4d::wire {
 
-/// The result of parseJson().
+/// Parsed JSON text, or the reason why the text is refused. The result of parseJson().
 struct ParsedJson {
     nlohmann::json value;  ///< the parsed value; valid if `fault` is empty or `repaired` is true
     std::string fault;     ///< the error message; empty if there is no error

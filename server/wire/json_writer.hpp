@@ -50,7 +50,7 @@ class JsonWriter {
     void value(std::string_view text);
     void value(const char* text) { value(std::string_view(text)); }
     void null();
-    /// Appends a value that is already encoded as JSON.
+    /// Appends `text`, a value that is already encoded as JSON.
     void raw(std::string_view text);
     /// Appends the members of `object` to the object that is being written. `object` is a complete object with at least
     /// one member from another JsonWriter.
@@ -65,7 +65,7 @@ class JsonWriter {
     void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
-    void lists(JaggedArrayView view);                     ///< writes an array of arrays
+    void lists(JaggedArrayView view);                     ///< writes each list as an array in an array
     /// Writes `pixels`, a table with this number of columns, as an array of rows. Each row is an array.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 

@@ -29,7 +29,7 @@ inline void beginMessage(JsonWriter& w, std::string_view type, std::optional<dou
     }
 }
 
-/// The numbers of vertices, edges, 2-faces and cells.
+/// The numbers of an object's vertices, edges, 2-faces and cells, in this order.
 using ElementCounts = std::array<std::uint64_t, 4>;
 
 inline ElementCounts countsOf(const slicing::Object& object) {

@@ -27,7 +27,8 @@ struct PictureAtPixel {
     /// The element (cell, face, edge or vertex) at the pixel, unless `level` is nearer to the viewer.
     std::optional<scene::PickedElement> element;
     std::optional<scene::PickedLevel> level;     ///< the surface or contour of a field at the pixel
-    std::optional<slicing::FieldSample> sample;  ///< the field at PickedLevel::point; present if `level` is
+    std::optional<slicing::FieldSample> sample;  ///< the values of the field at PickedLevel::point; present only if
+                                                 ///< `level` is present
     /// If the pixel is in a panel of the matrix (planar sections in all pairs of axes): the 4-D point there, in the
     /// coordinates of the rotated object.
     std::optional<glm::dvec4> panelPoint;
@@ -47,7 +48,7 @@ std::string sampleMessage(const slicing::FieldSample& sample, std::uint64_t revi
 std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id);
 
-/// Returns the `error` message.
+/// Returns the `error` message for an error.
 std::string errorMessage(const Error& error, std::optional<double> id);
 /// Returns the `catalogue` message. It lists the polytopes of the catalogue, the example fields, the session's loaded
 /// objects `loaded`, and the arrays `data` (names) in the server's data folder.

@@ -27,8 +27,8 @@ namespace oval4d::wire {
 
 /// What the server sends to a client after each change of the session, in addition to the new state.
 enum class Stream : std::uint8_t {
-    none,      ///< nothing
-    geometry,  ///< a `slices` message, from which the client draws the picture
+    none,      ///< nothing besides the state
+    geometry,  ///< a `slices` message, from which the client draws the picture itself
     frames,    ///< a picture of the state as a PNG file
 };
 inline constexpr auto kStreams = text::completeTable<text::NamedValue<Stream>>(
@@ -82,7 +82,8 @@ struct Get {
 /// A request for the center and the size of an element (a cell, face, edge or vertex).
 struct Measure {
     static constexpr std::string_view kMessageType = "measure";
-    slicing::ElementKind element = slicing::ElementKind::vertex;  ///< the kind of the element
+    /// Whether to measure a cell, a face, an edge or a vertex.
+    slicing::ElementKind element = slicing::ElementKind::vertex;
     /// The index of the element among the elements of its kind.
     std::size_t number = 0;
     /// Whether the answer contains `highlight` and `range`.
@@ -97,7 +98,7 @@ struct Measured {
     glm::dvec4 center{0};
     /// For a cell: its type, as an index into ObjectInfo::cellTypes.
     std::optional<std::uint64_t> kind = {};
-    std::optional<std::string> unit = {};  ///< of the length, the area or the volume; absent if unknown
+    std::optional<std::string> unit = {};  ///< unit of the length, the area or the volume; absent if unknown
     std::optional<std::string> name = {};  ///< for a 2-face: the name of its polygon
     /// Both are present only if the request asks for them. `highlight` is what shows the element in pictures. `range`
     /// is the least and the greatest w of the element's vertices, in the coordinates of the shown object.

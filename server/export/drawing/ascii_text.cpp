@@ -11,12 +11,12 @@ namespace {
 using Replacement = std::pair<std::string_view, std::string_view>;
 
 constexpr auto kSigns = std::to_array<Replacement>({
-    {"\u00B5", "u"},  // micro
-    {"\u03BC", "u"},  // the Greek letter
+    {"\u00B5", "u"},  // micro sign
+    {"\u03BC", "u"},  // Greek letter mu
     {"\u00B0", "deg"},
-    {"\u00C5", "A"},  // ångström
+    {"\u00C5", "A"},  // letter A with ring (ångström)
     {"\u212B", "A"},
-    {"\u03A9", "Ohm"},  // the Greek letter
+    {"\u03A9", "Ohm"},  // Greek letter omega
     {"\u2126", "Ohm"},
     {"\u2030", "permil"},
     {"\u00B7", "*"},

@@ -27,7 +27,7 @@ struct Line {
     double width = 1;
     scene::Color color = 0;
     bool roundEnds = false;
-    double opacity = 1;   ///< 0 … 1
+    double opacity = 1;   ///< from 0 (invisible) to 1
     std::string id = {};  ///< the id of the line in an SVG file; may be empty
 };
 /// A polyline with at least two points. Its ends and corners are round.
@@ -40,19 +40,19 @@ struct Polyline {
 struct FilledPolygon {
     std::vector<glm::dvec2> corners;
     scene::Color color = 0;
-    double opacity = 1;  ///< 0 … 1
+    double opacity = 1;  ///< from 0 (invisible) to 1
 };
 /// A filled circle.
 struct Disk {
     glm::dvec2 center;
     double radius = 1;
     scene::Color color = 0;
-    double opacity = 1;  ///< 0 … 1
+    double opacity = 1;  ///< from 0 (invisible) to 1
 };
 /// A line of text in ASCII. `at` is the middle of its baseline.
 struct TextLine {
     glm::dvec2 at;
-    double size = 7;  ///< the font size
+    double size = 7;  ///< font size
     scene::Color color = 0;
     std::string text;
 };

@@ -95,7 +95,7 @@ class SliceDrawer {
     enum Layer : std::uint8_t { away_faces, away_frame, toward_faces, toward_frame };
     struct LayeredShape {
         Layer layer;
-        double depth;  ///< increases toward the viewer
+        double depth;  ///< the depth of the shape; increases toward the viewer
         DrawnShape shape;
     };
 
@@ -280,7 +280,7 @@ ShapeGroup drawLabels(const scene::Scene& scene, const PaperProjection& paper) {
 
 /// Draws the directions of the axes x, y and z, from the farthest to the nearest.
 ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
-    constexpr double kNameAt = 1.28, kWidth = 0.09, kTip = 0.065;  // in lengths of an axis
+    constexpr double kNameAt = 1.28, kWidth = 0.09, kTip = 0.065;  // lengths as multiples of the length of an axis
     const scene::Style& style = scene.style();
     const double length = scene.axes.length * paper.height(), size = style.textHeight * paper.height();
     const glm::dvec2 center = glm::dvec2(scene.axes.x, scene.axes.y) * paper.height();

@@ -16,7 +16,7 @@ void putLittleEndian(std::string& out, Number number) {
 inline void putLittleEndian(std::string& out, float number) {
     putLittleEndian(out, std::bit_cast<std::uint32_t>(number));
 }
-/// Appends x, y and z as float32.
+/// Appends x, y and z as 32-bit floats.
 inline void putLittleEndian(std::string& out, const glm::dvec3& point) {
     for (int i = 0; i < 3; ++i) putLittleEndian(out, static_cast<float>(point[i]));
 }

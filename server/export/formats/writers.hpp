@@ -42,7 +42,7 @@ std::string threeMf(const MeshesToWrite& meshes);
 /// and a color for each triangle or, for fields, for each point.
 std::string x3d(const MeshesToWrite& meshes);
 
-// --- Formats of data.
+// --- Writers of data formats
 
 /// Returns a CSV file. Lengths, areas and volumes are in the units of the object. w and centroids are in the
 /// coordinates of the object's file (see ObjectInfo::originInFile).
@@ -92,7 +92,7 @@ std::string vti(const SceneToWrite& source);
 /// limit is exceeded or a stop was requested.
 std::string vtp(const SceneToWrite& source);
 
-// --- Formats of drawings.
+// --- Writers of figure formats
 
 /// Returns the drawing as a PDF 1.4 document. Its only page has the size of the drawing on paper. Throws
 /// std::runtime_error if the width or the height is not from 3 to 14,400 points (1/72 inch), or if there is not enough
@@ -107,7 +107,7 @@ std::string svg(const Drawing& drawing);
 /// points.
 std::string tikz(const Drawing& drawing);
 
-// --- All of them.
+// --- The table of writers
 
 /// The name of a format, and its writer: a function of bodies, a scene or a drawing. The other two functions are null.
 /// `readsSurfaces`, `showsPicture` and `keepsDoubles` mean the same as in Format.

@@ -33,7 +33,7 @@ class LabelText {
     Mesh labelBody(double size, const RoundingGrid& grid) const;
 
   private:
-    std::vector<Lettering> versions_;  // the text in one line, and in two lines
+    std::vector<Lettering> versions_;  // the layout in one line, and the layout in two lines
 };
 
 }  // namespace oval4d::exports

@@ -19,7 +19,7 @@
 
 namespace oval4d::exports {
 
-/// The surface in one slice of a field.
+/// The surface (of all levels) in one slice of a field.
 struct FieldSliceSurface {
     const slicing::SliceSurface& surface;
     std::span<const glm::dvec3> exactPoints;  ///< unrounded points of `surface`; empty if unknown

@@ -1,5 +1,5 @@
 #pragma once
-// Filled bodies of slices.
+// Makes the filled bodies of slices.
 
 #include "export/budget.hpp"
 #include "export/mesh/mesh.hpp"

@@ -74,7 +74,7 @@ TEST(Channel, WaitsNoLongerWhenAskedToStop) {
     const Channel channel(here), hanging(there);
     std::stop_source stop;
     std::thread stopping([&] {
-        EXPECT_TRUE(support::eventually(mainThreadWaits));  // in receive()
+        EXPECT_TRUE(support::eventually(mainThreadWaits));  // the main thread waits in receive()
         stop.request_stop();
     });
     MessageType type{};

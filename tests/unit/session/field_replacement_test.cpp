@@ -124,7 +124,7 @@ TEST(FieldReplacement, AFieldThatIsNotShownIsReplacedAmongTheLoadedOnes) {
 
 TEST(FieldReplacement, AnotherRegionHasInitialLevelsAfterAFinerLevel) {
     fields::Field level = levelOfImage(1, 1, 8);
-    level.initialLevel = 3;  // as the data folder sets it
+    level.initialLevel = 3;  // the server sets this when it loads from the data folder
     const slicing::Object coarse = objectOf(levelOfImage(2, 2, 6)), fine = objectOf(level);
     Session session;
     load(session, coarse);

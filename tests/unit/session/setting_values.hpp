@@ -1,5 +1,5 @@
 #pragma once
-// A value of each setting, for tests that no setting is lost when a state is converted or sent.
+// A value for each setting, for tests that no setting is lost when a state is converted or sent.
 
 #include <algorithm>
 #include <cmath>

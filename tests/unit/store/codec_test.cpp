@@ -113,16 +113,16 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
     session.current.ongoingTurnToward = session::OngoingTurnToward{{}, 1};
     ObjectTable table;
     auto record = nlohmann::json::from_cbor(encodeWhole(session, 10, table.keyOf));
-    nlohmann::json& look = record.at(3).at(5);  // of the current state
+    nlohmann::json& look = record.at(3).at(5);  // the look of the current state
     nlohmann::json& flags = look.at(1);
     ASSERT_EQ(flags.size(), scene::kParts.size());
     const auto shorten = [](nlohmann::json& members, std::size_t size) {
         while (members.size() > size) members.erase(size);
     };
-    shorten(flags, 4);               // 0.1.0 knew faces, bars, balls and coordinates,
-    shorten(look, 6);                // no projection, no thickness and no opacity,
-    shorten(record.at(3).at(4), 3);  // no offset,
-    shorten(record.at(3), 8);        // no turn toward an element and no frame of reference
+    shorten(flags, 4);               // version 0.1.0 knew only faces, bars, balls and coordinates
+    shorten(look, 6);                // version 0.1.0 had no projection, no thickness and no opacity
+    shorten(record.at(3).at(4), 3);  // version 0.1.0 had no offset
+    shorten(record.at(3), 8);        // version 0.1.0 had no turn toward an element and no frame of reference
     const Session back = decodeSession(encodeCbor(record), "", table.objectOf, support::cache());
     EXPECT_FALSE(back.current.look.parts.bars);
     EXPECT_TRUE(back.current.look.parts.faces && back.current.look.parts.labels && back.current.look.parts.back);

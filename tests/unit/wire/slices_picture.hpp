@@ -22,7 +22,7 @@ namespace oval4d::wire {
 
 /// The slices and the scene of a session's state. The scene refers to `slices`.
 struct Picture {
-    std::shared_ptr<const polytopes::Polytope> polytope;  // null for other objects
+    std::shared_ptr<const polytopes::Polytope> polytope;  // null if the object is not a polytope
     slicing::SliceSet slices;
     scene::Scene scene;
 

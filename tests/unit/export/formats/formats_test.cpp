@@ -66,7 +66,7 @@ TEST(Formats, areAllWritten) {
     for (const Format& format : formats()) {
         for (const ExportContentsKind contents : format.contents) {
             using enum ExportContentsKind;
-            // These need other scenes.
+            // The exports of these contents need other scenes.
             if (contents == projection || contents == matrix || contents == highlight) continue;
             const Hyperplanes planes = contents == oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
             const ExportRequest request{.format = &format, .contents = contents};

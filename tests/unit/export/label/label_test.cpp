@@ -25,7 +25,8 @@ double areaOf(const std::vector<Contour>& contours) {
 TEST(Tessellate, trianglesCoverTheRegionWithItsOwnCorners) {
     const std::vector<Contour> framed{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{1, 1}, {1, 3}, {3, 3}, {3, 1}}};
     const auto triangles = triangulate(framed);
-    EXPECT_EQ(triangles.size(), 8U);  // corners + 2 · holes − 2
+    // A region with holes needs this number of triangles: corners + 2 · holes − 2.
+    EXPECT_EQ(triangles.size(), 8U);
     std::vector<glm::dvec2> corners;
     for (const Contour& contour : framed) corners.insert(corners.end(), contour.begin(), contour.end());
     double area = 0;

@@ -99,7 +99,8 @@ TEST(Solid, ofATesseractIsTheCube) {
     EXPECT_EQ(mesh.points.size(), 8U);
     EXPECT_EQ(mesh.triangles.size(), 12U);
     const glm::dvec3 size = boxOf(mesh).size();
-    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(size[axis], kSize / 2, 1e-3);  // circumradius 2, edge 2
+    // The tesseract has the circumradius 2 and edges of length 2.
+    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(size[axis], kSize / 2, 1e-3);
 }
 
 TEST(Solid, isNotToBeHadOfAFaceAnEdgeOrAPoint) {
