@@ -1,6 +1,6 @@
 #pragma once
 // The subcommand `oval4d export`, which writes a file for other programs, such as a drawing or a slice for 3-D
-// printing. It needs no running server. The option --of chooses the content (see exports::ExportContentsKind).
+// printing. No running server is needed. The option --of chooses the content (see exports::ExportContentsKind).
 
 #include <string>
 

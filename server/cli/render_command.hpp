@@ -1,5 +1,5 @@
 #pragma once
-// The subcommand `oval4d render`, which writes a picture as a PNG file. It needs no running server.
+// The subcommand `oval4d render`, which writes a picture as a PNG file. No running server is needed.
 
 #include <string>
 

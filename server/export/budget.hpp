@@ -19,8 +19,8 @@ struct ExportLimits {
     std::size_t triangles = 5'000'000;       ///< maximum number in all bodies together
     std::size_t bytes = 512U << 20U;         ///< maximum size of the file in bytes
     std::chrono::duration<double> time{20};  ///< maximum time of the export, from the construction of its Budget
-    /// A function that grants memory. It is called on the exporting thread whenever there is a new estimate of the
-    /// total number of bytes that the export needs. It returns false to refuse the memory. If null, memory is not
+    /// A function that grants memory. The exporting thread calls it whenever there is a new estimate of the total
+    /// number of bytes that the export needs. The function returns false to refuse the memory. If null, memory is not
     /// limited.
     std::function<bool(std::size_t)> grantTotalBytes = nullptr;
     /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).

@@ -96,7 +96,8 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
 
 TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const WaitLimit& limit,
                                 std::size_t maxBytes) const {
-    // Check the limit here, because moveSome() checks it only when it must wait. It never waits if the sender is fast.
+    // Check the limit here, too: moveSome() checks the limit only when it must wait, and so never checks it if the
+    // sender is fast.
     if (WaitLimit::Clock::now() > limit.until) return TransferResult::timed_out;
     if (file != nullptr) *file = kNoFile;
     const auto read = [&](void* to, std::size_t size) {

@@ -53,10 +53,10 @@ class ProcessLostError : public std::runtime_error {
     bool hung_;
 };
 
-/// A child process that runs this program. The process is started on demand, and replaced by a new one if it is lost.
-/// It ends when this object is destroyed or the server ends. It inherits only one file descriptor of the server,
-/// standard error (the log). It inherits the environment variables of the server except those named OVAL4D_…, which may
-/// hold secrets; OVAL4D_FONT is inherited. Not thread-safe: only one thread at a time may use an object.
+/// A child process that runs this program. The process is started on demand, and replaced by a new process if it is
+/// lost. It ends when this object is destroyed or the server ends. The only file descriptor that the process inherits
+/// is standard error (the log). The process inherits the server's environment variables, except those named OVAL4D_…,
+/// which may hold secrets. OVAL4D_FONT is inherited. Not thread-safe: only one thread at a time may use an object.
 class ChildProcess {
   public:
     /// A function that sends messages to the process and receives the replies, within the given WaitLimit. Returns the

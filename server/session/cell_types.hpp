@@ -24,7 +24,7 @@ Result<CellTypeList> parseCellTypes(std::string_view text);
 Result<CellTypeList> findCellTypes(std::string_view text, const geometry::ObjectInfo& object);
 
 /// hide() returns `filter`, changed so that the cell types in `changed` are hidden. fade() makes these cell types faded
-/// (drawn almost transparent), and reveal() fully visible. `changed` must be sorted.
+/// (translucent), and reveal() makes them fully visible. `changed` must be sorted.
 scene::CellTypeFilter hide(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter fade(scene::CellTypeFilter filter, const CellTypeList& changed);
 scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& changed);

@@ -148,20 +148,21 @@ struct Set {
     /// The formula of the field called `object`. The field is made and loaded first, unless the session already has the
     /// same field.
     std::optional<LoadObject> formula;
-    std::optional<double> pace;  ///< how many units of length are one unit of time (ReferenceFrame::pace)
+    std::optional<double> pace;  ///< the number of units of length per unit of w, which is time (ReferenceFrame::pace)
     /// Velocities of the frame of reference (ReferenceFrame::follow and ReferenceFrame::boost).
     std::optional<glm::dvec3> follow, boost;
     std::optional<glm::dmat4> orientation;
     std::optional<int> count;       ///< the number of slices, which is odd
     std::optional<double> spacing;  ///< the distance between neighboring slices
-    std::optional<int> focus;       ///< the index of the focus slice
+    std::optional<int> focus;       ///< the index of the focus slice, the slice in the middle
     /// The w of the hyperplane with the index 0.
     std::optional<double> offset;
     /// The w of the focus slice, in the coordinates of the object's file. Sets the focus and the offset (see
     /// moveFocusTo()).
     std::optional<double> focusW;
-    /// The focus point (x, y, z, w), in the coordinates of the object's file. x, y and z set Look::focusPoint. w acts
-    /// like `focusW`, but is ignored if `focus`, `offset` or `focusW` is present.
+    /// The focus point, through which the planes of the matrix pass: (x, y, z, w), in the coordinates of the object's
+    /// file. x, y and z set Look::focusPoint. w acts like `focusW`, but is ignored if `focus`, `offset` or `focusW` is
+    /// present.
     std::optional<glm::dvec4> focusPoint;
     std::optional<bool> turning;  ///< whether the object turns continuously
     /// Whether the focus plays, that is, moves to and fro along w.

@@ -15,8 +15,8 @@ namespace oval4d::session {
 
 namespace {
 
-// A field that replaces another field, in several frames of reference (see slicing::transformedTo()). Each value is the
-// new field in one frame. Its key is slicing::identityOf() of the replaced field in the same frame.
+// A field that replaces another field, in several frames of reference (see slicing::transformedTo()). A value is the
+// new field in one frame. The key of the value is slicing::identityOf() of the replaced field in the same frame.
 using FieldsByOriginal = std::map<const void*, slicing::Object>;
 
 // If `state` shows the field `before`, replaces this field by `after` (see replaceField()) and returns true. Otherwise

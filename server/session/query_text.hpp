@@ -21,8 +21,8 @@ using QueryParameters = std::vector<std::pair<std::string, std::string>>;
 /// excludes them. Strict parsers such as Boost.URL therefore refuse addresses like "?formula=x^2-y".
 std::optional<QueryParameters> parseQuery(std::string_view text);
 
-/// Returns the text of a query without its question mark. This is the inverse of parseQuery() for names and values
-/// without "%", such as the parameters that queryFromState() returns.
+/// Returns the text of a query without its question mark. Is the inverse of parseQuery() for names and values without
+/// "%", such as the parameters that queryFromState() returns.
 std::string queryText(const QueryParameters& query);
 
 }  // namespace oval4d::session

@@ -100,7 +100,8 @@ struct State {
     geometry::Hyperplanes hyperplanes() const;
     /// Returns the w of the focus slice, in units of the object.
     double focusW() const { return slices.offset + slices.focus * slices.spacing; }
-    /// Returns the focus point (x, y, z, w) in the coordinates of the object's file.
+    /// Returns the focus point (x, y, z, w), in the coordinates of the object's file. The planes of the matrix pass
+    /// through this point.
     glm::dvec4 focusPointInFile() const {
         return slicing::infoOf(object).originInFile + glm::dvec4(look.focusPoint, focusW());
     }

@@ -7,7 +7,7 @@
 
 namespace oval4d::store {
 
-/// A session store in the memory of this process. Its records are lost when the process ends.
+/// A session store in the memory of this process. All records are lost when the process ends.
 class MemoryStore final : public Store {
   public:
     using Clock = std::chrono::steady_clock;

@@ -198,9 +198,8 @@ void RedisStore::connect() {
     updatePlainTokenDeadline();
 }
 
-// Sets plainUntil_, the time until which tokens are also stored as plain text for servers of version 0.1.0. This is the
-// time at which such servers were first noticed, plus the expiry period. If there are no such servers, sets a time in
-// the past.
+// Sets plainUntil_, the time until which tokens are also stored as plain text for servers of version 0.1.0: the time at
+// which such servers were first noticed, plus the expiry period. If there are no such servers, sets a time in the past.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
     const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});

@@ -282,7 +282,7 @@ std::optional<SessionRecord> SqliteStore::claim(const std::string& id) {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
             statement.number(nowMilliseconds()).text(id).step();
         } catch (const NotWritable&) {
-            // The record can still be read. Its fence may stay the same, because no other server uses this file.
+            // The record can still be read. The fence may stay the same, because no other server uses this file.
         }
     });
     return read(id);

@@ -1,6 +1,6 @@
 #pragma once
-// A write-behind cache of sessions. Its own thread uses the session store, so that no other thread waits for a disk or
-// a network.
+// A write-behind cache of sessions. A thread of the cache uses the session store, so that no other thread waits for a
+// disk or a network.
 
 #include <atomic>
 #include <condition_variable>

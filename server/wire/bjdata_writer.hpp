@@ -104,8 +104,8 @@ class BjdataWriter final : public BinaryWriter {
         value(std::uint64_t{bytes / numbers.bytes});
         return buffer_.append(bytes);
     }
-    /// Writes a marker, and a number as it is in memory. Both BJData and the memory are little-endian;
-    /// binary_writer.cpp checks the latter.
+    /// Writes a marker, and a number as it is in memory. BJData is little-endian, and binary_writer.cpp checks that the
+    /// memory is, too.
     template <typename Number>
     void put(char marker, Number number) {
         buffer_.put(marker);

@@ -19,7 +19,7 @@ namespace oval4d::wire {
 
 namespace {
 
-/// A parser of the values of export options. It has an overload for each type of options.
+/// A parser of the values of export options, with an overload for each type of options.
 struct OptionParser {
     const exports::Format& format;
     int maxSlices;

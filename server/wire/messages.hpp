@@ -50,7 +50,7 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
 
 /// Returns the `error` message for an error.
 std::string errorMessage(const Error& error, std::optional<double> id);
-/// Returns the `catalogue` message. It lists the polytopes of the catalogue, the example fields, the session's loaded
+/// Returns the `catalogue` message: a list of the polytopes of the catalogue, the example fields, the session's loaded
 /// objects `loaded`, and the arrays `data` (names) in the server's data folder.
 std::string catalogueMessage(std::optional<double> id, std::span<const slicing::Object> loaded = {},
                              std::span<const std::string> data = {});

@@ -100,8 +100,9 @@ struct Measured {
     std::optional<std::uint64_t> kind = {};
     std::optional<std::string> unit = {};  ///< unit of the length, the area or the volume; absent if unknown
     std::optional<std::string> name = {};  ///< for a 2-face: the name of its polygon
-    /// Both are present only if the request asks for them. `highlight` is what shows the element in pictures. `range`
-    /// is the least and the greatest w of the element's vertices, in the coordinates of the shown object.
+    /// `highlight` is what shows the element in pictures. `range` is the least and the greatest w of the element's
+    /// vertices, in the coordinates of the shown object. `highlight` and `range` are present only if the request asks
+    /// for them.
     std::optional<slicing::PartsShowingElement> highlight = {};
     std::optional<glm::dvec2> range = {};
 };

@@ -133,9 +133,9 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
     return deepest;
 }
 
-// Returns the end of an error message after "must be". This is the title of the schema, such as "a finite number of
-// radians". Without a title, this is "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both
-// bounds; otherwise, "different".
+// Returns the end of an error message after "must be": the title of the schema, such as "a finite number of radians".
+// For a schema without a title, returns "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both
+// bounds, and otherwise "different".
 std::string expected(const json& schema) {
     if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
         return schema.value("title", "different");

@@ -45,7 +45,7 @@ class SliceListWriter {
 
   private:
     static void writePlacements(BinaryWriter& w, const std::vector<scene::SlicePlacement>& placements);
-    // Writes all slices as one object. `placements` is the encoded object from writePlacements(). Its members become
+    // Writes all slices as one object. `placements` is the encoded object from writePlacements(), whose members become
     // members of this object.
     void writeAllSlices(BinaryWriter& w, std::string_view placements, const scene::Scene& scene);
     // Writes the elements of all slices, or of all parts of a projection.

@@ -30,13 +30,13 @@ struct Line {
     double opacity = 1;   ///< from 0 (invisible) to 1
     std::string id = {};  ///< the id of the line in an SVG file; may be empty
 };
-/// A polyline with at least two points. Its ends and corners are round.
+/// A polyline with at least two points, and with round ends and corners.
 struct Polyline {
     std::vector<glm::dvec2> points;
     double width = 1;
     scene::Color color = 0;
 };
-/// A filled polygon. It may cross itself; the nonzero winding rule says which parts are inside.
+/// A filled polygon, which may cross itself. The nonzero winding rule says which parts are inside.
 struct FilledPolygon {
     std::vector<glm::dvec2> corners;
     scene::Color color = 0;
@@ -56,9 +56,9 @@ struct TextLine {
     scene::Color color = 0;
     std::string text;
 };
-/// A raster image in the rectangle from `topLeft` to `bottomRight`. It shows a density strip (see scene::DensityPlot)
-/// or a panel of a histogram (see slicing::CoordinateValueHistograms). The centers of the outer pixels lie on the edges
-/// of the rectangle.
+/// A raster image in the rectangle from `topLeft` to `bottomRight`: a density strip (see scene::DensityPlot) or a panel
+/// of a histogram (see slicing::CoordinateValueHistograms). The centers of the outer pixels lie on the edges of the
+/// rectangle.
 struct OpacityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top

@@ -20,8 +20,8 @@ constexpr double kNumberCharacters = 4;  // how many characters with the font si
 constexpr double kPanel = (kDrawingWidth - 2 * kDrawingMargin - kNumberRoom - 3 * kPanelGap) / 4;
 constexpr scene::Color kFrame = 0x8a93a3, kFill = 0xe9ecf1, kPoint = 0x2b3340;
 
-/// Returns the tick spacing of an axis from −reach to reach. It is 1, 2 or 5 times a power of ten, and gives one or two
-/// ticks on each side of 0.
+/// Returns the tick spacing of an axis from −reach to reach. The spacing is 1, 2 or 5 times a power of ten, and gives
+/// one or two ticks on each side of 0.
 double tickSpacing(double reach) {
     constexpr double kMost = 2.6;
     const double power = std::pow(10, std::floor(std::log10(reach)));

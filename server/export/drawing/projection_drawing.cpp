@@ -20,7 +20,7 @@ namespace {
 using slicing::SliceSet;
 
 constexpr scene::Color kNear = 0x2b3340, kFar = 0x8a93a3, kHalo = 0xffffff;
-// A bar makes a gap in bars behind it. This is the width of the gap, in widths of the bar.
+// The width of the gap that a bar makes in the bars behind it, as a multiple of the bar's width.
 constexpr double kHaloWidth = 1.8;
 
 scene::Color mix(scene::Color a, scene::Color b, double t) {
@@ -72,7 +72,7 @@ class ProjectionDrawer {
         return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
     }
 
-    // Adds a polygon. Its corners are in the units of the object.
+    // Adds a polygon with these corners, in the units of the object.
     void addPolygon(std::span<const glm::dvec3> corners, scene::Color color, double opacity) {
         FilledPolygon polygon{{}, color, opacity};
         double depth = 0;
@@ -139,8 +139,8 @@ class ProjectionDrawer {
                              b = place(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
-            // The white line is wider than the bar, and makes a gap in the bars behind it. It is shorter than the bar,
-            // so that it makes no gap in bars that meet this bar at its ends.
+            // The white line is wider than the bar, and so makes a gap in the bars behind the bar. The white line is
+            // shorter than the bar, so that there is no gap in bars that meet the bar at its ends.
             const glm::dvec3 gap = 0.12 * (b - a);
             add(depth, Line{.from = onPaper(a + gap),
                             .to = onPaper(b - gap),

@@ -109,7 +109,7 @@ class SliceDrawer {
             .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
     }
 
-    /// Returns the normal of a polygon. Its length is twice the area of the polygon.
+    /// Returns the normal of a polygon, with a length of twice the area of the polygon.
     static glm::dvec3 doubleAreaVectorOf(std::span<const glm::dvec3> corners) {
         glm::dvec3 area(0);
         for (std::size_t i = 2; i < corners.size(); ++i)

@@ -62,8 +62,8 @@ std::string csvText(const std::string& text) {
     return cell + '"';
 }
 
-/// The columns at the end of a table that state the units of other columns, as far as the units are known. Such a
-/// column has the same cell in all rows.
+/// The columns at the end of a table that state the units of other columns, as far as the units are known. All rows
+/// have the same cells in these columns.
 struct UnitColumns {
     std::string names, cells;  ///< the names and cells of all columns, each after a comma
 

@@ -33,8 +33,8 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
 
 float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
-// The bound at which shapes are cut, in units of the drawing. libharu writes numbers beyond ±32,767 as ±32,767. This
-// would change the direction of lines that extend far beyond the page, such as lines of slices close to the eye.
+// The bound at which shapes are cut, in units of the drawing. libharu writes numbers beyond ±32,767 as ±32,767, which
+// would change the direction of lines that extend far beyond the page. Lines of slices close to the eye extend so far.
 constexpr double kFarthest = 30'000;
 
 // A visitor that draws shapes on a page. Positions in PDF count from the lower left corner.

@@ -316,8 +316,8 @@ class PovWriter {
         }
     }
 
-    /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. They are separate meshes, because the
-    /// points on their common rim have different normals and colors in each.
+    /// Adds the smooth level set of a level or, if `ofCaps`, its flat caps. The level set and the caps are separate
+    /// meshes, because the points on their common rim have different normals and colors in each mesh.
     void addSurface(const slicing::SliceSurface& surface, std::size_t slice, const PovPlacement& part,
                     const scene::SurfaceLook::LevelLook& level, bool ofCaps) {
         PovMesh mesh;

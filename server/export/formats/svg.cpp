@@ -63,7 +63,7 @@ std::string densityPaths(const OpacityImage& density) {
     return out;
 }
 
-/// Returns an SVG gradient with the id `axes-colors`. It runs through OpacityImage::colors, from the first column to
+/// Returns an SVG gradient with the id `axes-colors`, which runs through OpacityImage::colors from the first column to
 /// the last.
 std::string gradient(const OpacityImage& density) {
     std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +

@@ -21,8 +21,8 @@ std::string vtkFile(std::string_view type, std::string_view attributes, std::str
 
 /// Appends a DataArray element that contains `bytes` in Base64. `bytes` must be little-endian numbers of the type
 /// `type`, such as "Float32". `components` is the number of numbers in a tuple. `quantity` is what the numbers measure,
-/// as far as known. Its name becomes the name of the first component, and its unit the information key
-/// vtkDataArray::UNITS_LABEL.
+/// as far as known: the name of the quantity becomes the name of the first component, and its unit becomes the
+/// information key vtkDataArray::UNITS_LABEL.
 void appendVtkArray(std::string& out, std::string_view type, std::string_view name, int components,
                     std::string_view bytes, const fields::Quantity& quantity = {});
 

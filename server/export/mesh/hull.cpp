@@ -33,8 +33,8 @@ class IncrementalHull {
     }
 
   private:
-    /// Returns ((b − a) × (c − a)) · (p − a) for a triangle t with the corners a, b and c. This is six times the volume
-    /// of the tetrahedron abcp, positive if p is on the outer side of t.
+    /// Returns six times the volume of the tetrahedron abcp, where a, b and c are the corners of the triangle t. The
+    /// result is ((b − a) × (c − a)) · (p − a), which is positive if p is on the outer side of t.
     std::int64_t sixVolume(const Triangle& t, std::uint32_t p) const {
         const GridPoint& o = points_[t[0]];
         const auto from = [&](std::uint32_t i) {

@@ -33,7 +33,7 @@ glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2
 
 // The six tetrahedra of a cube. The number of a corner is its bits in offset(). The corners of a tetrahedron lie on a
 // path from corner 0 to corner 7 with one step along each axis. There is one tetrahedron for each order of the axes.
-// Its corners a, b, c, d are listed such that ((b − a) × (c − a)) · (d − a) > 0.
+// The four corners a, b, c, d of a tetrahedron are listed such that ((b − a) × (c − a)) · (d − a) > 0.
 constexpr std::array<std::array<unsigned, 4>, 6> kTetrahedra{
     {{0, 1, 3, 7}, {0, 5, 1, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 6, 4, 7}}};
 

@@ -53,11 +53,11 @@ class RoundingGrid {
     /// the diameter of the object's circumscribed sphere, and `extent` the largest absolute coordinate in the file,
     /// both in millimeters.
     RoundingGrid(double size, double extent);
-    /// Returns a much finer grid, for formats with 64-bit floats. Its step is the smallest power of two that is at
-    /// least size / 2^40 and at least extent / 2^50.
+    /// Returns a much finer grid, for formats with 64-bit floats. The step of this grid is the smallest power of two
+    /// that is at least size / 2^40 and at least extent / 2^50.
     static RoundingGrid forDoubles(double size, double extent);
 
-    /// Returns the distance between neighboring grid points, in millimeters. It is a power of two.
+    /// Returns the distance between neighboring grid points in millimeters, a power of two.
     double step() const { return step_; }
     /// Returns the grid point that is nearest to `point`.
     glm::dvec3 snap(const glm::dvec3& point) const;
@@ -73,16 +73,16 @@ bool isClosedManifold(const Mesh& mesh);
 /// Returns the volume that the mesh encloses, in cubic millimeters. Negative if the triangles face inward.
 double volumeOf(const Mesh& mesh);
 
-/// Returns whether the body is thick enough to keep its shape on the grid. Its mean thickness (the volume divided by
-/// half the surface area) must exceed 4 grid steps.
+/// Returns whether the body is thick enough to keep its shape on the grid. The mean thickness of the body (its volume
+/// divided by half its surface area) must exceed 4 grid steps.
 bool isThickEnough(const Mesh& mesh, const RoundingGrid& grid);
 
-/// Returns the normal of a triangle of the mesh. Its length is twice the triangle's area.
+/// Returns the normal of a triangle of the mesh, with a length of twice the triangle's area.
 glm::dvec3 doubleAreaNormalOf(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle);
 
-/// Returns a unit normal for each corner of each triangle. It is the mean of the normals of the triangles around the
-/// corner's point, weighted by their areas. Leaves out triangles whose normal differs by more than 40° from that of the
-/// corner's triangle. The result is 0 for triangles without area.
+/// Returns a unit normal for each corner of each triangle. The normal is the mean over the triangles around the
+/// corner's point, weighted by their areas. Triangles whose normals differ by more than 40° from the normal of the
+/// corner's triangle are left out. The result is 0 for triangles without area.
 std::vector<std::array<glm::dvec3, 3>> smoothNormals(const Mesh& mesh);
 
 /// An axis-aligned bounding box, which is empty at first.

@@ -22,7 +22,7 @@ std::span<const std::uint32_t> cornersOf(const slicing::SliceSet& slices, std::u
     return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
 }
 
-/// Returns the normal of a face. Its length is twice the face's area.
+/// Returns the normal of a face, with a length of twice the face's area.
 glm::dvec3 doubleAreaNormalOfFace(const slicing::SliceSet& slices, int i, std::uint32_t face) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const auto corners = cornersOf(slices, face);

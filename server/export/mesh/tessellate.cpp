@@ -14,8 +14,8 @@ namespace {
 // contours cross, the callback `combine`.
 struct TessellatorData {
     // The position (x, y, 0) and the index of each corner. The index counts all corners in the order in which
-    // tessellate() passes them to GLU; it is 0xffffffff for a corner made by `combine`. A deque keeps pointers to its
-    // elements valid when elements are appended.
+    // tessellate() passes them to GLU. A corner made by `combine` has the index 0xffffffff. A deque keeps pointers to
+    // its elements valid when elements are appended.
     std::deque<std::pair<std::array<double, 3>, std::uint32_t>> corners;
     std::vector<std::uint32_t> out;  // indices of the corners of the output, three for each triangle
     std::vector<Contour> contours;   // polygons of the output, if the outline was requested

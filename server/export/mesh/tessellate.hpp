@@ -13,8 +13,8 @@ namespace oval4d::exports {
 using Contour = std::vector<glm::dvec2>;
 
 /// Returns the boundary of the region in which the winding number of `contours` is not 0. The region lies to the left
-/// of the returned contours: outer contours are counterclockwise, and holes clockwise. They do not cross, and no two
-/// share an edge. Returns an empty list if the tessellator fails.
+/// of the returned contours: outer contours are counterclockwise, and holes clockwise. The returned contours do not
+/// cross, and no two of them share an edge. Returns an empty list if the tessellator fails.
 std::vector<Contour> outlineOf(const std::vector<Contour>& contours);
 
 /// Returns counterclockwise triangles that fill the region in which the winding number of `contours` is not 0. Indices

@@ -78,9 +78,9 @@ inline Polygon pentagram() {
         star.emplace_back(std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5));
     return star;
 }
-/// The area of the region with nonzero winding number in a pentagram with the circumradius 1. It consists of ten
-/// triangles. The corners of a triangle are the center, a tip at the distance 1, and an inner corner at the distance
-/// φ⁻², 36° apart.
+/// The area of the region with nonzero winding number in a pentagram with the circumradius 1. The region consists of
+/// ten triangles. The corners of a triangle are the center, a tip at the distance 1, and an inner corner at the
+/// distance φ⁻². The angle at the center is 36°.
 inline const double kPentagramArea =
     10 * 0.5 * std::sin(std::numbers::pi / 5) / (std::numbers::phi * std::numbers::phi);
 

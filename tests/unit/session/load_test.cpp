@@ -216,7 +216,7 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
-    // Elements of this polytope coincide. This is found only when the polytope is built.
+    // Elements of this polytope coincide, which is found only when the polytope is built.
     ObjectLoader builder(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     EXPECT_EQ(ordersOf(session, CommandLine{"polytope x3o3o5/2x"}, builder, done), 1);
     EXPECT_FALSE(done);

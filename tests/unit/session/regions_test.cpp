@@ -16,7 +16,7 @@
 namespace oval4d::session {
 namespace {
 
-// Returns a field that is a part of an array in the data folder. Its samples are from `least` to `least` + 15.
+// Returns a field that is a part of an array in the data folder, with samples from `least` to `least` + 15.
 slicing::Object partOfArray(float least = 0, const std::string& variable = "v") {
     fields::FieldArray array;
     array.shape = {2, 2, 2, 2};

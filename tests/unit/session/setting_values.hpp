@@ -64,8 +64,8 @@ inline std::string lineText(const nlohmann::json& value) {
     return point;
 }
 
-/// Returns a value of a setting that is not the initial value. This is the first example in the schema or, without
-/// examples, the opposite of the default.
+/// Returns a value of a setting that is not its initial value: the first example in the schema or, without examples,
+/// the opposite of the default.
 inline nlohmann::json exampleOf(const SettingName& name) {
     const nlohmann::json schema = schemaOf(name);
     if (schema.contains("examples")) return schema.at("examples").at(0);

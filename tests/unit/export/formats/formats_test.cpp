@@ -169,7 +169,7 @@ glm::dvec3 vectorIn(const std::string& line) {
     return v;
 }
 
-/// Returns the bodies in an exported OpenSCAD program. Their triangles have the orientation of the program.
+/// Returns the bodies in an exported OpenSCAD program. The triangles have the orientation of the program.
 std::vector<PlacedMesh> bodiesOfScad(const std::string& text) {
     std::vector<PlacedMesh> bodies;
     std::size_t placed = 0;

@@ -17,8 +17,8 @@ namespace {
 using namespace oval4d;
 using namespace oval4d::exports;
 
-// Returns the field x² + y² + z², made from an array. Its box has the length `time` along w; the object has the length
-// 2 there.
+// Returns the field x² + y² + z², made from an array whose box has the length `time` along w. The object has the length
+// 2 along w.
 fields::Field fieldWithUnits(double time, const fields::AxisUnits& units, const fields::Quantity& quantity,
                              bool hasSecond = false) {
     fields::FieldArray array;

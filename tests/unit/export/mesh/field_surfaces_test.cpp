@@ -29,7 +29,7 @@ using namespace oval4d::exports;
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-// A field with its exact exports. Its slices have no surfaces, so exports must compute the surfaces.
+// A field with its exact exports. The slices of the field have no surfaces, so exports must compute the surfaces.
 struct ExactField {
     slicing::Object object;
     geometry::Rotation orientation;
