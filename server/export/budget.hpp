@@ -16,7 +16,7 @@ namespace oval4d::exports {
 
 /// The limits on one export.
 struct ExportLimits {
-    std::size_t triangles = 5'000'000;       ///< maximum number in all bodies together
+    std::size_t triangles = 5'000'000;       ///< maximum number of triangles in all bodies together
     std::size_t bytes = 512U << 20U;         ///< maximum size of the file in bytes
     std::chrono::duration<double> time{20};  ///< maximum time of the export, from the construction of its Budget
     /// A function that grants memory. The exporting thread calls it whenever there is a new estimate of the total

@@ -23,7 +23,7 @@ enum class LabelPlacement : std::uint8_t { none, engraved, separate };
 inline constexpr auto kBodies =
     text::completeTable<text::NamedValue<BodyKind>>({{"solid", BodyKind::solid},
                                                      {"skeleton", BodyKind::skeleton},
-                                                     {"frame", BodyKind::skeleton}});  // "frame" is a former name
+                                                     {"frame", BodyKind::skeleton}});  // former name, still accepted
 inline constexpr auto kLabels = text::completeTable<text::NamedValue<LabelPlacement>>(
     {{"none", LabelPlacement::none}, {"engraved", LabelPlacement::engraved}, {"separate", LabelPlacement::separate}});
 constexpr const auto& choicesOf(BodyKind /*type*/) { return kBodies; }
@@ -41,7 +41,7 @@ inline geometry::Range sizeRangeOf(const Format& format) {
 /// The options of an export. `body` and `label` apply only to formats with bodies. `size` applies to formats with
 /// bodies and to drawings.
 struct ExportRequest {
-    const Format* format = formatNamed("stl");  ///< one of formats(); not null
+    const Format* format = formatNamed("stl");  ///< the file format; one of formats(), not null
     ExportContentsKind contents = ExportContentsKind::focus;
     BodyKind body = BodyKind::solid;
     /// In millimeters: the diameter of the object's circumscribed sphere or, for a drawing, the larger of its width and

@@ -36,9 +36,9 @@ Words split(std::string_view line) {
     }
 }
 
-// Joins words that are separated by blanks but belong together. Joins a word that ends with a character in `separators`
-// to the next word, a word that begins with such a character to the word before, and a unit to its number. Examples are
-// "highlight=cell: 3" and "30 °". All words must be views into the same string.
+// Joins words that are separated by blanks but belong together. A word is joined to the word before it in three cases:
+// the word before ends with a character in `separators`, the word begins with such a character, or the word is the unit
+// of a number. Examples are "highlight=cell: 3" and "30 °". All words must be views into the same string.
 Words joinedWords(const Words& words, std::string_view separators) {
     Words joined;
     for (const std::string_view word : words) {

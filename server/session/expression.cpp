@@ -43,7 +43,7 @@ constexpr int kMaxDepth = 64;
 using text::isDigit;
 using text::isLetter;
 
-// The value of a part of an expression, and information about the units in this part.
+// The value of a part of an expression, with information about units in this part.
 struct ValueWithUnit {
     double value = 0;               // in degrees if isInDegrees is true; otherwise in radians if it is an angle
     double plain = 0;               // the sum of those terms that are numbers without units
@@ -207,7 +207,8 @@ class Parser {
         at_ += token.size();
         return true;
     }
-    // Skips `word` if the remaining text begins with it and no letter follows. Returns whether it did.
+    // Skips `word` and returns true, if the remaining text begins with `word` and no letter follows. Otherwise returns
+    // false.
     bool takeWord(std::string_view word) {
         skipBlanks();
         const std::string_view rest = text_.substr(at_);

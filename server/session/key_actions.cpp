@@ -186,8 +186,8 @@ std::vector<Action> allActions() {
         }
     }
     for (const scene::ViewRow& row : scene::kViews) {
-        // The oval needs no action, because all other actions lead back to it. The action "view" of ownActions()
-        // toggles the single view.
+        // The view `oval` has no action of its own, because the actions of all other views lead back to it. The action
+        // "view" of ownActions() toggles the view `single`.
         if (row.value == scene::View::oval || row.value == scene::View::single) continue;
         actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> VoidResult {
                                toggleView(c.state, to);

@@ -18,7 +18,7 @@ bool isLower(const std::string& key) { return key.size() == 1 && key[0] >= 'a' &
 bool isDigit(const std::string& key) { return key.size() == 1 && key[0] >= '0' && key[0] <= '9'; }
 
 // Normalizes a key. An uppercase letter becomes the lowercase letter with Shift. Keys other than letters and digits
-// lose Shift, because their character already depends on it.
+// lose Shift, because the character of such a key already depends on Shift.
 Key normalized(Key key) {
     if (key.key == "Space" || key.key == "Spacebar") key.key = " ";
     if (isUpper(key.key)) {

@@ -65,7 +65,7 @@ Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design
 Result<ObjectWithWarnings> ObjectLoader::objectFrom(const LoadObject& load) {
     if (fromFile_) return *fromFile_;
     if (auto error = checkLoad(load, limits_)) return *error;
-    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // fast, so never deferred
+    if (load.format == kFormula) return *(fromFile_ = readFormula(load));  // never deferred, because it is fast
     if (mode_ == LoadingMode::deferred) {
         // A load from the data folder is copied, because a command line creates a new one whenever its line is parsed.
         // The copy is small. A load with data would be large.

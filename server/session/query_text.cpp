@@ -50,8 +50,8 @@ bool isIgnored(std::string_view name) {
     });
 }
 
-/// Returns whether an operand of "+" can have `c` at its end next to the plus sign. For the end of a left operand,
-/// `parenthesis` must be ')'. For the beginning of a right operand, it must be '('.
+/// Returns whether `c`, a character beside a "+", can belong to an operand of the "+". For the character on the left,
+/// `parenthesis` must be ')'. For the character on the right, `parenthesis` must be '('.
 bool isOperand(char c, char parenthesis) {
     const bool isAscii = static_cast<unsigned char>(c) < 0x80;
     return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;

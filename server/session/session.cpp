@@ -343,7 +343,7 @@ double spanningSpacing(const slicing::Object& object, int count) {
 bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
                   ComputedOutcome& outcome) {
     outcome = std::visit(NeedsOfCommand(session, limits, loader), command);
-    if (loader.isPending()) outcome.reset();  // the outcome is then only the error that something is not available yet
+    if (loader.isPending()) outcome.reset();  // it only contains the error that something is missing
     return loader.isPending();
 }
 

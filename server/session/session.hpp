@@ -160,7 +160,7 @@ struct Limits {
 struct Session {
     State current = initialState();
     std::deque<State> undoSteps;   ///< the oldest first
-    std::vector<State> redoSteps;  ///< the next step to redo is the last element
+    std::vector<State> redoSteps;  ///< the last element is the next step to redo
     LoadedObjects loaded;
     std::string pendingKey;  ///< the first key of a sequence in progress, such as "g" of "gg"; else empty
     /// The number of changes of `current`. Increases by one with every command and every step of a motion that changes

@@ -169,7 +169,7 @@ RedisStore::RedisStore(const StoreOptions& options, ClockFunction<Clock> now)
         port_ = numberIn(rest.substr(colon + 1), "port", 1, 65535);
         rest = rest.substr(0, colon);
     }
-    // Removes the brackets of an IPv6 address.
+    // Remove the brackets of an IPv6 address.
     if (rest.size() > 2 && rest.front() == '[') rest = rest.substr(1, rest.size() - 2);
     host_ = rest;
     if (host_.empty()) throw std::invalid_argument("redis:// must be followed by a host");

@@ -103,8 +103,8 @@ void check(const State& state) {
     if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
 }
 
-// Clamps the settings to the bounds of a field in the server's data folder. The file may have been replaced by a file
-// with another box since the state was stored.
+// Clamps the settings to the bounds of a field in the server's data folder. Since the state was stored, another file
+// with another box may have replaced the field's file.
 void fitToFile(State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) return;

@@ -28,7 +28,7 @@ struct Line {
     scene::Color color = 0;
     bool roundEnds = false;
     double opacity = 1;   ///< from 0 (invisible) to 1
-    std::string id = {};  ///< the id of the line in an SVG file; may be empty
+    std::string id = {};  ///< id of the line in an SVG file; may be empty
 };
 /// A polyline with at least two points, and with round ends and corners.
 struct Polyline {
@@ -63,8 +63,8 @@ struct OpacityImage {
     glm::dvec2 topLeft, bottomRight;
     std::vector<std::uint8_t> alphas;  ///< opacities from 0 to 255, row by row from the top
     int columns = 1;                   ///< at least 2; rows() is at least 2, too
-    std::vector<scene::Color> colors;  ///< at least one; spaced evenly from the first column to the last, with
-                                       ///< interpolation in between
+    std::vector<scene::Color> colors;  ///< at least one color; the colors are spaced evenly from the first column to
+                                       ///< the last, and interpolated in between
 
     int rows() const { return static_cast<int>(alphas.size()) / columns; }
     std::uint8_t alpha(int row, int column) const {

@@ -63,7 +63,7 @@ struct Format {
     enum class Objects { all, fields, polytopes_and_points };
 
     std::string name;       ///< the name in messages and the file name extension, such as "stl"
-    std::string mediaType;  ///< the value of the Content-Type header
+    std::string mediaType;  ///< the media type of the file, for the header Content-Type
     Arrangement arrangement = Arrangement::none;
     Objects objects = Objects::all;
     std::vector<ExportContentsKind> contents;  ///< the contents that a file can have; the first is the default

@@ -55,9 +55,9 @@ class FieldSurfaceSource {
     const fields::Field& field_;
     const geometry::Rotation orientation_;
     const std::vector<std::size_t> levels_;
-    std::optional<ExactSlicer> slicer_;  // empty unless the surfaces are exact
-    slicing::ClosedSurface closed_;      // the surface of one level
-    slicing::SliceSurface surface_;      // the surfaces of all levels_
+    std::optional<ExactSlicer> slicer_;  // the slicer of exact surfaces; empty if the surfaces are those of the scene
+    slicing::ClosedSurface closed_;      // the exact surface of one level
+    slicing::SliceSurface surface_;      // the exact surfaces of all levels_
     std::vector<glm::dvec3> points_;
     slicing::FieldSection section_;
     std::size_t triangles_ = 0;  // number of triangles of all exact surfaces so far

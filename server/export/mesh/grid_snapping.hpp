@@ -13,7 +13,7 @@ namespace oval4d::exports {
 
 /// A rounded surface, the result of snapSurface().
 struct SnappedSurface {
-    Mesh mesh;  ///< all points lie on the grid; all triangles have the cell kNoCell
+    Mesh mesh;  ///< the rounded mesh; all triangles have the cell kNoCell
     /// For each point of the mesh: the index of the input point from which it was made.
     std::vector<std::uint32_t> source;
 };

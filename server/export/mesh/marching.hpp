@@ -50,7 +50,8 @@ class SampledField {
     struct ValueBlock {
         /// The indices of the block's point with the least x, y and z.
         glm::ivec3 corner;
-        std::array<float, kSide * kSide * kSide> values;  ///< x varies fastest, and z slowest
+        /// The values of the block's points; x varies fastest, and z slowest.
+        std::array<float, kSide * kSide * kSide> values;
     };
     /// Returns all blocks, in an order that depends only on their positions.
     std::vector<const ValueBlock*> blocks() const;

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kNoCell = 0xffffffffU;
 
 /// A triangle mesh. Seen from outside, its triangles are counterclockwise.
 struct Mesh {
-    std::vector<glm::dvec3> points;                       ///< in millimeters
+    std::vector<glm::dvec3> points;                       ///< positions in millimeters
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< three indices into `points` for each triangle
     /// For each triangle: the cell of the object from which it was cut, or kNoCell.
     std::vector<std::uint32_t> cells;
