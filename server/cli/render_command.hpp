@@ -16,7 +16,7 @@ namespace oval4d {
 /// The options of `oval4d render` that say where to write the picture, and how large it is.
 struct RenderOptions {
     std::string output = "frame.png";  ///< path of the file; "-" for standard output
-    int width = 1280, height = 720;    ///< in pixels
+    int width = 1280, height = 720;    ///< size of the picture in pixels
 };
 
 /// Adds the options --output, --width and --height to `app`, the parser of the subcommand. The parser stores their

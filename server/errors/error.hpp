@@ -19,19 +19,19 @@ enum class ErrorCode {
     unknown_command,     ///< the page's command line or a query names an unknown command or setting
     bad_expression,      ///< a value on the page's command line or in a query, such as an angle, cannot be parsed
     out_of_range,        ///< a value is outside the allowed range
-    not_a_rotation,      ///< an orientation matrix is not orthogonal with determinant 1
+    not_a_rotation,      ///< the value for an orientation is not a rotation matrix (orthogonal, with determinant 1)
     bad_polytope,        ///< a loaded polytope is invalid
     bad_field,           ///< a loaded field (an array or a formula) is invalid
     unsupported_format,  ///< a loaded file has a format that the server does not read
-    /// What is to be exported is empty or flat, has no room for its label, is not highlighted, or does not fit the file
+    /// The thing to export is empty or flat, has no room for its label, is not highlighted, or does not fit the file
     /// format.
     no_body,
     nothing_to_undo,  ///< there is nothing to undo, redo, repeat or keep turning
-    hello_first,      ///< a message was sent before hello
+    hello_first,      ///< a message was sent before the message `hello`
     not_found,        ///< the session or resource does not exist
     bad_token,        ///< the token does not open this session
     too_many,         ///< a limit on sessions, connections, requests, loaded objects or bytes is reached
-    too_large,        ///< a message, frame, file, polytope or field exceeds a limit on its size
+    too_large,        ///< a message, picture, file, polytope or field exceeds a limit on its size
     canceled,         ///< a search was stopped, because its result was no longer needed
     later_version,    ///< a later version has stored the session; this server keeps it, but cannot open it
     internal,         ///< an internal error of the server; the session is unchanged

@@ -27,12 +27,12 @@ enum class MessageType : std::uint32_t {
     object,          ///< the object, encoded by slicing::encodeObject()
     object_missing,  ///< empty body
     drawn,           ///< raster::DrawTimes, the durations of the parts of drawing
-    failed,          ///< the reason, as text
+    failed,          ///< the reason for the failure, as text
     file,            ///< the command to read a file (file_reading::ReadRequest); may carry the file descriptor of the
                      ///< file
     /// Empty. Carries the descriptor of a mapped file, a new file, or a file of a series or folder.
     file_descriptor,
-    new_file,    ///< the size in bytes of a new file for the process, as std::size_t
+    new_file,    ///< the size in bytes of a new file that the process needs, as std::size_t
     find_file,   ///< the wanted file, encoded by file_reading::encodeFindRequest()
     file_bytes,  ///< the bytes of the part that `find_file` has asked for
     outcome,     ///< the object that was read, or an error

@@ -30,13 +30,14 @@ struct ProcessLoss {
 /// The options of a child process.
 struct ChildOptions {
     std::string command;                   ///< the subcommand of this program that the child runs
-    std::vector<std::string> environment;  ///< "NAME=value"; if the child inherits a variable of this name, that value
-                                           ///< is used
+    std::vector<std::string> environment;  ///< definitions "NAME=value"; a value that the child inherits from the
+                                           ///< server takes precedence
     /// The maximum time for the start of a child, and for each conversation. A child that takes longer counts as hung.
     std::chrono::duration<double> timeout;
     /// Whether a conversation during which the child hung is repeated with a new child.
     bool repeatAfterHang = true;
-    std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child is lost, on any thread
+    std::function<void(const ProcessLoss&)> onLoss;  ///< called when a child process is lost; may be called on any
+                                                     ///< thread
     int niceness = 0;                                ///< scheduling priority of the child: 0 (normal) to 19 (lowest)
 };
 

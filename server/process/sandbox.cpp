@@ -78,8 +78,8 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// The system calls that Mesa (the graphics library) makes in its threads, mainly to set their processor affinity and
-// priority.
+// The system calls that Mesa (the graphics library) makes in its threads. Most of them set the processor affinity and
+// the priority of a thread.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
      "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});

@@ -8,7 +8,7 @@ namespace oval4d::text_files {
 
 /// The reason why a file was refused. Functions that read files throw a FileError.
 struct FileError {
-    std::size_t line = 0;  ///< counted from 1; 0 if the fault is not in one line
+    std::size_t line = 0;  ///< the line of the fault, counted from 1; 0 if the fault is not in one line
     std::string reason;
     bool tooLarge = false;  ///< whether the file exceeds a limit
     /// The column of a table, counted from 1; 0 if the fault is not in one column.

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kNotANumber = "is not a number";
 constexpr const char* kNotFinite = "is not a finite number";
-constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // U+2212
+constexpr std::string_view kMinusSign = "\xE2\x88\x92";  // the minus sign U+2212
 
 // Returns a word without its sign, if it has a sign. Sets `negative` to whether this is a minus sign.
 std::string_view withoutSign(std::string_view word, bool& negative) {
@@ -26,7 +26,8 @@ std::string_view withoutSign(std::string_view word, bool& negative) {
 
 bool isNotFinite(std::string_view unsignedWord) {
     const std::string name = text::normalizedName(unsignedWord);
-    const bool isNanWithPayload = name.starts_with("nan(") && name.ends_with(')');  // such as nan(ind) of Visual C++
+    // A NaN may have a payload in parentheses, such as nan(ind) in Visual C++.
+    const bool isNanWithPayload = name.starts_with("nan(") && name.ends_with(')');
     return name == "nan" || isNanWithPayload || name == "inf" || name == "infinity" || name == "1.#inf" ||
            name == "1.#qnan";
 }

@@ -16,7 +16,7 @@ namespace oval4d::text_files {
 struct PointRow {
     std::size_t line = 0;  ///< the number of the line in the file, counted from 1
     glm::dvec4 point{0};
-    double radius = 0;                        ///< 0 if the row has no radius
+    double radius = 0;                        ///< the radius; 0 if the row has none
     std::array<std::string_view, 4> numbers;  ///< the coordinates as texts, in the form of ParsedCoordinate::text
 };
 

@@ -34,7 +34,7 @@ class TableLines {
 
 /// The format of a table: the separator of its columns, and the decimal mark of its numbers.
 struct TableFormat {
-    char separator = ' ';  ///< ';', '\t', ',', or ' ', which stands for any number of blanks
+    char separator = ' ';  ///< the separator of columns: ';', '\t', ',', or ' ' for any number of blanks
     DecimalMark mark = DecimalMark::point;
 };
 
@@ -43,7 +43,7 @@ TableFormat formatOf(TableLines lines);
 
 /// The columns of a line of a table.
 struct TableRow {
-    std::vector<std::string_view> columns;  ///< the columns without surrounding blanks and quotes; may be empty texts
+    std::vector<std::string_view> columns;  ///< the columns without surrounding blanks and quotes; columns may be empty
     bool endsWithSeparator = false;         ///< whether a separator other than a blank follows the last column
 };
 

@@ -58,8 +58,9 @@ class BinaryWriter {
     void pairs(std::span<const IndexPair> list);
     void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
-    void floatsForPictures(std::span<const float> list);  ///< writes all digits; only JsonWriter rounds
-    void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< 8-bit values, row by row
+    /// Writes single precision; only JsonWriter rounds to decimals.
+    void floatsForPictures(std::span<const float> list);
+    void image(std::span<const std::uint8_t> pixels, std::size_t columns);  ///< writes 8-bit values, row by row
 
   protected:
     ~BinaryWriter() = default;

@@ -33,7 +33,7 @@ class Builder {
     bool number_integer(std::int64_t value) { return add(value); }
     bool number_unsigned(std::uint64_t value) { return add(value); }
     bool number_float(double value, const std::string& /*text*/) {
-        constexpr double kExact = 9007199254740992;  // 2^53
+        constexpr double kExact = 9007199254740992;  // 2^53, up to which doubles represent all integers
         const bool whole =
             std::abs(value) <= kExact && value == std::trunc(value) && !(value == 0 && std::signbit(value));
         return whole ? add(static_cast<std::int64_t>(value)) : add(value);

@@ -56,7 +56,7 @@ class JsonWriter {
     /// one member from another JsonWriter.
     void appendMembersOf(std::string_view object) { raw(object.substr(1, object.size() - 2)); }
 
-    // Arrays of numbers. Coordinates of vectors are rounded to single precision.
+    // Functions that write arrays of numbers. Coordinates of vectors are rounded to single precision.
     void vector(const glm::dvec3& v);
     void vectors(std::span<const glm::vec3> list);
     void vectors(std::span<const glm::dvec3> list);

@@ -57,7 +57,7 @@ void writePair(JsonWriter& w, std::string_view name, Number before, Number after
     w.endArray();
 }
 
-// Writes the members of an `at` message that describe an element. The parameters are those of atMessage().
+// Writes those members of an `at` message that describe an element. The parameters are the same as for atMessage().
 void writeElementMembers(JsonWriter& w, const slicing::Element& element, const scene::Scene& scene,
                          const slicing::Object& object, const slicing::Object& source) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;

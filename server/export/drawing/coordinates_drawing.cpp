@@ -29,7 +29,7 @@ constexpr double kBandOpacity = 0.35;      // opacity of the bands behind the li
 
 /// Returns the approximate width of a line of text, from the mean width of characters.
 double estimatedWidth(const std::string& text) {
-    constexpr double kCharacter = 0.6;  // as a fraction of the font size
+    constexpr double kCharacter = 0.6;  // mean width of a character, as a fraction of the font size
     return kCharacter * kText * static_cast<double>(text.size());
 }
 
@@ -93,7 +93,7 @@ Drawing drawStrip(const scene::Scene& scene) {
 /// Returns the bands behind the lines of the highlighted element's vertices.
 ShapeGroup highlightBands(const scene::Scene& scene, const VertexColumnLayout& columns) {
     ShapeGroup bands{"highlight", {}};
-    const double margin = columns.step / 10;  // half the distance between neighboring lines of the four
+    const double margin = columns.step / 10;  // half the distance between neighboring coordinate lines in a column
     for (const std::uint32_t v : scene.highlight.ownVertices) {
         const double left = columns.left(v) + margin, right = columns.left(v) + columns.step - margin;
         const double zero = columns.zero(v / columns.perRow);

@@ -169,7 +169,7 @@ class ProjectionDrawer {
     const scene::Scene& scene_;
     const glm::dmat3 view_;
     double scale_ = 1;            // drawing units per world unit
-    std::vector<double> depths_;  // depths of shapes_
+    std::vector<double> depths_;  // the depth of each shape in shapes_
     std::vector<DrawnShape> shapes_;
     std::vector<glm::dvec3> corners_;  // corners of the current loop
 };

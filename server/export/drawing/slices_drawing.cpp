@@ -340,7 +340,7 @@ Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, con
     const PaperProjection paper(scene);
     const bool many = scene.placements.size() > 1;
     Drawing drawing{(many ? "Slices: " : "Slice: ") + scene.title, kDrawingWidth, paper.height(), {}};
-    std::vector<std::pair<double, std::size_t>> order;  // by distance from the eye, the farthest slice first
+    std::vector<std::pair<double, std::size_t>> order;  // pairs of a depth and a slice index, the farthest slice first
     for (std::size_t i = 0; i < scene.placements.size(); ++i) {
         const scene::SlicePlacement& placement = scene.placements[i];
         if (placement.drawn) order.emplace_back(-glm::distance(placement.position, scene.camera.eye), i);

@@ -28,7 +28,8 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr double kShortestPovBar = 1e-6;  // in world units; POV-Ray refuses cylinders without length
+constexpr double kShortestPovBar = 1e-6;  // shorter bars are not drawn, because POV-Ray refuses cylinders without
+                                          // length; in world units
 constexpr std::uint32_t kNoPovPoint = std::numeric_limits<std::uint32_t>::max();
 constexpr std::string_view kMatte = "Matte", kShiny = "Shiny";  // the finishes that a file declares
 
@@ -427,7 +428,7 @@ class PovWriter {
     const glm::dmat3 axes_;  // the directions right, up and back of the camera
     PovTextures textures_;
     std::string objects_;
-    std::optional<FieldSurfaceSource> surfaces_;  // empty unless the object is a field
+    std::optional<FieldSurfaceSource> surfaces_;  // source of the surfaces of a field; empty for other objects
     std::size_t triangles_ = 0;                   // number of triangles of all surfaces so far
 };
 

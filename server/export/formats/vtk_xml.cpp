@@ -26,7 +26,7 @@ void appendVtkArray(std::string& out, std::string_view type, std::string_view na
     if (!quantity.name.empty()) out.append(" ComponentName0=\"").append(xmlEscaped(quantity.name)).append("\"");
     out.append(" format=\"binary\">\n");
     const std::size_t begin = out.size();
-    // With a terminating zero.
+    // The size includes a terminating zero.
     const std::size_t size = sodium_base64_encoded_len(data.size(), sodium_base64_VARIANT_ORIGINAL);
     out.resize(begin + size);
     sodium_bin2base64(out.data() + begin, size, reinterpret_cast<const unsigned char*>(data.data()), data.size(),

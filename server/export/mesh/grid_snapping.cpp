@@ -283,7 +283,7 @@ class HalfEdgeMesh {
     const RoundingGrid& grid_;
     const Budget& budget_;
     std::vector<std::uint32_t> origins_, twins_;  // for each half-edge: its first point, and its twin
-    std::vector<bool> removed_;                   // for each triangle
+    std::vector<bool> removed_;                   // for each triangle: whether it was removed
     std::vector<glm::i64vec3> at_;                // for each point: its position in grid steps
     std::vector<std::uint32_t> sources_;          // for each point: the input point from which it was made
     // For each point: a half-edge that starts there; kNone if the point was merged into another point.

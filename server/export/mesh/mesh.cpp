@@ -37,7 +37,8 @@ bool isClosedManifold(const Mesh& mesh) {
         for (const std::uint32_t corner : triangle) ++begin[corner + 1];
     }
     for (std::size_t i = 0; i < mesh.points.size(); ++i) begin[i + 1] += begin[i];
-    std::vector<std::array<std::uint32_t, 2>> fans(3 * mesh.triangles.size());  // next and previous corner
+    // The next and the previous corner of each entry.
+    std::vector<std::array<std::uint32_t, 2>> fans(3 * mesh.triangles.size());
     std::vector<std::uint32_t> cursor(begin.begin(), begin.end() - 1);
     for (const auto& t : mesh.triangles) {
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;

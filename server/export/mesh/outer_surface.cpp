@@ -81,7 +81,8 @@ class OuterSurfaceMesher {
         return p.y <= row.y ? -1 : 1;
     }
 
-    /// Sets the field to −1 at all points inside the surface, along one line in the direction x after another.
+    /// Sets the field to −1 at all points inside the surface. Works through the lines of points along x, one after
+    /// another.
     void fill(SampledField& field) const {
         std::unordered_map<std::uint64_t, std::vector<LineCrossing>> lines;
         for (const FanTriangle& triangle : triangles_) {

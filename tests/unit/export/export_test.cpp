@@ -43,8 +43,8 @@ TEST(File, isRefusedForWhatIsTooMuchOrNothing) {
     EXPECT_EQ(std::get<ExportRefusal>(given).cause, ExportRefusal::Cause::too_long);
 }
 
-// A file is refused if the bars of the slice would be too thin. Here, three bars are much longer than they can be
-// thick.
+// A file is refused if the bars of the slice would be too thin. Here, the three bars are much thinner than the slice is
+// long.
 TEST(File, isRefusedIfItsBarsAreTooThin) {
     const Polytope& p = named("3,12000-duoprism");
     ExportRequest request{.format = formatNamed("stl"), .body = BodyKind::skeleton};

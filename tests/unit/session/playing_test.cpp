@@ -10,7 +10,7 @@
 namespace oval4d::session {
 namespace {
 
-constexpr double kStep = 0.25;  // seconds
+constexpr double kStep = 0.25;  // duration of a step, in seconds
 
 // Returns a session with a tesseract, whose w is from −1 to 1. At speed 1, the focus moves by a quarter per second.
 Session tesseract() {

@@ -362,7 +362,8 @@ TEST(RandomHistory, TheRevisionCountsTheChangesAndUndoLeadsBack) {
                 const Command& command = oneOf(commands, random);
                 const auto* key = std::get_if<Key>(&command);
                 const bool searches = key != nullptr && (key->key == ")" || key->key == "(");
-                if (searches && slicing::fieldIn(session.current.object) != nullptr) continue;  // takes too long
+                // The search takes too long.
+                if (searches && slicing::fieldIn(session.current.object) != nullptr) continue;
                 log += "\n" + textOf(command);
                 execute(session, command, limits);
             }

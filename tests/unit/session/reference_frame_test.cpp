@@ -175,7 +175,7 @@ TEST(ReferenceFrames, QueriesApplyThemBeforeTheSlices) {
 TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
     Session session;
     line(session, "set pace=2");
-    for (const char* name : {"120-cell", "24-cell"}) (void)support::shared(name);  // puts the polytope into the cache
+    for (const char* name : {"120-cell", "24-cell"}) (void)support::shared(name);  // put the polytope into the cache
     const Session before = session;
     ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
     const CommandLine both{"set polytope=120-cell boost=0.5,0,0"};
@@ -185,7 +185,7 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
         EXPECT_EQ(session, before);
         EXPECT_FALSE(loader.pendingNeedsFile());
         EXPECT_GT(loader.memoryNeeded(), slicing::memoryOf(support::shared("120-cell")));
-        ObjectLoader moved = std::move(loader);  // as a server moves it to another thread and back
+        ObjectLoader moved = std::move(loader);  // a server also moves the loader to another thread and back
         moved.completePending();
         loader = std::move(moved);
     }

@@ -70,8 +70,8 @@ TEST(Codec, ReadsFieldsWithSamplesBeyondAllLevels) {
 // the bounds of the settings.
 TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
     struct Array {
-        std::size_t samples;  // number along x, y and z
-        glm::dvec4 max;       // upper end of the box
+        std::size_t samples;  // number of samples along x, y and z
+        glm::dvec4 max;       // upper end of the array's box
     };
     for (const auto& [samples, max] : {Array{2, {1, 1, 1, 0}}, Array{1, {0, 0, 0, 100}}}) {
         const session::FileReader reader = [&](const session::LoadObject&, const session::Limits&) {

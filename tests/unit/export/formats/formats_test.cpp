@@ -120,7 +120,7 @@ TEST(Formats, ofBodiesAreNotBrokenByNames) {
         const std::string bytes = fileOfBodies(format, kHostileName);
         EXPECT_TRUE(text::isUtf8(bytes));
         EXPECT_EQ(countOf(bytes, "\r\n"), countOf(plain, "\r\n"));
-        if (!plain.starts_with('<')) continue;  // the rest is for XML
+        if (!plain.starts_with('<')) continue;  // the rest checks XML only
         EXPECT_EQ(countOf(bytes, "<>\"'"), countOf(plain, "<>\"'"));
         EXPECT_EQ(bytes.find("& "), std::string::npos);
     }
@@ -220,7 +220,7 @@ TEST(Scad, hasTheBodiesOfTheSlices) {
     const ExportRequest request{.format = formatNamed("scad"), .contents = ExportContentsKind::oval};
     const auto bodies = bodiesOfScad(fileOf(named("16-cell"), {}, {-2, 5, 0.5}, request));
     ASSERT_EQ(bodies.size(), 5U);
-    const double scale = 30 / std::sqrt(2);  // in millimeters per unit; the circumradius is √2
+    const double scale = 30 / std::sqrt(2);  // millimeters per unit; the circumradius is √2
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const PlacedMesh& body = bodies[i];
         const int n = static_cast<int>(i) - 2;

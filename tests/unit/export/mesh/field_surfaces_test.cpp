@@ -223,8 +223,8 @@ TEST(ExactSurfaces, ofAFormulaAreThoseOfTheTable) {
     EXPECT_NEAR(mesh.volume() / field.cubicMillimeters(expected), 1, 1e-9);
 }
 
-// All formats contain the exact surfaces of all slices. Formats for printers contain one level, and all others all
-// levels.
+// All formats contain the exact surfaces of all slices. Formats for printers contain only one level, and other formats
+// contain all levels.
 TEST(ExactSurfaces, areInAllFormatsWithSurfaces) {
     std::mt19937 random(63);
     const slicing::FieldSettings settings{{0.3, -0.2}};
