@@ -43,7 +43,7 @@ struct Hello {
     std::optional<scene::Viewport> viewport;  ///< the size of the pictures; if absent, the server chooses the size
     /// The color scheme of pictures with scene::Background::automatic.
     scene::Scheme scheme = scene::Scheme::dark;
-    /// The token of the session that the client joins. If absent, a new session is created.
+    /// The secret token of the session to join. Present only if the address of the connection names a session.
     std::optional<std::string> token;
     bool operator==(const Hello&) const = default;
 };

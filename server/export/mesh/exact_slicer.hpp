@@ -19,8 +19,7 @@ class ExactSlicer {
   public:
     struct SurfaceOptions {
         fields::Inside inside = fields::Inside::below;
-        bool pointData = false;  ///< whether points get normals, values and growth (see
-                                 ///< slicing::ClosedSurfaceSlicer::IsosurfaceOptions)
+        bool pointData = false;  ///< whether to compute the function's value and gradient at each point
         /// What the user can do about too many triangles, as the end of the error message. Empty, or begins with a
         /// semicolon.
         std::string advice = {};
