@@ -1,5 +1,6 @@
 #pragma once
-// The active list of a sweep: the elements of a polytope that the hyperplane cuts at its current position.
+// The active list of a sweep through parallel hyperplanes: the elements of a polytope (its edges, 2-faces or cells)
+// that the current hyperplane cuts.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,47 +10,48 @@
 
 namespace oval4d::slicing {
 
-/// Steps through parallel hyperplanes, and lists which edges of a polytope (or which 2-faces, or which cells) the
-/// current hyperplane cuts. The hyperplanes are numbered from 0 by ascending w. The indices of the hyperplanes that cut
-/// an element are a range [from, to). Call clear(), then add() for each element, then sortByFirstHyperplane() once,
-/// then activateAt() for the hyperplanes in ascending order. Reuses its memory.
+/// Lists the elements of a polytope (its edges, its 2-faces or its cells) that the current hyperplane cuts, while a
+/// caller steps through parallel hyperplanes. The hyperplanes are numbered from 0 by ascending w. Each element is cut
+/// by the hyperplanes of one range of indices [from, to). Call clear(), then add() for each element, then
+/// sortByFirstHyperplane() once, then activateAt() for the hyperplanes in ascending order. Reuses its memory.
 ///
-/// The loops do not branch on whether an element is cut: processors cannot predict such a branch, and mispredictions
-/// take longer than the work that the branch avoids.
+/// The loops of this class do not branch on whether an element is cut. Processors cannot predict such a branch, and a
+/// misprediction takes longer than the work that the branch would avoid.
 class ActiveList {
   public:
-    /// An element that hyperplanes cut.
+    /// An element, and the index of the first hyperplane above it that no longer cuts it.
     struct CutElement {
         std::uint32_t number;  ///< the index of the edge, 2-face or cell in the polytope
-        std::int32_t to;       ///< the end of the range [from, to) of the hyperplanes that cut the element
+        std::int32_t to;  ///< the end of the range [from, to) of the indices of the hyperplanes that cut the element
     };
 
-    /// Removes all elements. Makes room for up to `elements` new ones, and for the hyperplanes 0 … `planes` − 1.
+    /// Removes all elements. Makes room for up to `elements` new elements, and for hyperplanes with the indices 0 …
+    /// `planes` − 1.
     void clear(std::size_t elements, int planes) {
         unsorted_.resize(elements + 1);
         end_.assign(planes + 1, 0);
         count_ = activeCount_ = begun_ = 0;
     }
-    /// Adds an element that is cut by the hyperplanes with the indices in [from, to). Requires from ≤ to. Ignores the
-    /// element if from = to.
+    /// Adds an element that the hyperplanes with the indices in [from, to) cut. Requires from ≤ to. Ignores the element
+    /// if from = to.
     void add(std::uint32_t number, std::int32_t from, std::int32_t to) {
         const std::uint32_t one = from < to ? 1 : 0;
         unsorted_[count_] = {{number, to}, from};
         end_[from] += one;
         count_ += one;
     }
-    /// Sorts the elements by their first hyperplane. Must be called once, after all calls of add(). `steps` lists the
-    /// indices of the hyperplanes for which activateAt() will be called, in ascending order. It must include the first
-    /// hyperplane of every element.
+    /// Sorts the elements by the first hyperplane that cuts them. Must be called once, after all calls of add().
+    /// `steps` lists the indices of the hyperplanes for which activateAt() will be called, in ascending order. `steps`
+    /// must include the first hyperplane of every element.
     void sortByFirstHyperplane(std::span<const int> steps);
 
     /// Makes the hyperplane with the index `step` the current one. Must be called for each index that was passed to
-    /// sortByFirstHyperplane(), in ascending order. Returns the elements that become active: those whose first
-    /// hyperplane is `step`.
+    /// sortByFirstHyperplane(), in ascending order. Returns the elements for which `step` is the first hyperplane that
+    /// cuts them.
     std::span<const CutElement> activateAt(int step);
     /// Returns the elements that the current hyperplane cuts.
     std::span<const CutElement> active() const { return {active_.data(), activeCount_}; }
-    /// Returns the number of active elements.
+    /// Returns the number of elements that the current hyperplane cuts.
     std::uint32_t size() const { return activeCount_; }
 
   private:
@@ -58,17 +60,17 @@ class ActiveList {
         std::int32_t from;
     };
 
-    // Removes the active elements whose range [from, to) ends at `step` or below it, so that the hyperplane `step` does
-    // not cut them.
+    // Removes the active elements that the hyperplane with the index `step` does not cut: those whose range [from, to)
+    // ends at `step` or below.
     void removeEnded(int step);
 
     std::vector<UnsortedElement> unsorted_;
     std::vector<CutElement> sorted_, active_;
-    // Per hyperplane: before sortByFirstHyperplane(), the number of elements whose range begins at this hyperplane;
-    // afterward, the index in sorted_ at which these elements end.
+    // Per hyperplane, before sortByFirstHyperplane(): the number of elements whose range of hyperplanes begins here.
+    // Afterward: the index in sorted_ just after the last of these elements.
     std::vector<std::uint32_t> end_;
-    // The numbers of elements that were added, that are active, and that have become active since
-    // sortByFirstHyperplane().
+    // count_: the number of elements that were added. activeCount_: the number of elements that the current hyperplane
+    // cuts. begun_: the number of elements that have become active since sortByFirstHyperplane().
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;
 };
 

@@ -1,5 +1,5 @@
-// This file is long, because its class is not divided: the stages fill the same buffers, which no other code may see
-// incomplete.
+// This file is long because its class is not divided: all stages of the slicing fill the same buffers, and no other
+// code may see these buffers half filled.
 
 #include "slicing/cell_complex_slicer.hpp"
 
@@ -14,11 +14,11 @@
 #include "slicing/listed_hyperplanes.hpp"
 #include "slicing/prefix_sums.hpp"
 
-// The complex is cut just above each hyperplane, where there are no vertices, and the section is then moved down into
-// the hyperplane. A point on an edge that starts in the hyperplane moves to the vertex where the edge starts. A segment
-// in a 2-face that has an edge in the hyperplane moves to this edge. Elements that shrink to a point are removed.
-// Therefore vertices in the hyperplane need no special cases, and sections of cells are closed loops even if 2-faces
-// are star polygons.
+// How the slicer treats vertices in hyperplanes: it cuts the complex just above each hyperplane, where there are no
+// vertices, and then moves the section down into the hyperplane. A point on an edge that starts in the hyperplane moves
+// to the vertex where the edge starts. A segment in a 2-face that has an edge in the hyperplane moves to this edge.
+// Elements that shrink to a point are removed. Therefore vertices in the hyperplane need no special cases, and sections
+// of cells are closed loops even if 2-faces are star polygons.
 
 namespace oval4d::slicing {
 
@@ -60,9 +60,9 @@ bool CellComplexSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet&
     return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
 }
 
-// Sets touching_ for the hyperplanes that touch the polytope from one side: they contain vertices, but no vertices lie
-// on one of their sides. Cuts the slices in these hyperplanes by the general method (see cutGeneral()). Returns false
-// if there are more than two such hyperplanes.
+// Finds the hyperplanes that touch the polytope from one side: they contain vertices, but no vertices lie on one of
+// their sides. Cuts the slices in these hyperplanes by cutGeneral(), and sets touching_ to them. Returns false if there
+// are more than two such hyperplanes.
 bool CellComplexSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -116,7 +116,8 @@ void CellComplexSlicer::locateVertices(const geometry::CellComplex& complex, con
     }
 }
 
-// Finds the slice vertices: the complex's vertices in hyperplanes, and the points where edges cross hyperplanes.
+// Finds the slice vertices: the vertices of the complex that lie in hyperplanes, and the points where its edges cross
+// hyperplanes.
 void CellComplexSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(complex.edges.size());
     const auto vertices = static_cast<std::uint32_t>(complex.vertices.size());
@@ -170,11 +171,13 @@ void CellComplexSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet&
     }
 }
 
-// Finds the slice edges: the complex's edges in hyperplanes, and the segments in which 2-faces cross hyperplanes.
+// Finds the slice edges: the edges of the complex that lie in hyperplanes, and the segments in which its 2-faces cross
+// hyperplanes.
 void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
-    // upTo_[v] is below_[v] or below_[v] + 1. Therefore, for the sum s = below_[v] + upTo_[v], below_[v] is ⌊s / 2⌋ and
-    // upTo_[v] is ⌈s / 2⌉. So the least and the greatest sum give the extremes of both lists.
+    // upTo_[v] is either below_[v] or below_[v] + 1. Therefore, for the sum s = below_[v] + upTo_[v], below_[v] is ⌊s /
+    // 2⌋ and upTo_[v] is ⌈s / 2⌉. So the least and the greatest s of a 2-face's vertices give the least below_ and the
+    // greatest upTo_.
     rankSum_.resize(below_.size());
     for (std::size_t v = 0; v < below_.size(); ++v) rankSum_[v] = below_[v] + upTo_[v];
     up_.resize(out.planes.count);
@@ -206,10 +209,10 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
     numberEdges(complex, out);
 }
 
-// Adds the segments in which a convex 2-face crosses the levels just above the hyperplanes with the indices in
-// `above`. The vertex loop of a convex 2-face ascends through each level once, and descends once. Returns false, and
-// adds nothing, if the loop ascends more than once through a level. That can happen through rounding errors if the
-// 2-face nearly lies in a hyperplane.
+// Adds the segments in which a convex 2-face crosses the levels just above the hyperplanes with the indices in `above`.
+// The vertex loop of a convex 2-face ascends through each level once, and descends through it once. Returns false, and
+// adds nothing, if the loop ascends through a level more than once: rounding errors can cause this if the 2-face nearly
+// lies in a hyperplane.
 bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
@@ -230,9 +233,11 @@ bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std:
     return true;
 }
 
-// A nonconvex loop may cross the hyperplane several times. The crossings are sorted along the line in which the
-// hyperplane cuts the 2-face's plane, and the i-th ascent is paired with the i-th descent. Where the resulting segments
-// overlap, the 2-face covers the line more than once.
+// Adds the segments in which a nonconvex 2-face crosses the levels just above the hyperplanes with the indices in
+// `above`. The vertex loop of such a 2-face may cross a hyperplane several times. The crossings are sorted along the
+// line in which the hyperplane cuts the plane of the 2-face. The i-th crossing where the loop ascends is then paired
+// with the i-th crossing where it descends. Where the resulting segments overlap, the 2-face covers the line more than
+// once.
 void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above,
                                          const SliceSet& out) {
     const auto loop = complex.faces[face];
@@ -282,18 +287,18 @@ void CellComplexSlicer::addFaceCrossing(const geometry::CellComplex& complex, st
     if (a == b) {
         edge = kNone;
     } else if (plane < faceSpan_[face].from) {
-        // The lowest vertices of the 2-face lie in this hyperplane, and the ends a and b of the segment move to two of
-        // them. If an edge of the 2-face joins these two vertices, the segment moves to this edge.
+        // The lowest vertices of the 2-face lie in this hyperplane. The ends a and b of the segment move to two of
+        // these vertices. If an edge of the 2-face joins the two vertices, the segment moves to this edge.
         const auto [first, last] = std::minmax(a, b);
         const auto after = std::upper_bound(lowestEdges_.begin(), lowestEdges_.end(), std::array{first, last, kNone});
         if (after != lowestEdges_.begin()) {
             const auto& [from, to, found] = *std::prev(after);
             if (from == first && to == last) edge = found;
         }
-        // In a complex without cells, whose 2-faces need not be flat, it is possible that no edge joins the two
-        // vertices; if so, the slice has no segment between them. In a complex with cells, this happens only by
-        // rounding errors, if the 2-face nearly lies in the hyperplane; the segment is kept, because the section of a
-        // cell must be closed.
+        // It is possible that no edge of the 2-face joins the two vertices. In a complex without cells, the 2-faces
+        // need not be flat; the slice then has no segment between the vertices. In a complex with cells, only rounding
+        // errors can cause this, if the 2-face nearly lies in the hyperplane. The segment is then kept, because the
+        // section of a cell must be closed.
         if (edge == kNewEdge && complex.cells.size() == 0) edge = kNone;
     }
     faceCrossings_.push_back({plane, up, down, edge});
@@ -339,7 +344,8 @@ void CellComplexSlicer::numberEdges(const geometry::CellComplex& complex, SliceS
     }
 }
 
-// Finds the slice faces: 2-faces in hyperplanes, and the polygons in which cells cross hyperplanes.
+// Finds the slice faces: the 2-faces of the complex that lie in hyperplanes, and the polygons in which its cells cross
+// hyperplanes.
 void CellComplexSlicer::cutCells(const geometry::CellComplex& complex, SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(complex.cells.size());
     cellSpan_.resize(cells);
@@ -367,7 +373,7 @@ void CellComplexSlicer::cutCells(const geometry::CellComplex& complex, SliceSet&
     placeLoops(out);
 }
 
-// Requires that numberEdges() has run.
+// Must be called after numberEdges().
 bool CellComplexSlicer::lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell,
                                                const SliceSet& out) const {
     const auto faces = static_cast<std::uint32_t>(complex.faces.size());
@@ -381,8 +387,9 @@ bool CellComplexSlicer::lowestSectionCollapses(const geometry::CellComplex& comp
     return true;
 }
 
-// Joins the segments that were cut from the cell's 2-faces, each directed by the orientation of its 2-face in this
-// cell: the end of a segment is the start of the next one. Then follows these links to find the closed loops.
+// Traces the sections of a cell. The cell's 2-faces were cut in segments. Each segment is directed by the orientation
+// of its 2-face in this cell, so the end of a segment is the start of the next one. Links each segment to the next,
+// then follows the links to find the closed loops.
 void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uint32_t cell) {
     const PlaneRange span = cellSpan_[cell];
     starts_.clear();
@@ -416,10 +423,10 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
     }
 }
 
-// A 2-face in the hyperplane is a face of the slice if exactly one of its two cells stands on it, above the hyperplane,
-// or if one of its cells lies in the hyperplane, on top of the complex. In both cases, the slice face has the
-// orientation of the 2-face in this one cell. If the complex only touches the hyperplane in this 2-face, the 2-face is
-// the whole slice.
+// Adds the slice faces that are 2-faces lying in a hyperplane. Such a 2-face is a face of the slice in two cases: if
+// exactly one of its two cells stands on it, above the hyperplane, or if one of its cells lies in the hyperplane, on
+// top of the complex. In both cases, the slice face has the orientation that the 2-face has in this one cell. If the
+// complex only touches the hyperplane in this 2-face, the 2-face is the whole slice.
 void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
@@ -472,8 +479,8 @@ void CellComplexSlicer::addLyingFace(const geometry::CellComplex& complex, std::
     }
 }
 
-// Returns whether a cell in a hyperplane lies on top of the complex, so that its outer side faces toward larger w. The
-// 2-faces of the cell, oriented as in this cell, are divided into triangles with the corners a, b and c. The cell lies
+// Returns whether a cell that lies in a hyperplane is on top of the complex, so that its outer side faces toward larger
+// w. Divides the 2-faces of the cell, oriented as in this cell, into triangles with the corners a, b and c. The cell is
 // on top if the sum of det(a, b, c) over these triangles is positive.
 bool CellComplexSlicer::hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell,
                                         const SliceSet& out) const {
@@ -512,7 +519,7 @@ void CellComplexSlicer::removeCoincidingEdges(SliceSet& out) {
     for (auto& corner : loopCorners_) corner[1] = number[corner[1]];
 }
 
-// Writes the loops to `out`, sorted by hyperplane.
+// Writes the faces of loops_ to `out`, sorted by hyperplane.
 void CellComplexSlicer::placeLoops(SliceSet& out) {
     out.faceBegin.assign(out.planes.count + 1, 0);
     cornerCursor_.assign(out.planes.count + 1, 0);

@@ -11,28 +11,29 @@
 
 namespace oval4d::slicing {
 
-/// Returns the default radius of a cloud's balls, as a fraction of the circumradius: from 0.06 for few points to 0.015
-/// for many.
+/// Returns the default radius of the balls that show the points of a cloud, as a fraction of the cloud's circumradius:
+/// from 0.06 for few points to 0.015 for many.
 double relativeBallRadius(const geometry::PointCloud& cloud);
 
-/// Returns the opacity, 1 … 0.2, of a ball whose center has this distance from the hyperplane. The unit of `distance`
-/// is half the spacing of the hyperplanes; a distance greater than 1 counts as 1.
+/// Returns the opacity of the ball that shows a point of a cloud: from 1 for a point in the hyperplane to 0.2 for a
+/// point at the distance 1 or more from it. The unit of `distance` is half the spacing of the hyperplanes.
 inline float opacityAtDistance(double distance) { return static_cast<float>(1 - 0.8 * std::min(distance, 1.0)); }
 
 /// Slices point clouds. A slice contains the points from half a spacing below its hyperplane, included, to half a
-/// spacing above it, not included. Therefore a point is in at most one slice if the hyperplanes are evenly spaced, but
-/// may be in several slices if the hyperplanes are listed (see Hyperplanes::listed). A slice shows a point as a ball,
-/// whose opacity decreases linearly with the distance of the point from the hyperplane, from 1 to 0.2 at half a
-/// spacing. Only one thread at a time may use a slicer.
+/// spacing above it, not included. If the hyperplanes are evenly spaced, a point is in at most one slice. If the
+/// hyperplanes are listed (see Hyperplanes::listed), a point may be in several slices. A slice shows each point as a
+/// ball. The opacity of the ball decreases linearly with the distance of the point from the hyperplane, from 1 to 0.2
+/// at half a spacing. Only one thread at a time may use a slicer.
 class CloudSlicer {
   public:
-    /// Slices `cloud` rotated by `orientation`. Overwrites `out`, except its surfaces and fogs, and reuses its memory.
+    /// Slices `cloud`, rotated by `orientation`, and writes the slices to `out`. Overwrites `out`, except its surfaces
+    /// and fogs, and reuses its memory.
     void slice(const geometry::PointCloud& cloud, const geometry::Rotation& orientation,
                const geometry::Hyperplanes& planes, SliceSet& out);
 
   private:
-    std::vector<std::int32_t> planeOf_;  // per point: the index of its hyperplane; −1 for none
-    std::vector<std::uint32_t> next_;    // per hyperplane: the index of the slice vertex to write next
+    std::vector<std::int32_t> planeOf_;  // per point: the index of the hyperplane whose slice contains it; −1 for none
+    std::vector<std::uint32_t> next_;    // per hyperplane: the index at which its next slice vertex is written
 };
 
 }  // namespace oval4d::slicing

@@ -7,11 +7,12 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Returns whether two cores are faster than one. A sweep sorts the elements once and writes them for each hyperplane,
-// so its time is proportional to the number of elements times (the number of hyperplanes + a constant). If this product
-// is at most kLarge, waking the other core takes longer than the time that it saves.
+// Returns whether slicing `polytope` by `planes` hyperplanes is faster on two cores than on one. A sweep sorts the
+// elements of the polytope once and writes them for each hyperplane. So its time is proportional to the number of
+// elements times (the number of hyperplanes + a constant). If this product is at most kLarge, waking the other core
+// takes longer than the time that it saves.
 bool isWorthTwoCores(const polytopes::Polytope& polytope, int planes) {
-    constexpr std::size_t kSorting = 40;  // the time of sorting divided by the time of writing for one hyperplane
+    constexpr std::size_t kSorting = 40;  // sorting takes as long as writing the slices of this many hyperplanes
     constexpr std::size_t kLarge = 2'500'000;
     const std::size_t elements =
         polytope.vertices.size() + polytope.edges.size() + polytope.faces.size() + polytope.cells.size();
@@ -37,8 +38,9 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices 
     return true;
 }
 
-// Cuts with the lower and the upper half of the hyperplanes at the same time. Requires that no vertex lies in a
-// hyperplane. Then Sweep::maxSize() is exact, so that the position in `out` of the upper half is known before cutting.
+// Cuts the slices in the lower and in the upper half of the hyperplanes at the same time, on two cores. Requires that
+// no vertex lies in a hyperplane. Then Sweep::maxSize() is exact, so that the position in `out` where the upper half
+// begins is known before cutting.
 bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
     const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;

@@ -1,5 +1,5 @@
 #pragma once
-// Fast slicing of convex polytopes.
+// Slices convex polytopes, faster than the general method of CellComplexSlicer.
 
 #include <cstdint>
 #include <span>
@@ -14,16 +14,18 @@
 
 namespace oval4d::slicing {
 
-/// Slices convex polytopes with a sweep (see Sweep). If a polytope is large and none of its vertices lies in a
-/// hyperplane, sweeps the lower and the upper half of the hyperplanes in parallel, on two cores. Reuses its memory.
+/// Slices convex polytopes with a sweep of a hyperplane (see Sweep). If a polytope is large and none of its vertices
+/// lies in a hyperplane, sweeps through the lower and the upper half of the hyperplanes in parallel, on two cores.
+/// Reuses its memory.
 class ConvexSlicer {
   public:
     /// `forkJoin` must outlive this object. If it is null, all work is done on the calling thread.
     explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
     /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set.
-    /// `planesBelow` locates the rotated vertices relative to these hyperplanes. If the polytope touches hyperplanes
-    /// from one side, `touching` must contain the slices in them, as for Sweep::cut(); otherwise it may be empty.
+    /// `planesBelow` says how many of these hyperplanes lie below each rotated vertex. If the polytope touches
+    /// hyperplanes from one side, `touching` must contain the slices in these hyperplanes (see Sweep::cut()); otherwise
+    /// it may be empty.
     ///
     /// Returns false, and leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face in
     /// several segments or a cell in several polygons. The caller must then use a method for nonconvex polytopes.
@@ -34,7 +36,7 @@ class ConvexSlicer {
     // The sweep through the lower or upper half of the hyperplanes, and its results.
     struct HalfSweep {
         Sweep sweep;
-        std::vector<std::int32_t> below;  // like PlanesBelowVertices::below, but counts only hyperplanes of this half
+        std::vector<std::int32_t> below;  // per vertex: the number of hyperplanes of this half below it
         SliceCounts end;     // where the slices of this half end in the output; before sweep.cut(), where they begin
         bool sound = false;  // what the last call of sweep.begin() or sweep.cut() returned
     };

@@ -21,7 +21,8 @@ static_assert(CoordinateValueHistograms::kMinPoints % kHistogramBatch == 0);
 constexpr std::uint8_t kNoRow = 255;
 static_assert(CoordinateValueHistograms::kRows < kNoRow);
 
-// Returns the number of points: fewer for a slower function, so that the evaluation always takes about the same time.
+// Returns the number of points at which `function` is evaluated. A slower function is evaluated at fewer points, so
+// that the evaluation always takes about the same time.
 std::size_t pointCount(const fields::ScalarFunction& function) {
     constexpr double kTime = 2e7;  // nanoseconds
     const double count = kTime / std::max(function.cost().value, 1.0);
@@ -40,9 +41,11 @@ void CoordinateValueHistograms::measure(const fields::Field& field, const geomet
     findTones();
 }
 
-// Evaluates the function, and sets fullRange_ and typicalRange_.
+// Evaluates the function of `field` at quasirandom points, and sets fullRange_ and typicalRange_ to the ranges of its
+// values.
 void CoordinateValueHistograms::sample(const fields::Field& field) {
-    constexpr double kResolution = 128;  // how many steps long each side of the domain is: see versionForSteps()
+    // the length of each side of the domain, in steps of ScalarFunction::versionForSteps()
+    constexpr double kResolution = 128;
     const glm::dvec4 size = field.box.max - field.box.min;
     std::array<glm::dvec4, 4> steps{};
     for (int k = 0; k < 4; ++k) steps[static_cast<std::size_t>(k)][k] = size[k] / kResolution;
@@ -58,7 +61,7 @@ void CoordinateValueHistograms::sample(const fields::Field& field) {
     }
     function_ = field.function;
     box_ = field.box;
-    // NaN is equal to nothing, so chooseRange() will find a new range and call assignRows().
+    // NaN equals no number. So chooseRange() will find that the range has changed, and will call assignRows().
     range_ = {std::numeric_limits<double>::quiet_NaN(), 0};
 
     const fields::FullAndTypicalRange ranges = fields::rangesOf(values_);
@@ -73,8 +76,8 @@ void CoordinateValueHistograms::chooseRange(std::span<const double> levels) {
         range = {std::min(range.least, level), std::max(range.greatest, level)};
     }
     if (!(range.least < range.greatest)) {
-        // All values are equal, as those of a constant function. The range is centered at this value, which is then in
-        // the middle row.
+        // All values are equal, for example those of a constant function. The range extends equally far below and above
+        // this value, so that the middle row stands for it.
         const double reach = std::max(std::abs(range.least), 1.0);
         range = {range.least - reach, range.least + reach};
     }
@@ -96,8 +99,8 @@ void CoordinateValueHistograms::assignRows() {
 }
 
 void CoordinateValueHistograms::count(const fields::Field& field, const geometry::Rotation& orientation) {
-    // After the next two loops, toSteps maps the unit cube, centered at the origin, to the rotated domain. The unit
-    // along each axis is then 1 / kPointWeight of a column, so that the domain extends from −kReach to +kReach.
+    // The next two loops complete toSteps. It then maps the unit cube, centered at the origin, to the rotated domain.
+    // The unit along each axis is 1 / kPointWeight of a column, so that the domain extends from −kReach to +kReach.
     constexpr float kReach = (kPanel - 1) * kPointWeight / 2.0F;
     glm::dmat4 toSteps = orientation.matrix() * glm::inverse(field.toFunction);
     for (int j = 0; j < 4; ++j) toSteps[j] *= field.box.max[j] - field.box.min[j];

@@ -133,8 +133,8 @@ void DegeneracyCollapse::removeCoincidingEdges(SliceCounts at, SliceCounts& size
         out.cornerEdges[i] = newEdge_[out.cornerEdges[i]];
 }
 
-// Returns the edge that belongs to the 2-face `face`, lies in the hyperplane, and joins the slice vertices `ends`.
-// Returns kNone if there is no such edge, for example because several collinear edges lie between the two vertices.
+// Returns the edge of the 2-face `face` that lies in the hyperplane and joins the two slice vertices `ends`. Returns
+// kNone if there is no such edge, for example because several collinear edges lie between the two vertices.
 std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& polytope, std::uint32_t face,
                                                    std::array<std::uint32_t, 2> ends) const {
     for (const std::uint32_t e : polytope.faceEdges[face]) {
@@ -145,8 +145,8 @@ std::uint32_t DegeneracyCollapse::edgeInHyperplane(const polytopes::Polytope& po
     return kNone;
 }
 
-// Returns the 2-face that belongs to the cell, lies in the hyperplane, and has this number of corners. Returns kNone if
-// there is none, for example because the slice face consists of several coplanar 2-faces.
+// Returns the 2-face of the cell `cell` that lies in the hyperplane and has `corners` corners. Returns kNone if there
+// is no such 2-face, for example because the slice face consists of several coplanar 2-faces.
 std::uint32_t DegeneracyCollapse::faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell,
                                                    std::size_t corners) const {
     const auto lies = [&](std::uint32_t v) { return planesBelow_.liesIn(v, plane_); };

@@ -1,5 +1,5 @@
 #pragma once
-// Slices in degenerate hyperplanes: those that contain vertices of the polytope.
+// Computes slices in degenerate hyperplanes: those that contain vertices of the polytope.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +15,7 @@
 namespace oval4d::slicing {
 
 /// Computes slices of a convex polytope in hyperplanes that contain vertices. Such a slice is first cut just above the
-/// hyperplane, where no vertices lie. This class then moves it down into the hyperplane:
+/// hyperplane, where no vertices lie. This class then moves the slice down into the hyperplane:
 /// - A slice vertex that was cut from an edge with one end in the hyperplane moves to this end.
 /// - A slice edge that was cut from a 2-face with an edge in the hyperplane moves to this edge.
 /// - A slice face that was cut from a cell with a 2-face in the hyperplane moves to this 2-face.
@@ -30,13 +30,13 @@ namespace oval4d::slicing {
 /// miss elements that lie in it. Reuses its memory.
 class DegeneracyCollapse {
   public:
-    /// Prepares for slices of this polytope. The arrays of `planesBelow` must stay valid until the last call of
+    /// Prepares for slices of `polytope`. The arrays of `planesBelow` must stay valid until the last call of
     /// collapse().
     void begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow);
 
-    /// Moves a slice from just above the hyperplane with the index `plane` down into it, in place. The slice begins at
-    /// position `at` in `out` and has this `size`. All of its vertices must have been cut from edges, its edges from
-    /// 2-faces, and its faces from cells. Returns the new size of the slice.
+    /// Moves a slice from just above the hyperplane with the index `plane` down into the hyperplane, in place. The
+    /// slice begins at position `at` in `out` and has the size `size`. All of its vertices must have been cut from
+    /// edges, its edges from 2-faces, and its faces from cells. Returns the new size of the slice.
     SliceCounts collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at, SliceCounts size,
                          SliceSet& out);
 
@@ -55,12 +55,13 @@ class DegeneracyCollapse {
 
     PlanesBelowVertices planesBelow_;
     int plane_ = 0;
-    // Per vertex or edge of the polytope: its index in the slice by the hyperplane in which it lies; kNone if it lies
-    // in no hyperplane, or if that slice has not been collapsed yet.
+    // Per vertex (sliceVertex_) or edge (sliceEdge_) of the polytope: its index in the slice by the hyperplane that
+    // contains it. kNone if no hyperplane contains it, or if that slice has not been collapsed yet.
     std::vector<std::uint32_t> sliceVertex_, sliceEdge_;
-    // Per vertex or edge of the slice before the collapse: its index afterward; kNone for an edge that was removed.
+    // Per vertex (newVertex_) or edge (newEdge_) of the slice before the collapse: its index in the slice after the
+    // collapse. kNone for an edge that was removed.
     std::vector<std::uint32_t> newVertex_, newEdge_;
-    CoincidingEdges coinciding_;  // which edges of the collapsed slice coincide
+    CoincidingEdges coinciding_;  // the groups of edges of the collapsed slice that coincide
 };
 
 }  // namespace oval4d::slicing

@@ -58,8 +58,7 @@ void visitVertexNumbers(const PointCloud& /*cloud*/, const Element& element, Vis
 const std::vector<glm::dvec4>& verticesOf(const CellComplex& p) { return p.vertices; }
 const std::vector<glm::dvec4>& verticesOf(const PointCloud& cloud) { return cloud.points; }
 
-// Calls `visit` with the position of each vertex of the element, in the order and as often as visitVertexNumbers()
-// visits the vertex.
+// Calls `visit` with the position of each vertex that visitVertexNumbers() visits, in the same order.
 template <typename Elements, typename Visit>
 void visitVertices(const Elements& object, const Element& element, Visit visit) {
     visitVertexNumbers(object, element, [&](std::uint32_t v) { visit(verticesOf(object)[v]); });
@@ -103,10 +102,10 @@ class Incidence {
 // An orthonormal basis of the directions within an element.
 class OrthonormalBasis {
   public:
-    /// Makes the basis of an element with this dimension from vectors that span the directions within the element, by
-    /// the Gram–Schmidt process. Each step takes the vector whose part perpendicular to the basis is longest, so that
-    /// rounding errors of the points do not count as directions. Stops early if the longest part is at most `tolerance`
-    /// long. Overwrites the vectors.
+    /// Makes the basis of an element of dimension `dimension` from vectors that span the directions within the element,
+    /// by the Gram–Schmidt process. Each step takes the vector whose part perpendicular to the basis is longest, so
+    /// that rounding errors of the points do not count as directions. Stops early if the longest part is at most
+    /// `tolerance` long. Overwrites `vectors`.
     OrthonormalBasis(std::span<glm::dvec4> vectors, std::size_t dimension, double tolerance) {
         while (size_ < std::min(dimension, basis_.size()) && !vectors.empty()) {
             const glm::dvec4 longest = *std::ranges::max_element(vectors, {}, [](const auto& v) { return dot(v, v); });
@@ -134,8 +133,8 @@ class OrthonormalBasis {
     std::size_t size_ = 0;
 };
 
-// Computes directionOf(). `points` is a buffer, which is overwritten. Passing the same buffer for many elements avoids
-// an allocation for each of them.
+// Returns the result of directionOf(). `points` is a buffer, which is overwritten. A caller with many elements passes
+// the same buffer for all of them, so that memory is allocated only once.
 template <typename Elements>
 glm::dvec4 directionIn(const Elements& object, const Element& element, const glm::dvec4& preferred,
                        std::vector<glm::dvec4>& points) {
@@ -197,12 +196,13 @@ void findSourcesIn(const PointCloud& /*cloud*/, const Element& element, PartsSho
     out.ownVertices = out.vertices;
 }
 
-// Sets the length, area or volume in `out`. `toFile` is the linear part of the map from the object's coordinates to
-// those of vertexInFile().
+// Sets the length, area or volume of `element` in `out`. `toFile` is the linear part of the map from the object's
+// coordinates to those of vertexInFile().
 void measureSize(const CellComplex& p, const Element& element, const glm::dmat4& toFile, ElementMeasurements& out) {
     std::vector<glm::dvec4> points;
     visitVertices(p, element, [&](const glm::dvec4& v) { points.push_back(v); });
-    // Coordinates relative to a vertex of the element lose the fewest digits by cancellation.
+    // The points are taken relative to a vertex of the element, because the fewest digits are then lost by
+    // cancellation.
     const glm::dvec4 base = points.front();
     for (glm::dvec4& point : points) point = toFile * (point - base);
     const OrthonormalBasis basis(points, static_cast<std::size_t>(element.kind), 0);
@@ -215,9 +215,9 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
             out.length = glm::distance(at(p.edges[index][0]), at(p.edges[index][1]));
             break;
         case ElementKind::face: {
-            // The norm of the area bivector, whose components are the areas of the projections to the coordinate
-            // planes. The norm does not depend on which vertex of the loop is the first, even if the 2-face is not
-            // flat.
+            // The area is the norm of the area bivector. Its components are the areas of the projections to the
+            // coordinate planes. The norm does not depend on which vertex of the loop is the first, even if the 2-face
+            // is not flat.
             const auto loop = p.faces[index];
             const auto place = [&](std::uint32_t v) { return toFile * (p.vertices[v] - base); };
             double square = 0;
@@ -249,7 +249,7 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
     }
 }
 
-// Returns the direction of +w in the object's own coordinates.
+// Returns the direction that `orientation` turns to +w, in the object's own coordinates.
 glm::dvec4 ownDirectionOfW(const geometry::Rotation& orientation) { return orientation.inverse()({0, 0, 0, 1}); }
 
 }  // namespace
@@ -275,7 +275,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     std::vector<std::size_t> candidates(elementCount(object, kind));
     std::iota(candidates.begin(), candidates.end(), std::size_t{0});
     double best = -2;
-    std::size_t nearest = 0;  // the index in `candidates` of the element with the cosine `best`
+    std::size_t nearest = 0;  // the index in `candidates` of the element whose direction has the cosine `best`
     std::vector<glm::dvec4> points;
     const auto findNearest = [&](const auto& elements) {
         if (incident) {
@@ -284,8 +284,8 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
         }
         for (std::size_t i = 0; i < candidates.size(); ++i) {
             const double cosine = glm::dot(w, glm::normalize(directionIn(elements, {kind, candidates[i]}, w, points)));
-            // Elements at the same angle are equally near. The first of them is chosen, so that rounding does not
-            // decide.
+            // Elements at the same angle from +w are equally near. The first of them is chosen, so that rounding does
+            // not decide.
             constexpr double kSame = 1e-9;
             if (cosine > best + kSame) {
                 best = cosine;
@@ -307,7 +307,7 @@ std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const ge
     const glm::dvec4 direction = ownDirectionOfW(orientation);
     const auto cutComplex = [&](const CellComplex& complex) {
         const double w = plane.w(0), slack = kOnPlaneTolerance * complex.circumradius;
-        std::vector<double> distances;  // of the vertices from the hyperplane, positive above it
+        std::vector<double> distances;  // per vertex: its distance from the hyperplane, positive above the hyperplane
         distances.reserve(complex.vertices.size());
         for (const glm::dvec4& v : complex.vertices) distances.push_back(glm::dot(direction, v) - w);
         for (std::size_t i = 0; i < isCut.size(); ++i) {
@@ -355,7 +355,8 @@ std::string unitOfSize(const Object& object, const fields::Field& field, std::sp
             least = std::min(least, at);
             most = std::max(most, at);
         }
-        // The vertices are corners of the box, so they differ by its whole extent or not at all.
+        // The vertices are corners of the box. So along an axis, they differ by the whole extent of the box or not at
+        // all.
         if (most - least > (field.box.max[axis] - field.box.min[axis]) / 2)
             units.push_back(field.units.at(static_cast<std::size_t>(axis)));
     }

@@ -1,5 +1,6 @@
 #pragma once
-// The elements of an object: its vertices, edges, 2-faces and cells.
+// The elements of an object (its vertices, edges, 2-faces and cells): their directions, measurements and names, and
+// which of them a hyperplane cuts.
 
 #include <algorithm>
 #include <array>
@@ -49,16 +50,16 @@ std::size_t elementCount(const Object& object, ElementKind kind);
 /// The vector and `preferred` are in the object's own coordinates, before any rotation. A rotation that turns this
 /// direction to +w moves the whole element into one hyperplane w = const. If the span contains the origin, returns a
 /// vector perpendicular to the span: the one closest in direction to `preferred`, or any one if `preferred` lies in the
-/// span. The length of the result is arbitrary, but not 0. Requires element.index < elementCount(object, element.kind),
-/// and that `preferred` is not 0.
+/// span. The length of the result is arbitrary, but not 0. Requires that `preferred` is not 0, and that element.index <
+/// elementCount(object, element.kind).
 glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
-/// Returns the rotation by the smallest angle that, applied after `orientation`, turns the direction of the element to
-/// +w. The direction of the element is the result of directionOf(), where `preferred` is the direction that
+/// Returns the rotation by the smallest angle that turns the direction of the element to +w if it is applied after
+/// `orientation`. The direction of the element is the result of directionOf(), where `preferred` is the direction that
 /// `orientation` turns to +w. Requires element.index < elementCount(object, element.kind).
 geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
-/// Returns the element of this kind whose direction (see directionOf()) is closest to +w after rotation by
+/// Returns the element of kind `kind` whose direction (see directionOf()) is closest to +w after rotation by
 /// `orientation`. If `incident` is given, considers only elements that contain `incident` or are contained in it; among
 /// elements of the kind of `incident`, considers only `incident` itself. If the closest element already points to +w,
 /// returns instead the considered element with the next greater index or, after the last one, the first. Therefore a
@@ -67,10 +68,10 @@ geometry::Rotation rotationToW(const Object& object, const Element& element, con
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident = {});
 
-/// Returns, for each element of this kind in the order of indices, whether a hyperplane cuts it after rotation by
-/// `orientation`: whether the element has vertices on both sides of the hyperplane, or all of it lies in the
-/// hyperplane. An element that only touches the hyperplane is not cut. Vertices within kOnPlaneTolerance circumradii
-/// (see slice_set.hpp) of the hyperplane count as lying in it. A point of a point cloud is cut if it is within half of
+/// Returns, for each element of kind `kind` in the order of indices, whether a hyperplane cuts it after rotation by
+/// `orientation`. A hyperplane cuts an element that has vertices on both sides of the hyperplane, or that lies in the
+/// hyperplane. It does not cut an element that only touches it. Vertices within kOnPlaneTolerance circumradii (see
+/// slice_set.hpp) of the hyperplane count as lying in it. A point of a point cloud is cut if it is within half of
 /// plane.spacing of the hyperplane, as in CloudSlicer. Requires plane.count == 1, and that plane.listed is empty. Takes
 /// time linear in the size of the object.
 std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
@@ -90,8 +91,8 @@ struct PartsShowingElement {
     bool operator==(const PartsShowingElement&) const = default;
 
   private:
-    // A binary search without branches. It is done for each vertex and edge of all slices, and the processor could not
-    // predict the branches.
+    // Returns whether the sorted list contains `source`, by a binary search without branches. The search is done for
+    // each vertex and edge of all slices, and the processor could not predict the branches.
     static bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t source) {
         if (sorted.empty()) return false;
         const std::uint32_t* first = sorted.data();
@@ -104,7 +105,7 @@ struct PartsShowingElement {
     }
 };
 
-/// Finds the parts of a picture that show an element. These parts are:
+/// Finds the parts of a picture that show `element`, and writes them to `out`:
 /// - for a vertex: the vertex itself, and the slice vertices cut from its edges;
 /// - for an edge: the edge itself, and the slice vertices cut from it;
 /// - for a 2-face: its edges, and the slice edges cut from the 2-face;
@@ -122,12 +123,12 @@ struct ElementMeasurements {
     /// polyhedron encloses n times counts n times.
     std::optional<double> area, volume;
     glm::dvec4 center{0};  ///< the mean of the element's vertices
-    /// The unit of the length, area or volume, for an element of a field's box: the product of the units of the axes
-    /// along which the element extends. Empty if one of these is unknown, and for all other objects.
+    /// The unit of the length, area or volume, if the element belongs to the box of a field: the product of the units
+    /// of the axes along which the element extends. Empty if one of these units is unknown, and for all other objects.
     std::string unit;
 };
 
-/// Measures an element in the coordinates of vertexInFile(): those of the object's file, before any rotation, or, for a
+/// Measures an element in the coordinates of vertexInFile(), before any rotation: those of the object's file or, for a
 /// field, those of its function. Takes time linear in the size of the element, apart from sorting its vertices.
 /// Requires element.index < elementCount(object, element.kind).
 ElementMeasurements measureElement(const Object& object, const Element& element);
@@ -136,25 +137,26 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
 /// time linear in the size of the element. Requires element.index < elementCount(object, element.kind).
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation, const Element& element);
 
-/// Returns the name of the polygon that a 2-face is (see polytopes::nameOfPolygon()), in the coordinates of
+/// Returns the name of the polygon that a 2-face forms (see polytopes::nameOfPolygon()), in the coordinates of
 /// vertexInFile(). Requires face < elementCount(object, ElementKind::face).
 std::string nameOfFace(const Object& object, std::size_t face);
 
-/// Returns the w coordinate, after rotation by `orientation`, of the next vertex above `w` or, if `upward` is false,
-/// below `w`. The section w = const of a polytope has the same combinatorial type at all values of w between two
-/// successive vertices (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlaneTolerance
+/// Returns the w coordinate of the next vertex above `w` or, if `upward` is false, below `w`, after rotation by
+/// `orientation`. Between the w of two successive vertices, all sections w = const of a polytope have the same
+/// combinatorial type (Coxeter, Regular Polytopes, §13.1). Coordinates that differ by at most kOnPlaneTolerance
 /// circumradii (see slice_set.hpp) count as equal. Returns an empty optional if there is no such vertex.
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward);
 
-/// A group of vertices whose w coordinates are equal, apart from rounding errors: their mean w, and their number.
+/// A group of vertices whose w coordinates are equal, apart from rounding errors: the mean of these coordinates, and
+/// the number of vertices.
 struct HeightGroup {
     double w = 0;
     std::size_t vertexCount = 0;
 };
 
-/// Returns the w coordinates of the vertices of the rotated object, in ascending order. Successive coordinates that
-/// differ by at most kOnPlaneTolerance circumradii form one group (see groupHeights()).
+/// Returns the w coordinates of the vertices of the object, rotated by `orientation`, in ascending order. Successive
+/// coordinates that differ by at most kOnPlaneTolerance circumradii form one group (see groupHeights()).
 std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rotation& orientation);
 
 /// Sorts w coordinates, and groups successive coordinates that differ by at most `same`. The w of a group is the mean

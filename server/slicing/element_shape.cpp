@@ -18,13 +18,13 @@ namespace {
 using geometry::CellComplex;
 using geometry::PointCloud;
 
-// Returns the index of a number in a sorted list that contains it.
+// Returns the index of `number` in a sorted list that contains it.
 std::uint32_t indexIn(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
 }
 
-// Appends the vertices with these numbers, rotated by `turn`, to `out`. Sets the entry of SliceSet::vertexSource for
-// vertex v to firstSource + v. Returns the w coordinate of the first rotated vertex.
+// Appends the vertices with the indices `numbers`, rotated by `turn`, to `out`. Sets the entry of
+// SliceSet::vertexSource for vertex v to firstSource + v. Returns the w coordinate of the first rotated vertex.
 double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<std::uint32_t>& numbers,
                    std::uint32_t firstSource, const geometry::Rotation& turn, SliceSet& out) {
     for (const std::uint32_t v : numbers) {
@@ -34,15 +34,15 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
     return turn(vertices[numbers.front()]).w;
 }
 
-// Appends the 2-faces of a cell. `vertices` and `edges` are the sorted numbers of the cell's vertices and edges in the
-// complex; `out` must already contain these vertices.
+// Appends the 2-faces of a cell to `out`. `vertices` and `edges` are the sorted indices of the cell's vertices and
+// edges in the complex; `out` must already contain these vertices.
 void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
     // If each loop whose entry in cellSigns is −1 is reversed, the loops of all 2-faces have the same direction in the
-    // hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces toward +w. Let
-    // a, b and c be the corners of the triangles into which these loops are divided. The direction is counterclockwise
-    // if `volume`, the sum of det(a, b, c), is positive, else clockwise.
+    // hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces toward +w. To
+    // find it, these loops are divided into triangles with the corners a, b and c. The direction is counterclockwise if
+    // `volume`, the sum of det(a, b, c), is positive, else clockwise.
     double volume = 0;
     for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
         const auto loop = p.faces[p.cells.items[at]];
@@ -63,14 +63,14 @@ void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std:
     }
 }
 
-// Appends the vertices, edges and 2-faces of the shape to `out`, but no entries to vertexBegin, edgeBegin and
-// faceBegin. `sources` must be the result of findPartsShowing(). Returns the w coordinate of the shape.
+// Appends the vertices, edges and 2-faces of the element's shape to `out`, but no entries to vertexBegin, edgeBegin and
+// faceBegin. `sources` must be the result of findPartsShowing() for the element. Returns the w coordinate of the shape.
 double addShape(const CellComplex& p, const Element& element, const PartsShowingElement& sources,
                 const geometry::Rotation& turn, SliceSet& out) {
     const std::vector<std::uint32_t>& vertices = sources.ownVertices;
     const double w = addVertices(p.vertices, vertices, static_cast<std::uint32_t>(p.edges.size()), turn, out);
-    // sources.edges also contains source numbers of slice edges cut from 2-faces, which are skipped: the shape has only
-    // edges of the object.
+    // The shape has only edges of the object. sources.edges also contains source numbers of slice edges that were cut
+    // from 2-faces; they are skipped.
     const auto faces = static_cast<std::uint32_t>(p.faces.size());
     std::vector<std::uint32_t> edges;
     for (const std::uint32_t source : sources.edges) {

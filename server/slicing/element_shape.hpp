@@ -1,5 +1,5 @@
 #pragma once
-// The shape of one element of an object, in three dimensions.
+// Writes the true shape of one element of a 4-D object, such as a cell, as a slice.
 
 #include "geometry/rotation.hpp"
 #include "slicing/element.hpp"
@@ -8,11 +8,11 @@
 
 namespace oval4d::slicing {
 
-/// Writes an element to `out` as the only slice: the element's vertices and edges, and for a cell its 2-faces, whose
+/// Writes an element to `out` as the only slice: the element's vertices and edges and, for a cell, its 2-faces, whose
 /// loops are counterclockwise seen from outside. The element is rotated by `orientation`, and then by the rotation that
 /// turns its direction to +w (see rotationToW()). Therefore the element lies in a hyperplane w = const, where it has
 /// its true shape and size. The source numbers of the slice's vertices, edges and faces say which elements of the
-/// object they are (see SliceSet: elements that lie in the hyperplane). Overwrites `out`; `out.rotatedVertices` is
+/// object they are, as for elements that lie in a hyperplane (see SliceSet). Overwrites `out`; `out.rotatedVertices` is
 /// empty. Requires element.index < elementCount(object, element.kind).
 void writeElementAsSlice(const Object& object, const Element& element, const geometry::Rotation& orientation,
                          SliceSet& out);

@@ -1,5 +1,5 @@
 #pragma once
-// Settings for the display of a field.
+// The settings that say how a field is shown: its levels, which side of them is inside, and its fog.
 
 #include <cstddef>
 #include <cstdint>
@@ -17,12 +17,12 @@ inline constexpr std::size_t kMaxLevels = 4;
 /// The maximum absolute value of a level, and of the value of a control point of fog.
 inline constexpr double kMaxLevel = 1e30;
 
-/// A control point of the transfer function of fog, which maps the values of a field to opacities and colors. The
-/// transfer function is linear between two successive control points, and constant below the first and above the last.
+/// A control point of the transfer function of fog. The transfer function maps the values of a field to opacities and
+/// colors. It is linear between two successive control points, and constant below the first and above the last.
 struct FogControlPoint {
     double value = 0;
-    double opacity = 0;  ///< 0 … 1, of a layer of fog that is as thick as the object's circumradius
-    std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, a color that scene::makeFogTable() chooses
+    double opacity = 0;  ///< 0 … 1: the opacity of a layer of fog that is as thick as the object's circumradius
+    std::optional<std::uint32_t> color = {};  ///< 0xRRGGBB; if empty, scene::makeFogTable() chooses a color
     bool operator==(const FogControlPoint&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<FogControlPoint> auto& point, auto& visit) {
@@ -35,8 +35,8 @@ void visitStoredMembers(serialization::ReadOrWritten<FogControlPoint> auto& poin
 /// The least and the greatest number of control points of a transfer function.
 inline constexpr std::size_t kMinFogControlPoints = 2, kMaxFogControlPoints = 8;
 
-/// How a field is shown: the levels whose surfaces are shown, which side of a level is inside, and the fog in the
-/// slices.
+/// The settings that say how a field is shown: the levels whose surfaces are shown, which side of a level is inside,
+/// and the fog in the slices.
 struct FieldSettings {
     std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
     fields::Inside inside = fields::Inside::below;

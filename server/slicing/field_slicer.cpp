@@ -16,7 +16,8 @@ namespace oval4d::slicing {
 
 namespace {
 
-/// Sets the walls of a section: one for each facet of the box that is not parallel to the slice's hyperplane.
+/// Sets the walls of `section`: one half-space for each facet of the box that is not parallel to the slice's
+/// hyperplane.
 void findWalls(const fields::Box& box, FieldSection& section) {
     constexpr double kParallel = 1e-12;
     section.walls.clear();
@@ -29,16 +30,17 @@ void findWalls(const fields::Box& box, FieldSection& section) {
     }
 }
 
-/// Returns the steps from a lattice point to the next along x, y and z, in the function's coordinates.
+/// Returns the vectors from a lattice point to the next points along x, y and z, in the function's coordinates. `step`
+/// is the distance between these points in the slice.
 std::array<glm::dvec4, 3> stepsOf(const FieldSection& section, double step) {
     return {step * section.axes[0], step * section.axes[1], step * section.axes[2]};
 }
 
-/// Returns a number proportional to the number of points that a surface has on a lattice with this step; 0 for the step
-/// 0, which stands for no surface.
+/// Returns a number proportional to the number of points that a surface has on a lattice with the step `step`. A step
+/// of 0 stands for no surface, and gives 0.
 double pointWeight(double step) { return step > 0 ? 1 / (step * step) : 0; }
 
-/// Returns the axis-parallel bounding box of the domain's slice, which must have vertices.
+/// Returns the axis-parallel bounding box of slice number `slice` of the domain. The slice must have vertices.
 std::pair<glm::dvec3, glm::dvec3> boundsOf(const SliceSet& slices, int slice) {
     const glm::dvec3* const vertices = slices.vertices.data() + slices.vertexBegin[static_cast<std::size_t>(slice)];
     glm::dvec3 min = vertices[0], max = vertices[0];
@@ -59,8 +61,8 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     const bool hasFog = !settings.fog.empty() && !detail.fogSteps.empty();
     out.surfaces.resize(count);
     out.fogs.resize(hasFog ? count : 0);
-    // Each slice gets a share of the limits on time and points, in proportion to the estimated number of the points of
-    // its surfaces.
+    // Each slice gets a share of the limits on time and points. The share is proportional to the estimated number of
+    // the points of the slice's surfaces.
     double sum = 0;
     for (const double step : detail.steps) sum += pointWeight(step);
     if (sum == 0) {
@@ -79,12 +81,13 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
             extractSurfacesAndFog(field, toFunction, settings, detail, task, i, out, worker);
         }
     };
-    parallel::invoke(forkJoin_, [&] { work(0); }, [&] { work(1); });
+    parallel::invoke(
+        forkJoin_, [&] { work(0); }, [&] { work(1); });
     field.requireReadable();
 }
 
-// Returns the factor by which the steps of fog must be enlarged to stay within maxFogSamples() and
-// surfaceLimits().time.
+// Returns the factor by which the lattice steps of fog must be enlarged, so that the number of samples is at most
+// maxFogSamples() and the time at most surfaceLimits().time.
 double FieldSlicer::fogCoarsening(const fields::Field& field, const SurfaceDetail& detail, const SliceSet& slices) {
     constexpr double kEnlarge = 1.05, kMost = 1e3, kPerPoint = 3;
     const double perPoint = field.function->cost().value + kPerPoint;

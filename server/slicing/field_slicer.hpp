@@ -1,5 +1,5 @@
 #pragma once
-// Slices 4-D scalar fields.
+// Slices 4-D scalar fields, with the surfaces and the fog in each slice.
 
 #include <array>
 
@@ -15,16 +15,17 @@
 
 namespace oval4d::slicing {
 
-/// Slices fields: cuts the domain, the box on which the field is defined, like a polytope, and in each slice extracts
-/// the surfaces and samples the fog. Reuses its memory. Only one thread at a time may use a slicer.
+/// Slices fields. Cuts the domain, the box on which the field is defined, like a polytope. Then extracts the surfaces
+/// and samples the fog in each slice of the domain. Reuses its memory. Only one thread at a time may use a slicer.
 class FieldSlicer {
   public:
-    /// If `forkJoin` is not null, processes slices on two cores. `forkJoin` must outlive this object.
+    /// If `forkJoin` is not null, the slicer uses it to process slices on two cores. `forkJoin` must outlive this
+    /// object.
     explicit FieldSlicer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), domains_(forkJoin) {}
 
-    /// Slices `field` rotated by `orientation`. `out` gets the vertices, edges and faces of the slices of field.domain
-    /// and, for each slice, its surfaces and fog. `detail.steps` and `detail.fogSteps` must each have one entry per
-    /// slice, or be empty. If `detail.steps` is empty, no surfaces are extracted; if `detail.fogSteps` or
+    /// Slices `field`, rotated by `orientation`. Writes to `out` the vertices, edges and faces of the slices of
+    /// field.domain and, for each slice, its surfaces and fog. `detail.steps` and `detail.fogSteps` must each have one
+    /// entry per slice, or be empty. If `detail.steps` is empty, no surfaces are extracted; if `detail.fogSteps` or
     /// `settings.fog` is empty, no fog is sampled. Overwrites `out` and reuses its memory. Throws std::runtime_error if
     /// the samples are in a file that can no longer be read.
     void slice(const fields::Field& field, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
@@ -33,13 +34,13 @@ class FieldSlicer {
   private:
     // The work for one slice.
     struct SliceTask {
-        // The lattice step of the surfaces, and the fraction of the SurfaceLimits that this slice may use. If the
-        // fraction is 0, no surfaces are extracted.
+        // `step` is the lattice step of the surfaces. `share` is the fraction of the SurfaceLimits that this slice may
+        // use; if it is 0, no surfaces are extracted.
         double step = 0, share = 0;
-        double fogStep = 0;  // the lattice step of the fog; 0: sample no fog
+        double fogStep = 0;  // the lattice step of the fog; if 0, no fog is sampled
     };
-    // Extracts the surfaces and samples the fog of one slice. `worker` is the index in extractors_ and sections_ of the
-    // objects to use.
+    // Extracts the surfaces and samples the fog of slice number `slice`. `worker` is the index of the members of
+    // extractors_ and sections_ to use: 0 or 1, different for two threads that run at the same time.
     void extractSurfacesAndFog(const fields::Field& field, const glm::dmat4& toFunction, const FieldSettings& settings,
                                const SurfaceDetail& detail, const SliceTask& task, int slice, SliceSet& out,
                                std::size_t worker);
@@ -47,7 +48,7 @@ class FieldSlicer {
 
     parallel::ForkJoin* forkJoin_;
     CellComplexSlicer domains_;
-    std::array<SurfaceExtractor, 2> extractors_;  // one for each of two threads, like sections_
+    std::array<SurfaceExtractor, 2> extractors_;  // one for each of two threads; so is sections_
     std::array<FieldSection, 2> sections_;
 };
 

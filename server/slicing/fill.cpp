@@ -58,7 +58,7 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
     out.pieceBegin.push_back(static_cast<std::uint32_t>(out.cornerBegin.size() - 1));
 }
 
-// Sets sides_ to the sides of the loops, whose corners are points_.
+// Sets sides_ to the sides of the loops of the current face. The corners of the loops are points_.
 void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end) {
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - faceFrame_.origin, faceFrame_.x), glm::dot(p - faceFrame_.origin, faceFrame_.y));
@@ -70,8 +70,8 @@ void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uin
         for (std::size_t i = 0; i < size; ++i) {
             const glm::dvec2 a = onPlane(points_[first + i]);
             const glm::dvec2 b = onPlane(points_[first + (i + 1) % size]);
-            // The inside of a loop is to the left of a side that goes up, so the winding number decreases by 1 from
-            // left to right across such a side.
+            // The inside of a loop is to the left of a side that goes up. So across such a side, from left to right,
+            // the winding number decreases by 1.
             const double slope = (b.x - a.x) / (b.y - a.y);
             if (a.y < b.y) sides_.push_back({a, b, slope, -1, 0, 0, 0});
             if (a.y > b.y) sides_.push_back({b, a, slope, 1, 0, 0, 0});
@@ -80,8 +80,8 @@ void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uin
     }
 }
 
-// Returns whether points_, the corners of `face`, lie in its plane. The tolerance is far above rounding errors, and far
-// below what can be seen.
+// Returns whether points_, the corners of `face`, lie in the plane of `face`. The tolerance is far greater than
+// rounding errors, and far less than what can be seen.
 bool FaceFiller::isFlat(const FilledFaces::FilledFace& face) const {
     double size = 0, distance = 0;
     for (const glm::dvec3& p : points_) {
@@ -91,7 +91,8 @@ bool FaceFiller::isFlat(const FilledFaces::FilledFace& face) const {
     return distance <= 1e-5 * size + 1e3 * epsilon_;
 }
 
-// Subtracts `steps` from stepsLeft_. Returns false, and subtracts nothing, if too few steps are left.
+// Subtracts `steps` from the number of steps that are left. Returns false, and subtracts nothing, if fewer than `steps`
+// are left.
 bool FaceFiller::spendSteps(std::size_t steps) {
     if (steps > stepsLeft_) return false;
     stepsLeft_ -= steps;
@@ -113,8 +114,9 @@ void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::u
     }
 }
 
-// Sets points_ to the corners of the loops. Finds the plane of the loops from three corners that are far apart, and
-// sets faceFrame_ and the normal and offset of `out`. Returns false if all corners are collinear.
+// Sets points_ to the corners of the loops, which are the faces begin … end − 1 of `slices`. Finds the plane of the
+// loops from three corners that are far apart. Sets faceFrame_ to this plane, and sets the normal and offset of `out`.
+// Returns false if all corners are collinear.
 bool FaceFiller::findFaceFrame(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                                FilledFaces::FilledFace& out) {
     points_.clear();
@@ -146,8 +148,8 @@ bool FaceFiller::findFaceFrame(const SliceSet& slices, std::size_t slice, std::u
     return true;
 }
 
-// Sets levels_, and the levels of the ends of each side. Between two successive levels, no side begins, ends or crosses
-// another.
+// Sets levels_: the heights y at which a side begins, ends or crosses another. Sets the levels of the ends of each
+// side. Between two successive levels, no side begins, ends or crosses another.
 void FaceFiller::findLevels() {
     levels_.clear();
     for (const LoopSide& side : sides_) {
@@ -182,8 +184,8 @@ void FaceFiller::findLevels() {
     }
 }
 
-// Sweeps upward from level to level, and appends the pieces of the face to `out`. In the strip between two levels, the
-// order of the sides from left to right does not change. Returns the greatest absolute winding number.
+// Sweeps a line upward from level to level, and appends the pieces of the face to `out`. In the strip between two
+// levels, the order of the sides from left to right does not change. Returns the greatest absolute winding number.
 int FaceFiller::sweep(FilledFaces& out) {
     waiting_.resize(sides_.size());
     for (std::uint32_t i = 0; i < sides_.size(); ++i) waiting_[i] = i;
@@ -231,8 +233,8 @@ int FaceFiller::sweep(FilledFaces& out) {
     return most;
 }
 
-// Sorts the active sides from left to right at height y. They are nearly sorted from the previous strip, so insertion
-// sort is fastest.
+// Sorts the active sides from left to right at height y. The sides are nearly sorted already, from the previous strip,
+// so insertion sort is fastest.
 void FaceFiller::sortActive(double y) {
     for (std::size_t i = 0; i < active_.size(); ++i) {
         const std::uint32_t side = active_[i];
@@ -243,9 +245,10 @@ void FaceFiller::sortActive(double y) {
     }
 }
 
-// Adds the region between two sides in the current strip, which lies inside the face and begins at height `bottom`:
-// extends an open piece if this keeps it convex, else begins a new piece. Only a piece whose left side arrives at the
-// left end of the region can be extended. There is at most one such piece, except where several sides meet.
+// Adds the region between the sides `left` and `right` in the current strip. The region lies inside the face and begins
+// at height `bottom`. Extends an open piece by the region if the piece stays convex, else begins a new piece. Only a
+// piece whose left side arrives at the left end of the region can be extended. There is at most one such piece, except
+// where several sides meet.
 void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
     const LoopSide &l = sides_[left], &r = sides_[right];
     const double x = l.at(bottom);
@@ -272,8 +275,8 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositi
     open_.push_back(piece);
 }
 
-// Returns whether the piece can continue upward from height `bottom` along these sides: whether it stays convex, and
-// its chains have room for another corner.
+// Returns whether the piece can continue upward from height `bottom` along the sides `left` and `right`: whether the
+// piece stays convex, and its chains have room for another corner.
 bool FaceFiller::canContinue(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right,
                              double bottom) const {
     const LoopSide &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
@@ -286,7 +289,7 @@ bool FaceFiller::canContinue(const ConvexPiece& piece, const LoopSide& left, con
            follows(l, left, 1) && follows(r, right, -1);
 }
 
-// Completes a piece at height `top` and appends it to `out`, unless it is degenerate.
+// Completes a piece at height `top` and appends it to `out`, unless the piece is degenerate.
 void FaceFiller::close(const ConvexPiece& piece, double top, FilledFaces& out) const {
     const std::size_t first = out.corners.size();
     glm::dvec2 last(0);

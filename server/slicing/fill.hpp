@@ -1,6 +1,6 @@
 #pragma once
-// Filled faces of slices, decomposed into convex polygons. Nonconvex slices, also in the projection of the object, and
-// projections of objects whose 2-faces are not convex are drawn and exported in this form.
+// Filled faces of slices, decomposed into convex polygons. This form is used to draw and export nonconvex slices (also
+// in the projection of the object) and projections of objects whose 2-faces are not convex.
 
 #include <array>
 #include <compare>
@@ -15,9 +15,9 @@
 
 namespace oval4d::slicing {
 
-/// The filled faces of slices. A hyperplane may cut a cell in several loops. Together they bound one face, which is
-/// filled by the nonzero winding rule: a point of the plane belongs to the face if the sum of the winding numbers of
-/// the loops around it is not 0.
+/// The filled faces of slices. A hyperplane may cut a cell in several loops. Together, the loops bound one face, which
+/// is filled by the nonzero winding rule: a point of the plane belongs to the face if the sum of the winding numbers of
+/// the loops around the point is not 0.
 ///
 /// Slice i has the faces faceBegin[i] … faceBegin[i + 1] − 1. A face consists of pieces: convex polygons that do not
 /// overlap, unless the face is filled roughly (see FaceFiller::fill()). Face f has the pieces pieceBegin[f] …
@@ -26,11 +26,11 @@ namespace oval4d::slicing {
 /// number is negative.
 struct FilledFaces {
     struct FilledFace {
-        glm::dvec3 normal;  ///< unit length, outward; the plane is dot(normal, x) = offset
+        glm::dvec3 normal;  ///< a unit vector, outward; the plane of the face is dot(normal, x) = offset
         double offset;
-        std::uint32_t source;              ///< the source number, as in SliceSet::faceSource
-        std::uint32_t firstLoop, endLoop;  ///< the face's loops: faces firstLoop … endLoop − 1 of the SliceSet
-        int winding;  ///< the maximum of |winding number|; 0 if the face is filled roughly, or is not flat
+        std::uint32_t source;  ///< the source number (which cell or 2-face was cut), as in SliceSet::faceSource
+        std::uint32_t firstLoop, endLoop;  ///< the face's loops are the faces firstLoop … endLoop − 1 of the SliceSet
+        int winding;  ///< the maximum of |winding number| in the face; 0 if the face is filled roughly, or is not flat
     };
     std::vector<std::uint32_t> faceBegin, pieceBegin, cornerBegin;
     std::vector<FilledFace> faces;
@@ -46,41 +46,42 @@ class FaceFiller {
   public:
     static constexpr std::size_t kNoLimit = ~std::size_t{0};
 
-    /// Fills the faces of the first `count` slices, or of all slices if there are fewer. The other slices have no faces
-    /// in `out`. `circumradius` is that of the sliced polytope. Overwrites `out` and reuses its memory. Returns how
-    /// many of `steps` are left.
+    /// Fills the faces of the first `count` slices, or of all slices if there are fewer, and writes them to `out`. The
+    /// other slices have no faces in `out`. `circumradius` is that of the sliced polytope. Overwrites `out` and reuses
+    /// its memory. Returns how many of `steps` are left.
     ///
     /// `steps` limits the time for all faces together: a face whose loops have n sides that cross at k points takes at
     /// most 2 n² + n · k steps. If too few steps are left for a face, the face is filled roughly: each of its loops
     /// becomes the triangles between the sides of the loop and the mean of its corners. These triangles cover exactly
-    /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are. A face whose only loop
-    /// is not flat, as of surfaces, is filled with such triangles in any case, and takes no steps: the triangles
+    /// the interior of the loop if the loop is star-shaped about the mean, as star polygons are. A face with a single
+    /// loop that is not flat, as in surfaces, is always filled with such triangles, and takes no steps. The triangles
     /// contain the sides of the loop, so neighboring faces meet.
     std::size_t fill(const SliceSet& slices, double circumradius, FilledFaces& out, std::size_t steps = kNoLimit,
                      std::size_t count = kNoLimit);
 
   private:
-    // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the face's plane.
+    // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the plane of the face.
     struct LoopSide {
         glm::dvec2 low, high;
         double slope;               // dx/dy
         int winding;                // the change of the winding number across the side, from left to right
-        std::uint32_t from, to;     // the levels of its ends: indices into levels_
-        double middle;              // x at half the height of the current strip (see active_)
+        std::uint32_t from, to;     // the levels of the lower and the upper end: indices into levels_
+        double middle;              // x at half the height of the current strip (the region between two levels)
         double at(double y) const;  // returns x at height y
     };
-    // A convex piece under construction, from the bottom up: its left and right chains of corners so far, and the sides
-    // that the chains currently follow.
+    // A convex piece that is being built from the bottom up. It has a left and a right chain of corners so far, and the
+    // sides that the two chains currently follow.
     struct ConvexPiece {
         static constexpr std::size_t kMaxCorners = 16;  // the maximum number of corners in a chain
         std::array<glm::dvec2, kMaxCorners> left, right;
         std::size_t leftCount, rightCount;
         std::uint32_t leftSide, rightSide;
-        // `hasPositiveWinding`: whether the winding number in the piece is positive. `continued`: whether the piece
-        // extends into the current strip (see active_).
+        // hasPositiveWinding: whether the winding number in the piece is positive. continued: whether the piece extends
+        // into the current strip (the region between two levels).
         bool hasPositiveWinding, continued;
     };
-    // Where the left side of an open piece arrives at the current level: its x, and the index of the piece.
+    // The place where the left side of an open piece arrives at the current level: its x coordinate, and the index of
+    // the piece.
     struct PieceAtLevel {
         double x;
         std::uint32_t piece;
@@ -106,15 +107,16 @@ class FaceFiller {
     void close(const ConvexPiece& piece, double top, FilledFaces& out) const;
 
     std::size_t stepsLeft_ = 0;
-    double epsilon_ = 0;  // lengths up to this are treated as 0
+    double epsilon_ = 0;  // lengths of at most this count as 0
     FaceFrame faceFrame_{};
     std::vector<glm::dvec3> points_;  // the corners of the loops of the current face
     std::vector<LoopSide> sides_;
-    std::vector<double> levels_;          // each y at which a side begins, ends or crosses another, ascending
-    std::vector<std::uint32_t> waiting_;  // all sides, sorted by their lower levels
-    std::vector<std::uint32_t> active_;   // sides in the current strip (between two levels), from left to right
-    std::vector<ConvexPiece> open_;       // pieces that may continue in the next strip
-    std::vector<PieceAtLevel> arrivals_;  // one for each open piece from below the current strip, left to right
+    std::vector<double> levels_;  // each height y at which a side begins, ends or crosses another, in ascending order
+    std::vector<std::uint32_t> waiting_;  // the indices of all sides, sorted by their lower levels
+    // the indices of the sides in the current strip (between two levels), from left to right
+    std::vector<std::uint32_t> active_;
+    std::vector<ConvexPiece> open_;       // the pieces that may continue in the next strip
+    std::vector<PieceAtLevel> arrivals_;  // one entry for each open piece from below the current strip, left to right
 };
 
 }  // namespace oval4d::slicing

@@ -1,5 +1,5 @@
 #pragma once
-// Slicing by hyperplanes that are not evenly spaced.
+// Slices objects by hyperplanes whose values of w are listed, because they are not evenly spaced.
 
 #include "geometry/hyperplanes.hpp"
 #include "slicing/slice_set.hpp"
@@ -7,7 +7,8 @@
 namespace oval4d::slicing {
 
 /// Sets `out`, except its surfaces and fogs, to the slices in the hyperplanes w = planes.listed[i]; `planes.listed`
-/// must not be empty. Calls cut(plane, set) for each hyperplane; `cut` must write the slice in `plane` to `set`.
+/// must not be empty. Calls cut(plane, set) for each hyperplane; the function `cut` must write the slice in `plane` to
+/// `set`.
 template <typename Cut>
 void cutEachHyperplane(const geometry::Hyperplanes& planes, SliceSet& out, Cut cut) {
     SliceSet one;

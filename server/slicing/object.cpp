@@ -28,7 +28,8 @@ const std::vector<glm::dvec4>& verticesOf(const Object& object) {
         object);
 }
 
-// The radius is small, because the domain's edges only frame the surfaces.
+// Returns the radius of the balls at the corners of a field's domain. The radius is small, because the domain's edges
+// only frame the surfaces.
 double relativeBallRadius(const fields::Field& /*field*/) { return 0.016; }
 
 double relativeBallRadius(const CellComplex& p) {
@@ -36,12 +37,13 @@ double relativeBallRadius(const CellComplex& p) {
     for (const auto& [a, b] : p.edges) sum += glm::distance(p.vertices[a], p.vertices[b]);
     const double meanEdge = sum / static_cast<double>(p.edges.size());
     const double radius = 0.062 * std::min(1.0, std::pow(meanEdge / p.circumradius, 0.65));
-    // The bars that show the edges of a nonconvex slice may cross each other. Half the radius keeps the crossings
+    // The bars that show the edges of a nonconvex slice may cross each other. With half the radius, the crossings stay
     // visible.
     return p.convex ? radius : 0.5 * radius;
 }
 
-// However fine the mesh of a surface is, the curves in its slices must be visible.
+// Returns the radius of the balls and bars of a surface. The radius has a lower bound: however fine the mesh of the
+// surface is, the curves in its slices must be visible.
 double relativeBallRadius(const geometry::SurfaceMesh& surface) {
     constexpr double kLeast = 0.016;
     return std::max(kLeast, relativeBallRadius(static_cast<const CellComplex&>(surface)));
@@ -86,10 +88,10 @@ glm::dvec4 perpendicularTo(const glm::dvec4& a, const glm::dvec4& b, const glm::
     return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
 }
 
-// A cell's normal is the 4-D counterpart of a polygon's area vector. To compute it, the cell's 2-faces are divided into
-// triangles that are counterclockwise seen from outside the cell. The normal is the sum of perpendicularTo() over these
-// triangles, applied to the vectors from a fixed vertex of the cell to the three corners. The orientations of all cells
-// agree, so that all normals point outward.
+// Finds the normal of each cell: the 4-D counterpart of a polygon's area vector. The cell's 2-faces are divided into
+// triangles that are counterclockwise seen from outside the cell. For each triangle, perpendicularTo() is applied to
+// the vectors from a fixed vertex of the cell to its three corners. The normal is the sum of the results. The
+// orientations of all cells agree, so all normals point outward.
 void findCellHyperplanes(const CellComplex& p, std::vector<glm::dvec4>& normals, std::vector<double>& offsets) {
     normals.assign(p.cells.size(), glm::dvec4(0));
     offsets.assign(p.cells.size(), 0);
@@ -123,7 +125,9 @@ std::array<std::size_t, 4> elementCounts(const Object& object) {
                                         return Counts{complex.vertices.size(), complex.edges.size(),
                                                       complex.faces.size(), complex.cells.size()};
                                     },
-                                    [](const PointCloud& cloud) { return Counts{cloud.points.size(), 0, 0, 0}; }},
+                                    [](const PointCloud& cloud) {
+                                        return Counts{cloud.points.size(), 0, 0, 0};
+                                    }},
                          object);
 }
 
@@ -133,7 +137,8 @@ bool hasConvexFaces(const Object& object) {
                          object);
 }
 
-// A new kind has no case here, so that this function does not compile until the kind states its properties.
+// This function has one case per kind of object. A new kind has no case here, so the function does not compile until
+// the kind states its properties.
 ObjectKindProperties propertiesOf(const Object& object) {
     return std::visit(Overloaded{[](const PolytopePtr& /*polytope*/) {
                                      return ObjectKindProperties{.noun = "polytope",

@@ -34,12 +34,13 @@ using polytopes::Polytope;
 using serialization::ByteReader;
 using serialization::ByteWriter;
 
-// The members of an object that a message contains: those that are stored, from which the object can be made again, or
-// all (see serialization/stored_members.hpp).
+// Which members of an object a message contains: `stored` are those from which the object can be made again, and `all`
+// are all members (see serialization/stored_members.hpp).
 enum class Members : std::uint8_t { stored, all };
 
-// Writes members. Samples are written inline or, if they are in a file and exceed the limit for inline samples (see
-// writeObjectContent()), as the index of their file and their place in this file.
+// Writes the members of an object. The samples of an array are written inline, unless they are in a file and exceed the
+// limit for inline samples (see writeObjectContent()). In that case, the index of their file and their place in this
+// file are written.
 class ObjectWriter {
   public:
     ObjectWriter(ByteWriter& archive, Members members, MappedFiles& files, std::size_t maxInMemory)
@@ -94,11 +95,11 @@ class ObjectWriter {
     ByteWriter& archive_;
     const Members members_;
     MappedFiles& files_;
-    std::size_t maxInMemory_;  // how many more samples may be written inline although they are in a file
+    std::size_t maxInMemory_;  // how many more samples that are in a file may be written inline
 };
 
-// Reads the members that an ObjectWriter has written. Throws std::runtime_error if bytes or files are missing, or if a
-// row of a jagged array does not lie within its items.
+// Reads the members of an object that an ObjectWriter has written. Throws std::runtime_error if bytes or files are
+// missing, or if a row of a jagged array does not lie within its items.
 class ObjectReader {
   public:
     ObjectReader(ByteReader& archive, Members members, const MappedFiles& files)
@@ -167,7 +168,7 @@ class ObjectReader {
     const MappedFiles& files_;
 };
 
-// Writes an object. A field is written as its definition, from which it is made again.
+// Writes an object. A field is written as its definition, from which the field can be made again.
 void writeObject(const Object& object, ObjectWriter& writer) {
     std::visit(Overloaded{[&](const FieldPtr& field) {
                               const fields::FieldDefinition definition = fields::definitionByFunctions(*field);
@@ -177,19 +178,19 @@ void writeObject(const Object& object, ObjectWriter& writer) {
                object);
 }
 
-// Throws std::runtime_error if the field is invalid.
+// Makes a field from its definition. Throws std::runtime_error if the definition is invalid.
 fields::Field madeFrom(const fields::FieldDefinition& definition) {
     auto field = fields::fieldFromDefinition(definition);
     if (!field) throw std::runtime_error("an invalid field: " + field.error().message);
     return std::move(*field);
 }
 
-// The kind of an object is written as the index of its alternative in Object.
+// Writes the kind of an object, as the index of its alternative in the variant Object.
 void writeKind(const Object& object, ByteWriter& archive) { archive(static_cast<std::uint8_t>(object.index())); }
 
-// Reads the kind of an object. Returns a null pointer to an object of this kind. Callers visit it to choose the
-// function that reads the rest, so that the code does not compile if a kind has no function. Throws std::runtime_error
-// if the kind is unknown.
+// Reads the kind of an object. Returns an Object with a null pointer of this kind. Callers visit the result to choose
+// the function that reads the rest of the object, so that the code does not compile if a kind has no function. Throws
+// std::runtime_error if the kind is unknown.
 template <typename... Kinds>
 Object readKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> /*kinds*/) {
     const std::array<Object, sizeof...(Kinds)> ofEachKind{Kinds()...};

@@ -11,10 +11,10 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Lengths, relative to the size of the projection. They are large compared with ProjectedCells::kTinyShift.
+// Lengths, as fractions of the size of the projection. They are large compared with ProjectedCells::kTinyShift.
 constexpr double kBesideLine =
-    1e-7;  // the distance of a tested line in a 2-face from a line that may bound visible parts
-constexpr double kShortest = 2e-6;  // shorter parts of such lines are not tested
+    1e-7;  // the distance of a tested line in a 2-face from a line that may bound visible parts of the 2-face
+constexpr double kShortest = 2e-6;  // parts of tested lines that are shorter than this are not tested
 
 double crossProduct(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -80,9 +80,10 @@ bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const
     return !cells_.isExhausted();
 }
 
-// Divides the projection of a cell into the tetrahedra between its center, the centers of its 2-faces and their sides.
-// Returns the common sign of their volumes, or 0 if the signs differ. If they agree, the winding number of the boundary
-// of the cell has this sign at all points of the projection.
+// Returns on which side of its boundary a projected cell lies, as the sign of its volume. The projection is divided
+// into the tetrahedra between its center, the centers of its 2-faces and the sides of the 2-faces. Returns the common
+// sign of their volumes, or 0 if the signs differ. If the signs agree, the winding number of the boundary of the cell
+// has this sign at all points of the projection.
 int OcclusionFinder::sideOfCell(std::uint32_t cell) const {
     const auto centerOf = [this](std::span<const std::uint32_t> loop) {
         glm::dvec3 sum(0);
@@ -108,8 +109,9 @@ int OcclusionFinder::sideOfCell(std::uint32_t cell) const {
     return static_cast<int>(positive) - static_cast<int>(negative);
 }
 
-// If the projections of the two cells of a 2-face have the same sign (see sideOfCell()), they lie on its two sides, so
-// that beyond the 2-face the one cell hides what the other one hid before.
+// Finds the 2-faces at which cells may begin or cease to hide what lies behind them. If the projections of the two
+// cells of a 2-face have the same sign (see sideOfCell()), they lie on opposite sides of the 2-face. Then one cell
+// hides beyond the 2-face what the other cell hid before it, so the 2-face is left out.
 void OcclusionFinder::findContourFaces() {
     const geometry::CellComplex& p = *complex_;
     contourFaces_.clear();
@@ -149,7 +151,7 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
         if (!cells_.isExcluded(o.cell) && o.top > lowest && o.box.meets(box)) candidates_.push_back(i);
     }
     if (candidates_.empty()) return false;
-    if (!findFaceFrame(loop)) {  // edge-on: all of it that can be seen are its sides
+    if (!findFaceFrame(loop)) {  // the 2-face is seen edge-on: only its sides can be seen
         for (std::size_t i = 0; i < loop.size(); ++i) {
             if (!cells_.isHidden({cells_.points()[loop[i]], cells_.points()[loop[(i + 1) % loop.size()]]}, candidates_))
                 return false;
@@ -176,7 +178,7 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
     return true;
 }
 
-// Sets faceFrame_ to the plane of a 2-face. Returns false if the projection of the 2-face has no area.
+// Sets faceFrame_ to the image of the plane of a 2-face. Returns false if the projection of the 2-face has no area.
 bool OcclusionFinder::findFaceFrame(std::span<const std::uint32_t> loop) {
     faceFrame_.origin = cells_.points()[loop[0]];
     const auto findAxis = [&](glm::dvec4& axis, auto rejected) {
@@ -199,7 +201,8 @@ bool OcclusionFinder::findFaceFrame(std::span<const std::uint32_t> loop) {
            });
 }
 
-// Returns whether a part of the tested 2-face is seen beside the line in which the hyperplane of a cell cuts it.
+// Returns whether a part of the tested 2-face is seen beside a line: the line in which the hyperplane of the cell
+// `occluder` cuts the 2-face.
 bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
     const glm::dvec2 gradient(-glm::dot(occluder.normal, faceFrame_.right), -glm::dot(occluder.normal, faceFrame_.up));
     const double atOrigin = occluder.depthOf(faceFrame_.origin);
@@ -216,7 +219,7 @@ bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
     const glm::dvec2 onLine = middle - (atOrigin + glm::dot(gradient, middle)) / slope * across;
     const glm::dvec2 reach = glm::length(most - least) * glm::dvec2(-across.y, across.x);
     const glm::dvec2 from = onLine - reach, to = onLine + reach;
-    // The part of the line in the box of the cell.
+    // The part of the line that lies in the bounding box of the cell.
     const glm::dvec3 start(faceFrame_.at(from)), way = glm::dvec3(faceFrame_.at(to)) - start;
     double first = 0, last = 1;
     for (int axis = 0; axis < 3; ++axis) {
@@ -232,12 +235,12 @@ bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
     return first < last && isSeenBeside(glm::mix(from, to, first), glm::mix(from, to, last));
 }
 
-// Returns whether a part of the tested 2-face is seen beside the line in which a projected triangle cuts its
-// projection, or beside sides of the triangle that lie in its plane.
+// Returns whether a part of the tested 2-face is seen beside a line: the line in which the projection of `triangle`
+// cuts the projected 2-face, or a side of the triangle that lies in the plane of the 2-face.
 bool OcclusionFinder::isSeenAlongTriangle(const Triangle& triangle) {
     const glm::dvec3 normal = glm::cross(glm::dvec3(faceFrame_.right), glm::dvec3(faceFrame_.up));
     std::array<glm::dvec2, 3> corners{};
-    std::array<double, 3> heights{};  // above the plane, in R³
+    std::array<double, 3> heights{};  // per corner: its height above the plane of the projected 2-face, in R³
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec4& point = cells_.points()[triangle[i]];
         corners[i] = faceFrame_.coordinatesOf(point);
@@ -255,7 +258,8 @@ bool OcclusionFinder::isSeenAlongTriangle(const Triangle& triangle) {
     return found == 2 && isSeenBeside(ends[0], ends[1]);
 }
 
-// Returns whether a part of the tested 2-face is seen next to a line in its plane, on either side.
+// Returns whether a part of the tested 2-face is seen next to the line from `from` to `to` in its plane, on either
+// side.
 bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 along = to - from;
     const double length = glm::length(along);
@@ -272,8 +276,9 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
     }
     std::ranges::sort(places_);
     const glm::dvec2 across = kBesideLine * cells_.size() / length * glm::dvec2(-along.y, along.x);
-    const double margin =
-        8 * kBesideLine * cells_.size() / length;  // because next to a corner, the line leaves the 2-face
+    // Next to a corner of the 2-face, the line leaves the 2-face. So a short part of the line near the corner is not
+    // tested.
+    const double margin = 8 * kBesideLine * cells_.size() / length;
     for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
         if ((places_[i + 1] - places_[i]) * length <= kShortest * cells_.size()) continue;
         for (const double sign : {1.0, -1.0}) {

@@ -1,5 +1,5 @@
 #pragma once
-// Which elements of an object lie wholly behind its cells, as an eye in four dimensions sees them.
+// Finds the elements of an object that lie wholly behind its cells, as an eye in four dimensions sees them.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace oval4d::slicing {
 
-/// Which elements of a cell complex are drawn: an entry for each vertex, edge and 2-face, true if it is drawn. The
-/// edges and vertices of a drawn 2-face and the ends of a drawn edge are drawn, too.
+/// Which elements of a cell complex are drawn: for each vertex, edge and 2-face, true if it is drawn. If a 2-face is
+/// drawn, its edges and vertices are drawn, too. If an edge is drawn, its ends are drawn, too.
 struct DrawnElements {
     std::vector<bool> vertices, edges, faces;
 };
@@ -25,25 +25,25 @@ struct DrawnElements {
 /// an occlusion finder.
 class OcclusionFinder {
   public:
-    /// The default limit of steps. So many take a few tenths of a second.
+    /// The default limit on the number of steps (see find()). This many steps take a few tenths of a second.
     static constexpr std::size_t kDefaultSteps = 50'000'000;
 
-    /// Finds what is drawn of `complex`, whose cells `facing` says to be turned toward the eye; `images` has the image
-    /// of each vertex, as ProjectedCells describes it. Only elements of cells that face the eye are drawn, and of
-    /// these:
-    /// - if `withFaces`, the 2-faces that are not wholly hidden, and what bounds them; otherwise, no 2-face;
+    /// Finds which elements of `complex` are drawn, and writes them to `out`. `images` has the image of each vertex
+    /// (see ProjectedCells). `facing` says for each cell whether it is turned toward the eye. Of the elements of cells
+    /// that face the eye, these are drawn:
+    /// - if `withFaces`, the 2-faces that are not wholly hidden, with their edges and vertices; otherwise, no 2-face;
     /// - the edges that are not wholly hidden, and their ends;
     /// - the vertices that are not hidden.
     ///
-    /// An edge is divided where a cell begins or ceases to hide it, so that the result is exact. In a 2-face, the
-    /// visible parts are bounded by its sides, by the lines in which cells pass through it, and by the projections of
-    /// 2-faces at which the boundary of the body turns away from the eye; the 2-face is hidden if both sides of all
-    /// these lines are. Visible parts that are less than about 10⁻⁶ of the size of the projection wide may be
-    /// overlooked.
+    /// An edge is divided where a cell begins or ceases to hide it, so that the result for edges is exact. In a 2-face,
+    /// the visible parts are bounded by three kinds of lines: its sides, the lines in which cells pass through it, and
+    /// the projections of 2-faces at which the boundary of the body turns away from the eye. The 2-face is hidden if
+    /// both sides of all these lines are hidden. Visible parts narrower than about 10⁻⁶ of the size of the projection
+    /// may be overlooked.
     ///
-    /// `steps` limits the time. A step is the comparison of a part of an element with a cell or with a triangle of the
-    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If they are fewer than the
-    /// pairs of a cell and of an element to be tested, returns false at once.
+    /// `steps` limits the time. A step is the comparison of a part of an element with a cell, or with a triangle of the
+    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If the steps are fewer than
+    /// the pairs of a cell and an element to be tested, returns false at once.
     bool find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const std::vector<bool>& facing,
               bool withFaces, std::size_t steps, DrawnElements& out);
 
@@ -52,16 +52,16 @@ class OcclusionFinder {
     using Occluder = ProjectedCells::Occluder;
     using Triangle = ProjectedCells::Triangle;
 
-    // A 2-face at which cells may begin or cease to hide what is behind them. In the projection, its two cells are not
-    // known to lie on opposite sides of it. `box` contains its projection, and `top` is the largest fourth coordinate
-    // of its vertices.
+    // A 2-face at which cells may begin or cease to hide what is behind them: in the projection, its two cells may lie
+    // on the same side of the 2-face. `box` contains the projection of the 2-face, and `top` is the largest fourth
+    // coordinate of its vertices.
     struct ContourFace {
         std::uint32_t face;
         Box box;
         double top;
     };
-    // The image of the plane of a 2-face: the point at (x, y) is origin + x · right + y · up. `right` and `up` are
-    // orthonormal if their fourth coordinates are left out.
+    // The image of the plane of a 2-face: the point with the coordinates (x, y) is origin + x · right + y · up. Without
+    // their fourth coordinates, `right` and `up` are orthonormal.
     struct ProjectedFaceFrame {
         glm::dvec4 origin, right, up;
         glm::dvec4 at(const glm::dvec2& p) const { return origin + p.x * right + p.y * up; }
@@ -77,14 +77,14 @@ class OcclusionFinder {
     bool isSeenAlongTriangle(const Triangle& triangle);
     bool isSeenBeside(const glm::dvec2& from, const glm::dvec2& to);
 
-    const geometry::CellComplex* complex_ = nullptr;  // the argument of find(), whose cells cells_ has
+    const geometry::CellComplex* complex_ = nullptr;  // the cell complex that find() searches; cells_ has its cells
     ProjectedCells cells_;
     std::vector<ContourFace> contourFaces_;
 
-    ProjectedFaceFrame faceFrame_{};         // of the tested 2-face
-    std::vector<glm::dvec2> outline_;        // its loop
-    std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of it
-    std::vector<double> places_;             // where a line crosses the outline
+    ProjectedFaceFrame faceFrame_{};         // the image of the plane of the tested 2-face
+    std::vector<glm::dvec2> outline_;        // the vertex loop of the tested 2-face
+    std::vector<std::uint32_t> candidates_;  // the indices of the occluders that may hide parts of the tested 2-face
+    std::vector<double> places_;             // the places at which a line crosses outline_
 };
 
 }  // namespace oval4d::slicing

@@ -12,8 +12,8 @@
 
 namespace oval4d::slicing {
 
-/// A visitor for std::visit, made of one function for each kind of object. If a kind has no function, the code does not
-/// compile.
+/// A visitor for std::visit, made of one function for each kind of object. If a function for one kind is missing, the
+/// code does not compile.
 template <typename... Functions>
 struct Overloaded : Functions... {
     using Functions::operator()...;
@@ -21,7 +21,7 @@ struct Overloaded : Functions... {
 template <typename... Functions>
 Overloaded(Functions...) -> Overloaded<Functions...>;  // Clang 16 has no implicit deduction guides for aggregates
 
-/// Calls `visitor` with the elements of an object: a const geometry::CellComplex& or, for a point cloud, a const
+/// Calls `visitor` with the elements of an object: as a const geometry::CellComplex& or, for a point cloud, as a const
 /// geometry::PointCloud&. For a field, passes its domain. Returns what `visitor` returns.
 template <typename V>
 decltype(auto) visitElements(const V& visitor, const Object& object) {

@@ -16,8 +16,8 @@ namespace oval4d::slicing {
 namespace {
 
 // Returns the point between p and q at which a function is 0. The function is linear from p to q, with the value `a` at
-// p and `b` at q; exactly one of these values is negative. The result does not depend on the order of p and q, so that
-// the two cells that share the segment find the same point. If a value is infinite, returns the middle of p and q.
+// p and `b` at q; exactly one of these values is negative. The result does not depend on the order of p and q. So the
+// two lattice cells that share the segment find the same point. If a value is infinite, returns the middle of p and q.
 glm::dvec2 zeroOnSegment(glm::dvec2 p, glm::dvec2 q, double a, double b) {
     if (std::tie(q.x, q.y) < std::tie(p.x, p.y)) {
         std::swap(p, q);
@@ -77,7 +77,7 @@ void PlanarContourTracer::trace(const fields::Field& field, const geometry::Rota
     field.function->releasePages();
 }
 
-// Sets section_ to the plane through `point` that is parallel to these two axes.
+// Sets section_ to the plane through `point` that is parallel to the two coordinate axes `axes`.
 void PlanarContourTracer::placePlane(const fields::Field& field, const glm::dmat4& toFunction,
                                      const std::array<int, 2>& axes, const glm::dvec4& point) {
     glm::dvec4 origin = point;
@@ -86,8 +86,8 @@ void PlanarContourTracer::placePlane(const fields::Field& field, const glm::dmat
     section_.axes = {toFunction[axes[0]], toFunction[axes[1]], glm::dvec4(0)};
 }
 
-// Sets sides_: one for each facet of the box that is not parallel to the plane. Returns false if the plane lies outside
-// a facet that is parallel to it.
+// Sets sides_ to one half-plane for each facet of the box that is not parallel to the plane of the contours. Returns
+// false if the plane is parallel to a facet and lies outside the box.
 bool PlanarContourTracer::findSides(const fields::Field& field, const glm::dmat4& toFunction) {
     constexpr double kParallel = 1e-12;
     sides_.clear();
@@ -112,8 +112,8 @@ bool PlanarContourTracer::isInDomain(const glm::dvec2& p) const {
     return std::ranges::all_of(sides_, [&](const HalfPlane& side) { return side.depthOf(p) >= 0; });
 }
 
-// Cuts polygon_, which is convex, by all sides (I. E. Sutherland and G. W. Hodgman, "Reentrant polygon clipping",
-// 1974). What remains is its part in the domain, which may be empty.
+// Cuts the convex polygon polygon_ by all half-planes of sides_ (I. E. Sutherland and G. W. Hodgman, "Reentrant polygon
+// clipping", 1974). The remaining polygon is the part in the domain, and may be empty.
 void PlanarContourTracer::cutBySides() {
     for (const HalfPlane& side : sides_) {
         cutPolygon_.clear();
@@ -127,8 +127,8 @@ void PlanarContourTracer::cutBySides() {
     }
 }
 
-// Sets the points and the cells of a lattice that covers polygon_, the part of the plane in the domain. The coordinates
-// of lattice points are multiples of `step`, so that the lattice stays in place while the object turns.
+// Sets the points and the cells of a square lattice that covers polygon_, the part of the plane in the domain. The
+// coordinates of lattice points are multiples of `step`, so that the lattice stays in place while the object turns.
 void PlanarContourTracer::layOutLattice(double step) {
     glm::dvec2 min = polygon_[0], max = polygon_[0];
     for (const glm::dvec2& p : polygon_) {
@@ -164,8 +164,8 @@ void PlanarContourTracer::layOutLattice(double step) {
     }
 }
 
-// Adds the part of a square of the lattice that is in the domain, if there is one. `indices`: the corners' indices in
-// points_, or kNone.
+// Adds the part in the domain of one lattice square, if there is such a part. `indices` has the indices of the four
+// corners in points_, or kNone for a corner outside the domain.
 void PlanarContourTracer::addCell(const std::array<glm::dvec2, 4>& corners,
                                   const std::array<std::uint32_t, 4>& indices) {
     if (std::ranges::find(indices, geometry::kNone) == indices.end()) {
@@ -187,7 +187,8 @@ void PlanarContourTracer::addCell(const std::array<glm::dvec2, 4>& corners,
     cellBegin_.push_back(static_cast<std::uint32_t>(cellCorners_.size()));
 }
 
-// Adds the segments of a level in a cell, given by its corners in their order around it.
+// Adds the segments of the contour of `level` in one lattice cell. `corners` has the indices of the cell's corners, in
+// their order around the cell.
 void PlanarContourTracer::addSegments(std::span<const std::uint32_t> corners, double level) {
     crossings_.clear();
     double sum = 0;
@@ -199,13 +200,13 @@ void PlanarContourTracer::addSegments(std::span<const std::uint32_t> corners, do
         if ((here < 0) != (next < 0))
             crossings_.push_back(zeroOnSegment(withoutZ(points_[a]), withoutZ(points_[b]), here, next));
     }
-    // If there are more than two crossings, corners below the level alternate with corners above it. `middle` then
-    // decides which corners are connected within the cell:
-    // - In a square, it is the value at the saddle point of the bilinear interpolation, minus the level (G. M. Nielson
-    //   and B. Hamann, "The asymptotic decider", 1991).
-    // - In any other cell, it has the sign of the mean of all corners, minus the level.
-    // Corners on the same side of the level as the middle are connected. A segment separates each run of successive
-    // corners on the other side from the middle.
+    // If there are more than two crossings, corners below the level alternate with corners above the level. The sign of
+    // `middle` then decides which corners are connected within the cell:
+    // - In a square, `middle` is the value at the saddle point of the bilinear interpolation, minus the level (G. M.
+    //   Nielson and B. Hamann, "The asymptotic decider", 1991).
+    // - In any other cell, `middle` has the sign of the mean of all corners, minus the level.
+    // Corners on the same side of the level as the middle are connected. On the other side, a segment separates each
+    // run of successive corners from the middle.
     double middle = sum;
     if (corners.size() == 4 && crossings_.size() == 4) {
         const auto value = [&](std::size_t i) { return values_[corners[i]] - level; };
@@ -219,8 +220,8 @@ void PlanarContourTracer::addSegments(std::span<const std::uint32_t> corners, do
     }
 }
 
-// Joins segments_ at their common ends to lines, and adds these to `out`. A line ends at a place that is the end of one
-// segment only, or of more than two.
+// Joins the segments of segments_ at their common ends to lines, and adds these lines to `out`, with the level index
+// `level`. A line ends at a place that is the end of only one segment, or of more than two segments.
 void PlanarContourTracer::joinSegments(std::uint32_t level, PlanarContours& out) {
     ends_.clear();
     for (std::uint32_t s = 0; s < segments_.size(); ++s)
@@ -236,7 +237,7 @@ void PlanarContourTracer::joinSegments(std::uint32_t level, PlanarContours& out)
     nodeBegin_.push_back(static_cast<std::uint32_t>(ends_.size()));
     const auto isPassed = [&](std::uint32_t node) { return nodeBegin_[node + 1] - nodeBegin_[node] == 2; };
     isJoined_.assign(segments_.size(), 0);
-    // Adds the line that begins at the end with the number `end` (see SegmentEnd).
+    // Adds the line that begins at the segment end with the number `end` (see SegmentEnd).
     const auto addLine = [&](std::uint32_t end) {
         out.points.push_back(segments_[end / 2].ends[end % 2]);
         for (;;) {

@@ -1,5 +1,5 @@
 #pragma once
-// The contours of the levels of a field in planes: what the panels of a HyperSlice matrix show of a field (see
+// Finds the contours of the levels of a field in planes: what the panels of a HyperSlice matrix show of a field (see
 // planar_sections.hpp).
 
 #include <array>
@@ -21,15 +21,15 @@
 
 namespace oval4d::slicing {
 
-/// The contours of the levels of a field in a plane that is parallel to two coordinate axes, as polygonal lines. A
+/// The contours of the levels of a field, as polygonal lines, in a plane that is parallel to two coordinate axes. A
 /// closed line ends at the point at which it begins.
 struct PlanarContours {
-    std::vector<glm::dvec2> points;       ///< their coordinates along the two axes, in the units of the object
-    std::vector<std::uint32_t> begin{0};  ///< the index of the first point of each line; then the number of points
-    std::vector<std::uint32_t> level;     ///< per line: the index of its level in FieldSettings::levels
+    std::vector<glm::dvec2> points;  ///< the coordinates of the points along the two axes, in the units of the object
+    std::vector<std::uint32_t> begin{0};  ///< per line: the index of its first point; then the number of points
+    std::vector<std::uint32_t> level;     ///< per line: the index in FieldSettings::levels of its level
 
     std::size_t lineCount() const { return level.size(); }
-    /// Returns the points of a line, of which there are at least two.
+    /// Returns the points of line i: at least two.
     std::span<const glm::dvec2> line(std::size_t i) const {
         return std::span(points).subspan(begin[i], begin[i + 1] - begin[i]);
     }
@@ -40,40 +40,41 @@ struct PlanarContours {
     }
 };
 
-/// The contours in the planes of kPlaneAxes.
+/// The contours of a field in the six planes of kPlaneAxes.
 using MatrixContours = std::array<PlanarContours, kPlaneAxes.size()>;
 
-/// The least and the greatest number of lattice squares along the side of a panel.
+/// The least and the greatest number of lattice squares along the side of a panel of the matrix.
 inline constexpr double kMinContourSquares = 8, kMaxContourSquares = 160;
 
-/// The maximum number of points of the contours in one plane. If there are more, the lattice is made coarser, as long
-/// as it has more than a quarter of kMaxContourSquares along the side of a panel.
+/// The maximum number of points of the contours in one plane. If there are more points, the lattice is made coarser, as
+/// long as it has more than a quarter of kMaxContourSquares along the side of a panel.
 inline constexpr std::size_t kMaxContourPoints = 20'000;
 
 /// Returns the maximum time to evaluate a field at the lattice points of all six planes together, in nanoseconds, as
-/// ScalarFunction::cost() estimates it: a tenth of the time for surfaces. If the lattices have too many points for this
-/// time, they are made coarser, down to kMinContourSquares along the side of a panel.
+/// estimated by ScalarFunction::cost(): a tenth of the time for surfaces. If the evaluation would take longer, the
+/// lattices are made coarser, down to kMinContourSquares along the side of a panel.
 constexpr double maxContourTime(Quality quality) { return 0.1 * surfaceLimits(quality).time; }
 
-/// Returns the lattice step of the contours of `field`, in the units of the object, for panels whose sides have the
-/// length `side` in these units and `pixels` pixels. Squares are as wide as the cubes of surfaces in pictures (see
-/// pixelsPerCube()); for files, whose size in pixels is not known, the lattice is as fine as allowed.
+/// Returns the lattice step of the contours of `field` in the units of the object. `side` is the side of a panel in
+/// these units, and `pixels` its side in pixels. The lattice squares are as wide as the lattice cubes of surfaces in
+/// pictures (see pixelsPerCube()). For files, whose size in pixels is not known, the lattice is as fine as allowed.
 double contourStep(const fields::Field& field, double side, double pixels, Quality quality);
 
-/// Finds contours by marching squares. Reuses its memory. Only one thread at a time may use a tracer.
+/// Finds the contours of a field in planes by marching squares. Reuses its memory. Only one thread at a time may use a
+/// tracer.
 class PlanarContourTracer {
   public:
-    /// Finds the contours of `levels` of `field`, rotated by `orientation`, in the six planes through `point`, whose
-    /// coordinates are those after the rotation. The function is evaluated only in the domain: at the points of a
-    /// square lattice with the step `step`, and where the sides of its squares meet the boundary of the domain. Between
-    /// these points, it is interpolated linearly. No line passes through a square if the function has no value at one
-    /// of its corners. In drafts, contours may lack details of the function that are smaller than the step. Overwrites
-    /// `out`.
+    /// Finds the contours of `levels` of `field`, rotated by `orientation`, in the six planes through `point`, and
+    /// writes them to `out`. The coordinates of `point` are those after the rotation. The function is evaluated only in
+    /// the domain: at the points of a square lattice with the step `step`, and where the sides of lattice squares meet
+    /// the boundary of the domain. Between these points, the function is interpolated linearly. No line passes through
+    /// a square if the function has no value at one of the square's corners. In drafts, contours may lack details of
+    /// the function that are smaller than the step. Overwrites `out`.
     void trace(const fields::Field& field, const geometry::Rotation& orientation, const glm::dvec4& point,
                std::span<const double> levels, double step, Quality quality, MatrixContours& out);
 
   private:
-    // A half-plane, which contains the points p with dot(normal, p) ≤ offset. `normal` is a unit vector.
+    // A half-plane: the points p with dot(normal, p) ≤ offset. `normal` is a unit vector.
     struct HalfPlane {
         glm::dvec2 normal;
         double offset;
@@ -84,7 +85,7 @@ class PlanarContourTracer {
     struct Segment {
         std::array<glm::dvec2, 2> ends;
     };
-    // One end of a segment: end 2 s + k is the end k of segment s.
+    // One end of a segment. The number `end` is 2 s + k for the end k (0 or 1) of the segment with the index s.
     struct SegmentEnd {
         glm::dvec2 at;
         std::uint32_t end;
@@ -100,20 +101,23 @@ class PlanarContourTracer {
     void addSegments(std::span<const std::uint32_t> corners, double level);
     void joinSegments(std::uint32_t level, PlanarContours& out);
 
-    FieldSection section_;          // the plane: z is 0 in it
-    std::vector<HalfPlane> sides_;  // their intersection is the part of the plane in the domain
+    FieldSection section_;          // the plane of the contours, where z is 0
+    std::vector<HalfPlane> sides_;  // half-planes whose intersection is the part of the plane in the domain
     std::vector<glm::dvec2> polygon_, cutPolygon_;
-    std::vector<glm::dvec3> points_;            // at which the function is evaluated; z is 0
-    std::vector<float> values_;                 // of the function, per point
-    std::vector<std::uint32_t> latticePoints_;  // per lattice point: its index in points_, or kNone outside the domain
-    // The squares of the lattice, cut by the domain. Their corners are indices of points.
+    std::vector<glm::dvec3> points_;  // the points at which the function is evaluated; z is 0
+    std::vector<float> values_;       // per point of points_: the value of the function
+    // per lattice point: its index in points_, or kNone if it lies outside the domain
+    std::vector<std::uint32_t> latticePoints_;
+    // The lattice squares, cut by the domain. cellCorners_ has the indices in points_ of the corners of all cells, and
+    // cellBegin_ the index in cellCorners_ of each cell's first corner.
     std::vector<std::uint32_t> cellBegin_, cellCorners_;
-    std::vector<glm::dvec2> crossings_;     // of one level with the sides of one cell, in their order around it
-    std::vector<Segment> segments_;         // of the contours of one level
-    std::vector<SegmentEnd> ends_;          // of all segments, sorted by their places
-    std::vector<std::uint32_t> nodeOf_;     // per end: the index of its node, a place where ends meet
+    // where the contour of one level crosses the sides of one cell, in their order around the cell
+    std::vector<glm::dvec2> crossings_;
+    std::vector<Segment> segments_;         // the segments of the contours of one level
+    std::vector<SegmentEnd> ends_;          // the ends of all segments, sorted by their places
+    std::vector<std::uint32_t> nodeOf_;     // per end: the index of its node (a place where ends meet)
     std::vector<std::uint32_t> nodeBegin_;  // per node: the index in ends_ of its first end; then the number of ends
-    std::vector<char> isJoined_;            // per segment: whether it belongs to a line
+    std::vector<char> isJoined_;            // per segment: 1 if it belongs to a line already, else 0
 };
 
 }  // namespace oval4d::slicing

@@ -24,7 +24,7 @@ void clear(PlanarSection& section) {
     section.boundary.clear();
 }
 
-// Returns the axis that is neither `other` nor one of the plane's two axes.
+// Returns the coordinate axis that is neither `other` nor one of the two axes of the plane `plane`.
 int remainingAxis(const std::array<int, 2>& plane, int other) { return 0 + 1 + 2 + 3 - plane[0] - plane[1] - other; }
 
 glm::dvec4 unitVector(int axis) {
@@ -35,12 +35,12 @@ glm::dvec4 unitVector(int axis) {
 
 }  // namespace
 
-// A plane is the intersection of two hyperplanes. The object is cut by the first hyperplane, and the resulting slice by
-// the second. If the plane lies in a hyperplane w = const, that hyperplane is the first one, because `slices` already
-// contains the slice in it.
+// Each plane is the intersection of two hyperplanes. The object is cut by the first hyperplane, and the resulting slice
+// by the second. If the plane lies in a hyperplane w = const, this hyperplane is the first one, because `slices`
+// already contains the slice in it.
 void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices, int slice,
                          const glm::dvec4& point, PlanarSections& out) {
-    // For a first hyperplane z = const or y = const, the object is cut after z or y has been rotated to w.
+    // If the first hyperplane is z = const or y = const, z or y is rotated to w before the object is cut.
     constexpr std::array<int, 3> kFirstAxis{kW, 2, 1};
     for (const int first : kFirstAxis) {
         const SliceSet* set = &slices;
@@ -57,8 +57,8 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
         for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
             const auto& axes = kPlaneAxes[i];
             const auto contains = [&](int axis) { return axes[0] == axis || axes[1] == axis; };
-            // Two axes are perpendicular to the plane. The plane is cut only when `first` is the one of them that comes
-            // first in kFirstAxis, so that it is cut only once.
+            // Two axes are perpendicular to the plane. The plane is cut only if `first` is the one of these two axes
+            // that comes first in kFirstAxis. So each plane is cut only once.
             const auto firstAxis = std::ranges::find_if_not(kFirstAxis, contains);
             if (*firstAxis != first) continue;
             out[i].axes = axes;
@@ -67,8 +67,9 @@ void PlanarSlicer::slice(const Object& object, const geometry::Rotation& orienta
     }
 }
 
-// Cuts a slice by the hyperplane in which the coordinate along `axis` equals that of `point`. `toObject` rotates the
-// slice to the coordinates of `point`; it is the identity unless the object was turned before the slice was cut.
+// Cuts a slice by the hyperplane in which the coordinate along `axis` equals that of `point`, and writes the section to
+// `out`. `toObject` rotates the slice to the coordinates of `point`. It is the identity unless the object was turned
+// before the slice was cut.
 void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, const glm::dmat4& toObject, int axis,
                        const glm::dvec4& point, PlanarSection& out) {
     clear(out);
@@ -90,8 +91,9 @@ void PlanarSlicer::cut(const Object& object, const SliceSet& slices, int slice, 
         copyCloudPoints(slices, slice, axis, point[axis], out);
         return;
     }
-    // Vertices in the hyperplane count as above it or, if no vertex lies below it, as below it. Therefore even a slice
-    // that only touches the hyperplane has a section, whether the slice lies above or below the hyperplane.
+    // Vertices in the hyperplane count as above it if other vertices lie below it, and otherwise as below it. Therefore
+    // even a slice that only touches the hyperplane has a section, whether the slice lies above or below the
+    // hyperplane.
     zeroIsAbove_ = anyBelow;
     cutEdges(slices, slice, static_cast<std::uint32_t>(elementCounts(object)[2]), axis, point[axis], out);
     cutFaces(slices, slice, out);
@@ -110,8 +112,8 @@ void PlanarSlicer::copyCloudPoints(const SliceSet& slices, int slice, int axis, 
     }
 }
 
-// Adds the points at which the hyperplane cuts the slice's edges. `polytopeFaces` is the number of 2-faces of the
-// polytope, `at` the coordinate of the hyperplane along `axis`.
+// Adds the points at which the hyperplane cuts the edges of the slice. `polytopeFaces` is the number of 2-faces of the
+// polytope, and `at` the coordinate of the hyperplane along `axis`.
 void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t polytopeFaces, int axis, double at,
                             PlanarSection& out) {
     const std::uint32_t begin = slices.edgeBegin[slice], end = slices.edgeBegin[slice + 1];
@@ -125,7 +127,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t pol
     pointOfVertex_.assign(vertices_.size(), kNone);
     pointOfEdge_.assign(end - begin, kNone);
     const auto addVertex = [&](std::uint32_t v) {
-        // A source number e or E + v of the slice vertex (see SliceSet) becomes F + e or F + E + v (see PlanarSection).
+        // The source number of the slice vertex is e or E + v (see SliceSet). In the section, it becomes F + e or F + E
+        // + v (see PlanarSection).
         if (pointOfVertex_[v] == kNone)
             pointOfVertex_[v] = add(vertices_[v], polytopeFaces + slices.vertexSource[firstVertex + v]);
         return pointOfVertex_[v];
@@ -133,8 +136,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t pol
     const bool isCurve = slices.faceBegin[slice] == slices.faceBegin[slice + 1];
     for (std::uint32_t e = 0; e < end - begin; ++e) {
         const auto [a, b] = slices.edges[begin + e];
-        // An edge in the hyperplane belongs to a face, which cutFaces() cuts. An edge of a curve belongs to no face, so
-        // its ends are added here.
+        // An edge in the hyperplane belongs to a face of the slice, and cutFaces() cuts this face. But an edge of a
+        // curve belongs to no face, so its ends are added here.
         if (isCurve && distance_[a] == 0 && distance_[b] == 0) {
             addVertex(a);
             addVertex(b);
@@ -150,8 +153,8 @@ void PlanarSlicer::cutEdges(const SliceSet& slices, int slice, std::uint32_t pol
     }
 }
 
-// Adds the edges in which the hyperplane cuts the slice's faces. The loops that were cut from one cell form one face.
-// This face contains the points around which the sum of the winding numbers of these loops is not 0 (as in
+// Adds the edges in which the hyperplane cuts the faces of the slice. The loops that were cut from one cell form one
+// face. The face contains the points around which the sum of the winding numbers of these loops is not 0 (as in
 // FilledFaces).
 void PlanarSlicer::cutFaces(const SliceSet& slices, int slice, PlanarSection& out) {
     const std::uint32_t begin = slices.faceBegin[slice], end = slices.faceBegin[slice + 1];

@@ -12,16 +12,18 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Relative to the size of the projection. They are large compared with rounding errors.
-constexpr double kDepthTolerance = 3e-9;  // points that are not deeper below a hyperplane are not hidden by the cell
-constexpr double kBoxMargin = 1e-7;       // of the boxes of triangles
-constexpr double kLeastExtent = 1e-9;     // a cell that extends less in a direction hides nothing
+// Tolerances, as fractions of the size of the projection. They are large compared with rounding errors.
+// a point at most this far below the hyperplane of a cell is not hidden by the cell
+constexpr double kDepthTolerance = 3e-9;
+constexpr double kBoxMargin = 1e-7;    // the margin around the bounding boxes of triangles
+constexpr double kLeastExtent = 1e-9;  // a cell whose extent in a direction is less than this hides nothing
 
-constexpr double kLeastSlope = 1e-9;  // the least upward component of the normal of a cell that hides something
-constexpr double kVisibleGap = 1e-6;  // relative to a segment: a shorter part of it does not count as visible
+constexpr double kLeastSlope = 1e-9;  // the least upward component of the normal of a cell that can hide something
+// as a fraction of a segment: a shorter part of the segment does not count as visible
+constexpr double kVisibleGap = 1e-6;
 
-// The corners of a regular tetrahedron with the center 0: the angle between any direction and one of them is less than
-// 90°.
+// The corners of a regular tetrahedron with the center 0. For any direction, at least one of these corners is less than
+// 90° away from it.
 const std::array<glm::dvec3, 4> kTetrahedron{glm::dvec3(1, 1, 1), glm::dvec3(1, -1, -1), glm::dvec3(-1, 1, -1),
                                              glm::dvec3(-1, -1, 1)};
 
@@ -58,7 +60,7 @@ void ProjectedCells::place(const geometry::CellComplex& complex, std::span<const
     stepsLeft_ = steps;
     exhausted_ = false;
     if (object_ != complex.serial) prepare(complex);
-    // The axes of the turned space have no relation to those of the object.
+    // The axes of the turned space are arbitrary, so that they have no relation to those of the object.
     const glm::dvec3 x = glm::normalize(glm::dvec3(0.8131, 0.4713, -0.3419));
     const glm::dvec3 y = glm::normalize(glm::cross(x, glm::dvec3(0.2917, 0.5701, 0.7681)));
     const glm::dvec3 z = glm::cross(x, y);
@@ -72,7 +74,7 @@ void ProjectedCells::place(const geometry::CellComplex& complex, std::span<const
     findOccluders();
 }
 
-// Sets what depends only on which elements contain which.
+// Sets the members that depend only on which elements of the complex contain which others.
 void ProjectedCells::prepare(const geometry::CellComplex& complex) {
     object_ = complex.serial;
     triangles_.clear();
@@ -105,13 +107,13 @@ std::span<const ProjectedCells::Triangle> ProjectedCells::trianglesOf(std::uint3
     return std::span(triangles_).subspan(triangleBegin_[cell], triangleBegin_[cell + 1] - triangleBegin_[cell]);
 }
 
-// Returns the unit normal of the hyperplane that contains the corners of the triangles. Returns an empty optional if
-// the corners do not span a hyperplane.
+// Returns the unit normal of the hyperplane that contains the corners of `triangles`. Returns an empty optional if the
+// corners do not span a hyperplane.
 std::optional<glm::dvec4> ProjectedCells::normalOf(std::span<const Triangle> triangles) const {
     const glm::dvec4 origin = points_[triangles[0][0]];
-    std::array<glm::dvec4, 3> axes{};  // orthonormal
+    std::array<glm::dvec4, 3> axes{};  // orthonormal vectors that span the hyperplane
     const auto rejected = [&](glm::dvec4 vector, int count) {
-        for (int round = 0; round < 2; ++round) {  // twice, because of rounding errors
+        for (int round = 0; round < 2; ++round) {  // done twice, because of rounding errors
             for (int i = 0; i < count; ++i) vector -= glm::dot(vector, axes.at(i)) * axes.at(i);
         }
         return vector;
@@ -196,7 +198,8 @@ bool ProjectedCells::isCovered(const Segment& segment, std::span<const std::uint
     return reach >= 1 - kVisibleGap;
 }
 
-// Adds the parts of the segment that a cell hides to covered_. Returns whether the cell hides the whole segment.
+// Adds to covered_ the parts of the segment that the cell `occluder` hides. Returns whether this cell hides the whole
+// segment.
 bool ProjectedCells::cover(const Occluder& occluder, const Segment& segment, const Box& box) {
     spend(1);
     if (excludedIn_[occluder.cell] == test_ || !occluder.box.meets(box)) return false;
@@ -223,8 +226,8 @@ bool ProjectedCells::cover(const Occluder& occluder, const Segment& segment, con
     return whole;
 }
 
-// Returns where the projection of a segment may cross that of a triangle: a number from 0 to 1. The projection of a
-// crossing is in the box of the triangle.
+// Returns where the projection of a segment may cross the projection of a triangle: a number from 0 (at the start of
+// the segment) to 1. At a crossing, the projected point lies in the bounding box of the triangle.
 std::optional<double> ProjectedCells::crossingOf(const Segment& segment, const Triangle& triangle) const {
     const glm::dvec3 a(points_[triangle[0]]), b(points_[triangle[1]]), c(points_[triangle[2]]);
     const glm::dvec3 from(segment.from), to(segment.to), normal = glm::cross(b - a, c - a);
@@ -237,8 +240,8 @@ std::optional<double> ProjectedCells::crossingOf(const Segment& segment, const T
     return at;
 }
 
-// Returns the winding number of the boundary of a projected cell around a point of R³: the sum of the signs with which
-// the boundary crosses the ray from the point in the direction of the third axis.
+// Returns the winding number of the boundary of a projected cell around `point`, in R³. The winding number is the sum
+// of the signs with which the boundary crosses the ray from the point along the third axis.
 int ProjectedCells::windingOf(std::uint32_t cell, const glm::dvec3& point) {
     const auto triangles = trianglesOf(cell);
     spend(triangles.size());

@@ -1,5 +1,6 @@
 #pragma once
-// The cells of an object, projected from four to three dimensions, as they hide what lies behind them.
+// Finds what the cells of an object hide from an eye in four dimensions. The cells are projected from four to three
+// dimensions.
 
 #include <array>
 #include <cstddef>
@@ -18,28 +19,29 @@
 
 namespace oval4d::slicing {
 
-/// Returns how the side from `a` to `b` of a loop contributes to the winding number of the loop around 0. The two
-/// directions of a side contribute opposite numbers, also with rounding errors, so that a closed surface has no gaps.
+/// Returns what the side from `a` to `b` of a loop adds to the winding number of the loop around 0. In the other
+/// direction, from `b` to `a`, the side adds the opposite number, also with rounding errors. So a closed surface has no
+/// gaps.
 int windingOfSide(const glm::dvec2& a, const glm::dvec2& b);
 
-/// The images of the cells of a cell complex, and the search for what they hide. Reuses its memory. Only one thread at
-/// a time may use this object.
+/// The projections of the cells of a cell complex, and a search for what they hide. Reuses its memory. Only one thread
+/// at a time may use this object.
 ///
-/// Points are given by their images: x, y, z are the projection of the point from R⁴ to R³, and the fourth coordinate,
-/// the height, increases toward the eye along each line of sight. The image is made by a projective map that takes the
-/// eye to the point at infinity of the fourth axis. Such a map takes lines to lines and hyperplanes to hyperplanes, and
-/// it makes all lines of sight parallel.
+/// Each point of R⁴ is given by its image. The coordinates x, y and z of the image are the projection of the point from
+/// R⁴ to R³. The fourth coordinate, the height, increases toward the eye along each line of sight. The image is made by
+/// a projective map that takes the eye to the point at infinity of the fourth axis. Such a map takes lines to lines and
+/// hyperplanes to hyperplanes, and it makes all lines of sight parallel.
 ///
-/// A point is hidden by a cell if it lies below the hyperplane of the cell, and if the boundary of the projected cell
-/// winds around the projected point (nonzero winding number). A point below the common boundary of two such cells is
-/// hidden, too: a point counts as hidden only if it is hidden after a tiny shift in each of four directions, one of
-/// which leads into every half-space.
+/// A cell hides a point if two conditions hold: the point lies below the hyperplane of the cell, and the boundary of
+/// the projected cell winds around the projected point (nonzero winding number). A point below the common boundary of
+/// two such cells must be hidden, too. Therefore a point counts as hidden only if it is hidden after a tiny shift in
+/// each of four directions, chosen so that one of them leads into every half-space.
 class ProjectedCells {
   public:
-    /// The length of these shifts, as a fraction of size().
+    /// The length of the tiny shifts in the test whether a point is hidden, as a fraction of size().
     static constexpr double kTinyShift = 1e-10;
 
-    using Triangle = std::array<std::uint32_t, 3>;  ///< vertices
+    using Triangle = std::array<std::uint32_t, 3>;  ///< the indices of three vertices
 
     /// A box in R³ with sides parallel to the axes.
     struct Box {
@@ -47,15 +49,15 @@ class ProjectedCells {
         bool meets(const Box& other) const;
         void include(const glm::dvec3& point);
     };
-    /// A cell that can hide something: it is not seen edge-on.
+    /// A cell that can hide something, because it is not seen edge-on.
     struct Occluder {
         std::uint32_t cell;
         Box box;
-        double top;         ///< the greatest height of its vertices
-        glm::dvec4 normal;  ///< unit length, upward; the hyperplane is dot(normal, x) = offset
+        double top;         ///< the greatest height of the cell's vertices
+        glm::dvec4 normal;  ///< a unit vector that points upward; the hyperplane of the cell is dot(normal, x) = offset
         double offset;
-        double tolerance;  ///< points at most so far below the hyperplane are not hidden
-        /// Returns how far a point lies below the hyperplane, beyond the tolerance.
+        double tolerance;  ///< a point at most this far below the hyperplane is not hidden by the cell
+        /// Returns how far a point lies below the hyperplane of the cell, minus the tolerance.
         double depthOf(const glm::dvec4& point) const;
     };
     /// A segment of a straight line, or a point if both ends are equal.
@@ -64,33 +66,35 @@ class ProjectedCells {
     };
 
     /// Sets the cells of `complex`, which must exist as long as this object is used. `images` has the image of each
-    /// vertex. Allows `steps` steps from now on.
+    /// vertex. Allows `steps` steps (see spend()) from now on.
     void place(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, std::size_t steps);
 
     /// Returns the image of each vertex, turned in R³ by a fixed rotation, so that 2-faces are unlikely to be parallel
-    /// to an axis. All points in the interface of this class are turned in this way.
+    /// to an axis. All points that the functions of this class take or return are turned by this rotation.
     const std::vector<glm::dvec4>& points() const { return points_; }
-    /// Returns the greatest distance of any of these points from 0.
+    /// Returns the greatest distance from 0 of a point in points().
     double size() const { return size_; }
     /// Returns the cells that can hide something.
     const std::vector<Occluder>& occluders() const { return occluders_; }
     /// Returns the indices of all occluders: 0, 1, 2, …
     std::span<const std::uint32_t> allOccluders() const { return allOccluders_; }
-    /// Returns the cells that contain a vertex or an edge.
+    /// Returns the cells that contain this vertex or this edge.
     std::span<const std::uint32_t> cellsOfVertex(std::uint32_t vertex) const { return cellsOfVertex_[vertex]; }
     std::span<const std::uint32_t> cellsOfEdge(std::uint32_t edge) const { return cellsOfEdge_[edge]; }
 
-    /// Lets these cells, and no others, hide nothing until the next call.
+    /// Excludes these cells, and no others, from hiding anything, until the next call.
     void exclude(std::span<const std::uint32_t> cells);
     bool isExcluded(std::uint32_t cell) const { return excludedIn_[cell] == test_; }
 
-    /// Returns whether cells hide the whole segment, apart from gaps shorter than about 10⁻⁶ of it. `candidates` are
-    /// indices of occluders, among which all must be that hide a part of the segment.
+    /// Returns whether cells hide the whole segment, apart from gaps shorter than about 10⁻⁶ of its length.
+    /// `candidates` are indices of occluders. They must include all occluders that hide a part of the segment.
     bool isHidden(const Segment& segment, std::span<const std::uint32_t> candidates);
 
-    /// Counts steps: comparisons of a part of an element with a cell, or with a triangle of the boundary of a cell.
+    /// Counts `steps` steps of work. A step is the comparison of a part of an element with a cell, or with a triangle
+    /// of the boundary of a cell.
     void spend(std::size_t steps);
-    /// Returns whether more steps have been counted than are allowed. If so, isHidden() may return false too often.
+    /// Returns whether more steps have been counted than place() allowed. If so, isHidden() may return false although
+    /// the segment is hidden.
     bool isExhausted() const { return exhausted_; }
 
   private:
@@ -106,23 +110,27 @@ class ProjectedCells {
     std::size_t stepsLeft_ = 0;
     bool exhausted_ = false;
 
-    std::uint64_t object_ = 0;                           // the serial number of the object to which these belong:
-    std::vector<Triangle> triangles_;                    // the boundaries of all cells; seen from outside,
-                                                         // counterclockwise, or all the other way around
-    std::vector<std::uint32_t> triangleBegin_;           // per cell: its first triangle; then the number of triangles
-    geometry::JaggedArray cellsOfVertex_, cellsOfEdge_;  // some cells several times
+    std::uint64_t object_ = 0;  // the serial number of the object to which the next four members belong
+    // the boundaries of all cells; as seen from outside the cells, the triangles are all counterclockwise or all
+    // clockwise
+    std::vector<Triangle> triangles_;
+    // per cell: the index of its first triangle; then the number of triangles
+    std::vector<std::uint32_t> triangleBegin_;
+    // per vertex and per edge: the cells that contain it; some cells are listed several times
+    geometry::JaggedArray cellsOfVertex_, cellsOfEdge_;
 
     std::vector<glm::dvec4> points_;
     double size_ = 0;
     std::vector<Occluder> occluders_;
     std::vector<std::uint32_t> allOccluders_;
 
-    std::vector<std::uint32_t> excludedIn_;  // per cell: the last test in which the cell hides nothing
-    std::uint32_t test_ = 0;                 // the number of the current test, which exclude() begins
+    std::vector<std::uint32_t> excludedIn_;  // per cell: the number of the last test in which the cell is excluded
+    std::uint32_t test_ = 0;                 // the number of the current test, which began with the last exclude()
     std::size_t lastHiding_ = 0;             // the index of the last occluder that hid a whole segment
 
-    std::vector<double> cuts_;                        // where a cell begins or ceases to hide a segment
-    std::vector<std::pair<double, double>> covered_;  // the hidden parts of a segment, from 0 to 1
+    std::vector<double> cuts_;  // where a cell begins or ceases to hide a segment, from 0 to 1
+    // the hidden parts of a segment: their starts and ends, from 0 to 1
+    std::vector<std::pair<double, double>> covered_;
 };
 
 }  // namespace oval4d::slicing

@@ -18,17 +18,19 @@ namespace {
 
 using geometry::kNone;
 
-// The elements of a cell complex that are written to part 0 of the output (see Projector::project()).
+// Which elements of a cell complex are written to part 0 of the output, the projection of the object (see
+// Projector::project()).
 struct ElementSelection {
-    const DrawnElements* unhidden;    // the selected elements; null if they are not listed
-    const std::vector<bool>* facing;  // otherwise, per cell: whether its elements are selected; null if all are
+    const DrawnElements* unhidden;    // the selected elements; if null, `facing` selects elements
+    const std::vector<bool>* facing;  // per cell: whether its elements are selected; if null, all are
     bool face(const geometry::CellComplex& p, std::size_t f) const {
         if (unhidden != nullptr) return unhidden->faces[f];
         return facing == nullptr || (*facing)[p.faceCells[f][0]] || (*facing)[p.faceCells[f][1]];
     }
 };
 
-// Numbers the selected vertices and edges: writes their indices in part 0, or kNone for all others.
+// Numbers the selected vertices and edges. Sets `vertices` and `edges` to their indices in part 0 of the output, or to
+// kNone for elements that are not selected.
 void numberElements(const geometry::CellComplex& p, const ElementSelection& selection,
                     std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
@@ -148,7 +150,7 @@ void Projector::addSlice(const SliceSet& slices, int slice, const ProjectionToHy
     const double magnification = projection.magnification(slices.planes.w(slice));
     if (slices.ballScale.empty()) {
         for (std::uint32_t v = v0; v < v1; ++v) out.vertices.push_back(slices.vertices[v] * magnification);
-    } else {  // the points of a cloud lie near the hyperplane, not in it
+    } else {  // the points of a cloud lie near the hyperplane of the slice, not in it
         for (std::uint32_t v = v0; v < v1; ++v)
             out.vertices.push_back(projection(slices.rotatedVertices[slices.vertexSource[v]]));
         append(out.ballScale, slices.ballScale, v0, v1);
@@ -166,8 +168,9 @@ void Projector::addSlice(const SliceSet& slices, int slice, const ProjectionToHy
     endPart(out);
 }
 
-// A cell's outer side is turned toward the eye E if E lies on the outer side of the cell's hyperplane: n·E > n·p for
-// the outward normal n of the cell and any of its points p. For E = (0, 0, 0, d), division by d gives n_w > (n·p) / d.
+// Finds the cells whose outer sides are turned toward the eye E. The outer side of a cell is turned toward E if E lies
+// on the outer side of the cell's hyperplane: n·E > n·p for the outward normal n of the cell and any point p of the
+// cell. For E = (0, 0, 0, d), division by d gives n_w > (n·p) / d.
 void Projector::findFacingCells(const Object& object, const geometry::Rotation& orientation,
                                 const ProjectionToHyperplane& projection) {
     const geometry::ObjectInfo& info = infoOf(object);
@@ -180,13 +183,13 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
     cellIsFacing_.resize(normals_.size());
     for (std::size_t c = 0; c < normals_.size(); ++c) {
         const double slack =
-            kOnPlaneTolerance * glm::length(normals_[c]);  // so that a cell seen edge-on does not face the eye
+            kOnPlaneTolerance * glm::length(normals_[c]);  // a cell seen edge-on must not count as facing the eye
         cellIsFacing_[c] = glm::dot(toW, normals_[c]) > offsets_[c] * projection.inverseDistance + slack;
     }
 }
 
-// Returns the elements of a nonconvex object that do not lie wholly behind its cells, or null if options.occlusionSteps
-// are too few to find them. Expects that cellIsFacing_ is valid.
+// Returns the elements of a nonconvex object that do not lie wholly behind its cells. Returns null if
+// options.occlusionSteps are too few to find them. Requires that cellIsFacing_ is valid.
 const DrawnElements* Projector::findUnhidden(const geometry::CellComplex& complex,
                                              const geometry::Rotation& orientation, const SliceSet& slices,
                                              const ProjectionOptions& options) {

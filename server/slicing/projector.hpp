@@ -1,5 +1,5 @@
 #pragma once
-// Projections of an object and of its slices from four to three dimensions.
+// Projects an object and its slices from four to three dimensions.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,64 +16,65 @@
 
 namespace oval4d::slicing {
 
-/// A projection from R⁴ onto the hyperplane w = 0: a perspective projection from an eye on the positive w axis, or the
-/// orthogonal projection along the w axis. See A. M. Noll, "A computer technique for displaying n-dimensional
-/// hyperobjects", 1967.
+/// A projection from R⁴ onto the hyperplane w = 0. It is either a perspective projection from an eye on the positive w
+/// axis, or the orthogonal projection along the w axis. See A. M. Noll, "A computer technique for displaying
+/// n-dimensional hyperobjects", 1967.
 struct ProjectionToHyperplane {
     double inverseDistance = 0;  ///< 1 / (the w coordinate of the eye); 0 for the orthogonal projection
 
     /// Returns the factor by which the projection magnifies the hyperplane with this w. The hyperplane must be below
     /// the eye.
     double magnification(double w) const { return 1 / (1 - w * inverseDistance); }
-    /// Returns the projection of a point.
+    /// Returns the projection of the point p.
     glm::dvec3 operator()(const glm::dvec4& p) const { return glm::dvec3(p) * magnification(p.w); }
-    /// Returns the projection of a point, and as the fourth coordinate a height that increases toward the eye along
-    /// each line of sight (see ProjectedCells).
+    /// Returns the projection of the point p as x, y and z. The fourth coordinate is a height that increases toward the
+    /// eye along each line of sight (see ProjectedCells).
     glm::dvec4 withHeight(const glm::dvec4& p) const { return p * magnification(p.w); }
     bool operator==(const ProjectionToHyperplane&) const = default;
 };
 
-/// Projects an object together with some of its slices. Caches the hyperplanes of the cells of the last object and what
-/// is hidden of it, and reuses its memory. Only one thread at a time may use a projector.
+/// Projects an object together with some of its slices. Caches the hyperplanes of the cells of the last object, and
+/// which of its elements are hidden. Reuses its memory. Only one thread at a time may use a projector.
 class Projector {
   public:
+    /// Says what to project, and how.
     struct ProjectionOptions {
         ProjectionToHyperplane projection;
-        /// Whether to write the 2-faces of the object: those that bound the projected cells or, of a surface, all. The
-        /// loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat; FaceFiller
-        /// fills it.
+        /// Whether to write the 2-faces of the object: those that bound the projected cells or, for a surface, all
+        /// 2-faces. The loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat;
+        /// FaceFiller fills such loops.
         bool cells = false;
-        /// Whether to leave out what the 4-D eye cannot see: the elements that belong only to cells whose outer sides
-        /// are turned away from it, which are all of a convex object, and of any other object also those that lie
+        /// Whether to leave out what the 4-D eye cannot see. These are the elements that belong only to cells whose
+        /// outer sides are turned away from the eye. If the object is not convex, these are also the elements that lie
         /// wholly behind other cells and bound no element that is drawn (see OcclusionFinder::find()). Leaves out
         /// nothing if the object has no cells.
         bool culled = false;
-        /// The maximum number of steps to find what lies behind other cells. If they are too few, only what belongs to
-        /// cells turned away is left out.
+        /// The maximum number of steps to find the elements that lie behind other cells (see OcclusionFinder::find()).
+        /// If the steps are too few, only the elements that belong only to cells turned away from the eye are left out.
         std::size_t occlusionSteps = OcclusionFinder::kDefaultSteps;
-        int firstSlice = 0, endSlice = 0;  ///< the slices to project are firstSlice … endSlice − 1 of the set
+        int firstSlice = 0, endSlice = 0;  ///< the slices with the indices firstSlice … endSlice − 1 are projected
     };
 
     /// Writes the projection of `object` to part 0 of `out`, and the projections of the slices to the parts that
     /// follow. Part i is stored like slice i of a SliceSet; `out.planes` and `out.rotatedVertices` are not used.
-    /// `slices` must have been cut from `object` rotated by `orientation`. In part 0, the source number of a vertex,
-    /// edge or 2-face is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
+    /// `slices` must have been cut from `object` rotated by `orientation`. The source number of a vertex, edge or
+    /// 2-face in part 0 is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
     ///
-    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, this is the cell that determines
-    /// the color of the 2-face: the first of its two cells, unless only the second one is turned toward the eye. If the
-    /// object has no cells, the entry is the index of the 2-face. For a face of a slice, it is the source number of the
-    /// face. Overwrites `out` and `faceCells`.
+    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, the entry is the cell that
+    /// determines the color of the 2-face: the first of its two cells, unless only the second one is turned toward the
+    /// eye. If the object has no cells, the entry is the index of the 2-face. For a face of a slice, the entry is the
+    /// source number of the face. Overwrites `out` and `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
-    /// Returns whether ProjectionOptions::occlusionSteps were too few in the last project(), so that it left out only
-    /// elements of cells turned away.
+    /// Returns whether ProjectionOptions::occlusionSteps were too few in the last call of project(). If so, project()
+    /// left out only elements that belong only to cells turned away from the eye.
     bool lacksSteps() const { return lacksSteps_; }
 
   private:
-    // All that determines what is hidden.
+    // All data that determine which elements are hidden.
     struct OcclusionInput {
-        std::uint64_t object = 0;  // the serial number
+        std::uint64_t object = 0;  // the serial number of the object
         geometry::Rotation orientation;
         ProjectionToHyperplane projection;
         bool withFaces = false;
@@ -89,17 +90,18 @@ class Projector {
                   std::vector<std::uint32_t>& faceCells);
 
     std::uint64_t object_ = 0;               // the serial number of the object to which normals_ and offsets_ belong
-    std::vector<glm::dvec4> normals_;        // per cell: its normal, not rotated and not normalized
-    std::vector<double> offsets_;            // per cell: the dot product of its normal and any of its points
+    std::vector<glm::dvec4> normals_;        // per cell: its outward normal, before the rotation, not normalized
+    std::vector<double> offsets_;            // per cell: the dot product of its normal and any point of the cell
     std::vector<bool> cellIsFacing_;         // per cell: whether its outer side is turned toward the eye
     std::vector<std::uint32_t> number_;      // per vertex of the object: its index in part 0, or kNone
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
 
-    bool lacksSteps_ = false;  // see lacksSteps()
+    bool lacksSteps_ = false;  // the result of the function lacksSteps()
     OcclusionFinder occlusion_;
-    std::optional<OcclusionInput> occlusionInput_;  // of unhidden_ and occlusionFound_; empty if they are not valid
-    bool occlusionFound_ = false;                   // whether the steps were enough
-    DrawnElements unhidden_;                        // valid only if occlusionFound_ is true
+    // the data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid
+    std::optional<OcclusionInput> occlusionInput_;
+    bool occlusionFound_ = false;  // whether the steps were enough to find unhidden_
+    DrawnElements unhidden_;       // valid only if occlusionFound_ is true
     std::vector<glm::dvec4> images_;
 };
 

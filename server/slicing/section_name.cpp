@@ -17,32 +17,33 @@
 #include "polytopes/polytope.hpp"
 #include "slicing/overloaded.hpp"
 
-// A convex polyhedron is determined by its vertices. The vertices are recognized by their distances from each other,
-// which do not depend on the orientation. These distances suffice for nameOfObjectVertices(), which names a convex
-// hull. A slice, however, need not be the convex hull of its vertices. It is the hull if it has the same edges and the
-// same number of faces as the hull. Therefore nameOfSlice() also compares the number and the lengths of the edges, and
-// the number of faces. The distances also distinguish polyhedra with the same faces and the same circumradius, such as
-// the cuboctahedron and the triangular orthobicupola (Johnson's J27).
+// How shapes are recognized: a convex polyhedron is determined by its vertices, and its vertices are recognized by
+// their distances from each other. These distances do not depend on the orientation. They suffice for
+// nameOfObjectVertices(), which names a convex hull. A slice, however, need not be the convex hull of its vertices. It
+// is the hull if it has the same edges and the same number of faces as the hull. Therefore nameOfSlice() also compares
+// the number and the lengths of the edges, and the number of faces. The distances also distinguish polyhedra with the
+// same faces and the same circumradius, such as the cuboctahedron and the triangular orthobicupola (Johnson's J27).
 
 namespace oval4d::slicing {
 
 namespace {
 
-constexpr double kTolerance = 1e-6;        // the tolerance of distances, relative to the circumradius
-constexpr int kMaxSides = 20;              // of polygons, and of the bases of prisms and antiprisms
+constexpr double kTolerance = 1e-6;  // the tolerance of distances, relative to the circumradius
+constexpr int kMaxSides = 20;  // the maximum number of sides of polygons, and of the bases of prisms and antiprisms
 constexpr std::size_t kMaxVertices = 120;  // the vertex count of the largest shape, the truncated icosidodecahedron
 constexpr std::string_view kPoint = "point";
 
 bool near(double a, double b) { return std::abs(a - b) <= kTolerance; }
 
-// Sets `distances` to the distances of a point from all points, including itself, in ascending order.
+// Sets `distances` to the distances of the point `from` from all `points`, in ascending order. If `from` is one of the
+// points, the list includes its distance 0 from itself.
 void findDistances(const std::vector<glm::dvec3>& points, const glm::dvec3& from, std::vector<double>& distances) {
     distances.clear();
     for (const glm::dvec3& point : points) distances.push_back(glm::distance(from, point));
     std::sort(distances.begin(), distances.end());
 }
 
-// Moves the center of the points to 0 and scales their circumradius to 1. Returns false if they have no extent.
+// Moves the center of the points to 0 and scales their circumradius to 1. Returns false if the points have no extent.
 bool moveIntoUnitSphere(std::vector<glm::dvec3>& points) {
     glm::dvec3 sum(0);
     for (const glm::dvec3& point : points) sum += point;
@@ -69,22 +70,22 @@ bool NamedSection::isOf(const Object& shown, const geometry::Rotation& rotation,
     return object == infoOf(shown).serial && w == focusW && orientation == rotation;
 }
 
-// A shape that has a name. The circumradius of those that shapes() returns is 1.
+// A shape that has a name. The shapes that shapes() returns have the circumradius 1.
 struct SectionNamer::Shape {
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
-    std::vector<double> edges;            // the lengths of the edges, each once
-    // The distances of a vertex from all vertices, in ascending order: one list for all vertices with the same
-    // distances. Most shapes have only one list.
+    std::vector<double> edges;            // the different lengths of the edges
+    // The distances of a vertex from all vertices, in ascending order. All vertices with the same distances share one
+    // list. Most shapes have only one list.
     std::vector<std::vector<double>> distances;
 
-    // A shape whose vertices and edges have these positions and lengths.
+    // Makes a shape without a name, with vertices at these positions and edges of these lengths.
     Shape(const std::vector<glm::dvec3>& vertices, std::vector<double> edgeLengths) : edges(std::move(edgeLengths)) {
         findDistancesOf(vertices);
     }
 
-    // `dimension` is 1 for a segment, 2 for polygons and 3 for polyhedra. Takes the pairs of vertices with the least
-    // distance from each other as the edges.
+    // Makes a shape of the dimension `dimension`: 1 for a segment, 2 for a polygon and 3 for a polyhedron. Its edges
+    // are the pairs of vertices with the least distance from each other.
     Shape(std::string shapeName, int dimension, std::vector<glm::dvec3> vertices) : name(std::move(shapeName)) {
         moveIntoUnitSphere(vertices);
         findDistancesOf(vertices);
@@ -94,7 +95,8 @@ struct SectionNamer::Shape {
         counts = {vertices.size(), edgeCount, faces};
     }
 
-    // A regular star whose edges have this length. Its center is 0, and its faces have `sides` sides.
+    // Makes a regular star polyhedron with the center 0. `edge` is the length of its edges, and `sides` the number of
+    // sides of its faces.
     Shape(std::string shapeName, std::vector<glm::dvec3> vertices, double edge, std::size_t sides)
         : name(std::move(shapeName)), edges{edge / glm::length(vertices.front())} {
         moveIntoUnitSphere(vertices);
@@ -124,7 +126,7 @@ struct SectionNamer::Shape {
             if (!hasVertex(ofVertex)) distances.push_back(ofVertex);
         }
     }
-    // Returns the number of pairs of vertices whose distance is the length of an edge.
+    // Returns the number of pairs of vertices whose distance is the length of an edge of the shape.
     std::size_t countEdges(const std::vector<glm::dvec3>& vertices) const {
         std::size_t ends = 0;
         std::vector<double> ofVertex;
@@ -134,7 +136,7 @@ struct SectionNamer::Shape {
         }
         return ends / 2;
     }
-    // Returns whether one of the vertices has these distances from all vertices.
+    // Returns whether a vertex of the shape has the distances `ofVertex` from all vertices.
     bool hasVertex(const std::vector<double>& ofVertex) const {
         return std::any_of(distances.begin(), distances.end(), [&](const std::vector<double>& known) {
             return std::equal(known.begin(), known.end(), ofVertex.begin(), near);
@@ -145,8 +147,8 @@ struct SectionNamer::Shape {
     }
 };
 
-// All polyhedra of one kind over regular polygons of the same kind, or all cuboids. They have the same name and
-// different proportions.
+// A family of polyhedra with the same name and different proportions: all polyhedra of one kind over regular polygons
+// with the same number of sides, or all cuboids.
 struct SectionNamer::Family {
     enum class Kind : std::uint8_t { cuboid, prism, antiprism, pyramid, bipyramid };
 
@@ -164,8 +166,9 @@ struct SectionNamer::Family {
         if (kind == Kind::bipyramid) counts = {n + 2, 3 * n, 2 * n};
     }
 
-    // Returns the members of the family that may have edges of these lengths, which are in ascending order: one cuboid,
-    // or up to two others, because either length may be that of the sides of the polygon.
+    // Returns the members of the family that may have edges of these lengths, which are in ascending order. For
+    // cuboids, there is one such member. For other kinds there are up to two, because either length may be that of the
+    // sides of the polygon.
     std::vector<Shape> membersWithEdges(const std::vector<double>& lengths) const {
         const double shortest = lengths.front(), longest = lengths.back();
         std::vector<Shape> members;
@@ -185,14 +188,15 @@ struct SectionNamer::Family {
         return members;
     }
 
-    // Returns the vertices of the member whose polygon has sides of the length `side`, and whose other edges have the
-    // length `lateral`; an empty list if there is none.
+    // Returns the vertices of the member of the family whose polygon has sides of the length `side`, and whose other
+    // edges have the length `lateral`. Returns an empty list if there is no such member.
     std::vector<glm::dvec3> verticesOf(double side, double lateral) const {
         const int sides = base.numerator;
         const double radius = side / (2 * std::sin(std::numbers::pi * base.denominator / sides));
         const double turn = kind == Kind::antiprism ? std::numbers::pi / sides : 0;
         const bool hasApex = kind == Kind::pyramid || kind == Kind::bipyramid;
-        const double across = hasApex ? radius : 2 * radius * std::sin(turn / 2);  // the width of a lateral edge
+        // the horizontal extent of a lateral edge
+        const double across = hasApex ? radius : 2 * radius * std::sin(turn / 2);
         const double height = std::sqrt(lateral * lateral - across * across);
         if (!(height > kTolerance)) return {};
         std::vector<glm::dvec3> vertices = regularPolygon(sides, 0, radius);
@@ -214,7 +218,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
         std::vector<Shape> shapes;
         for (const polytopes::NamedPolyhedron& solid : named) {
             if (!polytopes::isConvex(solid)) {
-                // The diagram of {p, q} is xpoqo; that of its dual {q, p} is opoqx.
+                // The Coxeter–Dynkin diagram of {p, q} is xpoqo; that of its dual {q, p} is opoqx.
                 const std::string_view diagram = solid.linearNotation;
                 const char sides = diagram.starts_with('x') ? diagram[1] : diagram[diagram.size() - 2];
                 constexpr double kEdge = 2;
@@ -225,7 +229,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
             shapes.emplace_back(std::string(solid.name), 3, polytopes::verticesOf(solid));
             const polytopes::Solid dual{&solid, 0, false, true};
             const std::string nameOfDual = polytopes::nameOf(dual);
-            // The duals of the Platonic solids are Platonic solids.
+            // The duals of the Platonic solids are Platonic solids themselves, so they already have names.
             if (std::ranges::none_of(named, [&](const auto& other) { return other.name == nameOfDual; }))
                 shapes.emplace_back(nameOfDual, polytopes::meshOf(dual));
         }
@@ -261,9 +265,11 @@ const std::vector<SectionNamer::Family>& SectionNamer::families() {
         for (int n = 3; n <= kMaxSides; ++n) {
             const RegularPolygon polygon{n, 1};
             const std::string adjective = polytopes::adjectiveOf(polygon);
-            if (n != 4) families.emplace_back(Kind::prism, polygon, adjective + " prism");  // for n = 4, it is a cuboid
+            // for n = 4, the prism is a cuboid
+            if (n != 4) families.emplace_back(Kind::prism, polygon, adjective + " prism");
             families.emplace_back(Kind::antiprism, polygon, adjective + " antiprism");
-            if (n != 3) families.emplace_back(Kind::pyramid, polygon, adjective + " pyramid");  // else a tetrahedron
+            // for n = 3, the pyramid is a tetrahedron
+            if (n != 3) families.emplace_back(Kind::pyramid, polygon, adjective + " pyramid");
             families.emplace_back(Kind::bipyramid, polygon, adjective + " bipyramid");
             for (int d = 2; 2 * d < n; ++d) {
                 const RegularPolygon star{n, d};
@@ -329,7 +335,8 @@ std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int 
     for (const Shape& shape : shapes()) {
         if (shape.counts[0] == vertices_.size() && verticesAreThoseOf(shape)) return shape.name;
     }
-    // If no edge crosses the hyperplane, a convex slice is the convex hull.
+    // If no edge of the object crosses the hyperplane, a convex slice is the convex hull of the object's vertices in
+    // it.
     return vertices_.size() == slices.vertexCount(slice) ? nameOfFamily(slices, slice, false) : std::string_view();
 }
 
@@ -339,8 +346,8 @@ bool SectionNamer::isSolid(std::string_view name) {
     return std::ranges::find(families(), name, &Family::name) != families().end();
 }
 
-// Returns the name of the family to which a slice belongs, or an empty string; if `withStars` is false, also for a
-// prism over a star polygon. `vertices_` must have the vertices of the slice.
+// Returns the name of the family to which a slice belongs, or an empty string if it belongs to none. If `withStars` is
+// false, also returns an empty string for a prism over a star polygon. vertices_ must have the vertices of the slice.
 std::string_view SectionNamer::nameOfFamily(const SliceSet& slices, int slice, bool withStars) {
     const std::array counts{slices.vertexCount(slice), slices.edgeCount(slice), slices.faceCount(slice)};
     const auto edges = std::span(slices.edges).subspan(slices.edgeBegin[slice], counts[1]);

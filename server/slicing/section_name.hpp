@@ -16,7 +16,7 @@
 
 namespace oval4d::slicing {
 
-/// The two names of the section of an object by a hyperplane. They may differ: the slice also has vertices at the
+/// The two names of the section of an object by a hyperplane. The names may differ: the slice also has vertices at the
 /// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
 struct SectionNamePair {
     std::string_view slice;     ///< the result of SectionNamer::nameOfSlice()
@@ -24,24 +24,27 @@ struct SectionNamePair {
     bool operator==(const SectionNamePair&) const = default;
 };
 
-/// The names of a section, and all that determines them.
+/// The names of a section, with the object, orientation and hyperplane that determine them.
 struct NamedSection {
-    std::uint64_t object = 0;  ///< the serial number
+    std::uint64_t object = 0;  ///< the serial number of the object
     geometry::Rotation orientation;
-    double w = 0;  ///< of the hyperplane
+    double w = 0;  ///< the w coordinate of the hyperplane
     SectionNamePair names;
 
-    /// Returns whether this is the section of `shown`, rotated by `rotation`, by the hyperplane at `focusW`.
+    /// Returns whether this is the section of `shown`, rotated by `rotation`, by the hyperplane w = `focusW`.
     bool isOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const;
 };
 
 /// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
-/// geometrically similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape: the
-/// point, the segment, the regular polygons with up to 20 sides, the Platonic, Archimedean, Catalan and Kepler–Poinsot
-/// solids, the cuboids, the right prisms, antiprisms, pyramids and bipyramids of any height whose bases are such
-/// polygons, the duals of the uniform antiprisms among these, and the right prisms of any height whose bases are
-/// regular star polygons with up to 20 sides. All other shapes have no name, including all others that are not convex
-/// or have several components.
+/// geometrically similar to one of the following, with errors of at most 1e-6 of the circumradius of the shape:
+/// - the point, the segment, and the regular polygons with up to 20 sides;
+/// - the Platonic, Archimedean, Catalan and Kepler–Poinsot solids;
+/// - the cuboids;
+/// - the right prisms, antiprisms, pyramids and bipyramids of any height whose bases are such polygons;
+/// - the duals of the uniform antiprisms with such bases;
+/// - the right prisms of any height whose bases are regular star polygons with up to 20 sides.
+///
+/// All other shapes have no name, including all others that are not convex or have several components.
 ///
 /// If no named shape has the same numbers of vertices, edges and faces as a slice, a call of nameOfSlice() takes less
 /// than 1 µs, regardless of the size of the slice. Otherwise the time is proportional to V² log V for V vertices: 0.2
@@ -50,28 +53,30 @@ struct NamedSection {
 /// if a slice may be a cuboid, prism, antiprism, pyramid or bipyramid. Only one thread at a time may use a namer.
 class SectionNamer {
   public:
-    /// A quick test, which does not cut the slice: returns false if the section of `object`, rotated by `orientation`,
-    /// by the hyperplane at `w` certainly has neither of the names in SectionNamePair, and true if it may have one. Let
-    /// n be the number of the object's vertices in the hyperplane, and m the number of edges that cross it. The slice
-    /// has n + m vertices; the second name depends only on the n vertices. Returns true if n or n + m is between 1 and
-    /// the vertex count of the largest named shape. Always returns false for objects whose sections have
-    /// no names (ObjectKindProperties), such as fields. Takes time linear in the numbers of vertices and edges.
+    /// Tests quickly, without cutting the slice, whether a section may have a name. Returns false if the section of
+    /// `object`, rotated by `orientation`, by the hyperplane w = `w` certainly has neither of the names in
+    /// SectionNamePair. Returns true if the section may have a name: let n be the number of the object's vertices in
+    /// the hyperplane, and m the number of edges that cross it. The slice has n + m vertices; the second name depends
+    /// only on the n vertices. The result is true if n or n + m is between 1 and the vertex count of the largest named
+    /// shape. For objects whose sections have no names (see ObjectKindProperties), such as fields, the result is always
+    /// false. Takes time linear in the numbers of vertices and edges.
     static bool mayHaveName(const Object& object, const geometry::Rotation& orientation, double w);
 
-    /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if it has none.
-    /// The string is valid until the process ends.
+    /// Returns the name of slice number `slice`, such as "truncated tetrahedron", or an empty string if the slice has
+    /// no name. The string is valid until the process ends.
     std::string_view nameOfSlice(const SliceSet& slices, int slice);
 
     /// Returns the name of the convex hull of those vertices of slice number `slice` that are vertices of the polytope,
-    /// or an empty string if it has none. These hulls are the sections in Coxeter's tables (Regular Polytopes, §13.1
-    /// and table V). The slice has more vertices if edges of the polytope cross the hyperplane: for example, the second
-    /// section of the vertex-first 600-cell after the point is a dodecahedron, but the slice there has 32 vertices.
-    /// `edges` is the number of edges of the polytope. The string is valid until the process ends. Takes time linear in
-    /// the number of the slice's vertices, plus the time to compare the polytope's vertices with the named shapes.
+    /// or an empty string if the hull has no name. These hulls are the sections in Coxeter's tables (Regular Polytopes,
+    /// §13.1 and table V). The slice has more vertices than the hull if edges of the polytope cross the hyperplane. For
+    /// example, the second section of the vertex-first 600-cell after the point is a dodecahedron, but the slice there
+    /// has 32 vertices. `edges` is the number of edges of the polytope. The string is valid until the process ends.
+    /// Takes time linear in the number of the slice's vertices, plus the time to compare the polytope's vertices with
+    /// the named shapes.
     std::string_view nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges);
 
-    /// Returns whether `name`, a result of the functions above, is the name of a polyhedron. False for the names of the
-    /// point, the segment and the polygons, and for an empty string.
+    /// Returns whether `name`, a result of the functions above, is the name of a polyhedron. Returns false for the
+    /// names of the point, the segment and the polygons, and for an empty string.
     static bool isSolid(std::string_view name);
 
   private:
@@ -83,9 +88,10 @@ class SectionNamer {
     bool edgesAreThoseOf(const Shape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const;
     bool verticesAreThoseOf(const Shape& shape);
 
-    std::vector<glm::dvec3> vertices_;  // the vertices to be named; their center is 0 and their circumradius is 1
-    std::vector<double> distances_;     // the distances of one vertex from all vertices, in ascending order
-    std::vector<double> lengths_;       // the lengths of the slice's edges, in ascending order
+    // the vertices of the shape to be named, moved and scaled so that their center is 0 and their circumradius is 1
+    std::vector<glm::dvec3> vertices_;
+    std::vector<double> distances_;  // the distances of one vertex from all vertices, in ascending order
+    std::vector<double> lengths_;    // the lengths of the slice's edges, in ascending order
 };
 
 }  // namespace oval4d::slicing

@@ -17,14 +17,15 @@ namespace oval4d::slicing {
 
 namespace {
 
-// For a vertex: the number of hyperplanes below the vertex (`below`), and of those below or through it (`upTo`).
+// The position of a vertex among parallel hyperplanes: `below` is the number of hyperplanes below the vertex, and
+// `upTo` the number of hyperplanes below or through the vertex.
 struct HyperplaneCounts {
     std::size_t below, upTo;
 };
 
-// Counts the hyperplanes below a vertex with this w, and those below or through it. `sorted` has the values of
-// planes.listed in ascending order. A vertex at a distance of at most `tolerance` from a hyperplane lies in it, as in
-// CellComplexSlicer.
+// Counts the hyperplanes below a vertex with the coordinate `w`, and those below or through this vertex. `sorted` has
+// the values of planes.listed in ascending order. A vertex at a distance of at most `tolerance` from a hyperplane lies
+// in the hyperplane, as in CellComplexSlicer.
 HyperplaneCounts countHyperplanes(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
                                   double w) {
     if (!sorted.empty()) {
@@ -42,13 +43,13 @@ std::size_t countInComplex(const geometry::CellComplex& complex, const geometry:
     std::vector<double> sorted = planes.listed;
     std::ranges::sort(sorted);
     const glm::dmat4 turned = orientation.matrix();
-    std::vector<HyperplaneCounts> counts;  // per vertex
+    std::vector<HyperplaneCounts> counts;  // one entry per vertex
     counts.reserve(complex.vertices.size());
     const double tolerance = kOnPlaneTolerance * complex.circumradius;
     for (const glm::dvec4& vertex : complex.vertices)
         counts.push_back(countHyperplanes(planes, sorted, tolerance, (turned * vertex).w));
-    // The number of times that sides of 2-faces cross hyperplanes. A side that several 2-faces share counts for each of
-    // them, so that each slice edge has two crossings as its ends.
+    // Counts how often sides of 2-faces cross hyperplanes. A side that several 2-faces share is counted once for each
+    // of them. So each slice edge accounts for two crossings: its ends.
     std::size_t crossings = 0;
     for (std::size_t f = 0; f < complex.faces.size(); ++f) {
         const auto loop = complex.faces[f];
@@ -84,7 +85,8 @@ void checkSliceEdges(const Object& object, const geometry::Rotation& orientation
         visitElements(Overloaded{[](const geometry::CellComplex& complex) { return complex.faces.items.size(); },
                                  [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
                       object);
-    // A hyperplane crosses each side of a 2-face at most once, and two crossings are the ends of a slice edge.
+    // A hyperplane crosses each side of a 2-face at most once, and each slice edge has two crossings as its ends. So
+    // half the number of sides, times the number of hyperplanes, is an upper bound.
     if (sides * static_cast<std::size_t>(planes.count) / 2 <= allowed) return;
     const std::size_t found = sliceEdgeBound(object, orientation, planes);
     if (found > allowed) throw TooManySliceEdges(found, allowed);

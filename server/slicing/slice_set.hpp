@@ -1,5 +1,5 @@
 #pragma once
-// The slices of an object by parallel hyperplanes w = const.
+// The slices of an object by parallel hyperplanes w = const, as arrays of vertices, edges and faces.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@ namespace oval4d::slicing {
 /// circumradius.
 inline constexpr double kOnPlaneTolerance = 1e-9;
 
-/// Numbers of vertices, edges, faces and face corners. They are either the size of one or more slices, or the position
+/// Numbers of vertices, edges, faces and face corners. They give either the size of one or more slices, or the position
 /// of a slice in a SliceSet: the total size of the slices before it.
 struct SliceCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
@@ -30,30 +30,34 @@ struct SliceCounts {
 };
 
 /// The slices of an object, stored as a structure of arrays. Slice i has the vertices vertexBegin[i] … vertexBegin[i +
-/// 1] − 1, and likewise edges and faces. The vertex indices in `edges` and `corners` are relative to the first vertex
-/// of the slice, and the edge indices in `cornerEdges` to the first edge of the slice.
+/// 1] − 1; its edges and faces are given likewise by edgeBegin and faceBegin. The vertex indices in `edges` and
+/// `corners` are relative to the first vertex of the slice, and the edge indices in `cornerEdges` to the first edge of
+/// the slice.
 ///
 /// The source number of an element of a slice says from which element of the object it was cut. For a cell complex,
-/// such as a polytope, with E edges, F 2-faces and C cells, `vertexSource` is the index of the edge that was cut, or E
-/// + v if vertex v lies in the hyperplane; `edgeSource` is the index of the 2-face that was cut, or F + e if edge e
-/// lies in the hyperplane; `faceSource` is the index of the cell that was cut, or C + f if 2-face f lies in the
-/// hyperplane. For a point cloud, `vertexSource` is the index of the point; slices have no edges or faces. For a field,
-/// the vertices, edges and faces are those of the slices of its domain, which is a polytope.
+/// such as a polytope, with E edges, F 2-faces and C cells:
+/// - `vertexSource` is the index of the edge that was cut, or E + v if vertex v lies in the hyperplane;
+/// - `edgeSource` is the index of the 2-face that was cut, or F + e if edge e lies in the hyperplane;
+/// - `faceSource` is the index of the cell that was cut, or C + f if 2-face f lies in the hyperplane.
+///
+/// For a point cloud, `vertexSource` is the index of the point; slices have no edges or faces. For a field, the
+/// vertices, edges and faces are those of the slices of its domain, which is a polytope.
 struct SliceSet {
     geometry::Hyperplanes planes;
     std::vector<glm::dvec4> rotatedVertices;  ///< all vertices or points of the object, rotated
 
-    std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;  ///< planes.count + 1 entries each
-    std::vector<glm::dvec3> vertices;                              ///< x, y, z, in the units of the object
+    /// per slice: the index of its first vertex, edge or face; then the total number
+    std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;
+    std::vector<glm::dvec3> vertices;  ///< x, y and z of each vertex, in the units of the object
     std::vector<std::uint32_t> vertexSource;
     /// For a point cloud, per vertex: the radius of its ball relative to the default (see relativeBallRadius()), and
-    /// the opacity of the ball. Empty for other objects, for which all these values are 1.
+    /// the opacity of the ball. Empty for other objects, whose balls have the default radius and the opacity 1.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;
     std::vector<std::uint32_t> edgeSource;
-    std::vector<std::uint32_t> cornerBegin;  ///< the index of the first corner of each face; then the number of corners
-    std::vector<std::uint32_t> corners;      ///< the loop of each face: vertices, counterclockwise seen from outside
-    std::vector<std::uint32_t> cornerEdges;  ///< entry i: the slice edge from corner i to the next corner
+    std::vector<std::uint32_t> cornerBegin;  ///< per face: the index of its first corner; then the number of corners
+    std::vector<std::uint32_t> corners;  ///< the loop of each face: its vertices, counterclockwise seen from outside
+    std::vector<std::uint32_t> cornerEdges;  ///< entry i is the slice edge from corner i to the next corner of the face
     std::vector<std::uint32_t> faceSource;
     std::vector<SliceSurface> surfaces;  ///< for a field: one per slice; else empty
     std::vector<SliceFog> fogs;          ///< for a field with fog: one per slice; else empty
@@ -68,18 +72,19 @@ struct SliceSet {
     }
     /// Resizes the arrays for planes.count slices with this total size.
     void resize(SliceCounts size);
-    /// Records that slice number `slice` begins at `at`.
+    /// Records that slice number `slice` begins at the position `at` in the arrays.
     void setSliceBegin(int slice, SliceCounts at) {
         vertexBegin[slice] = at.vertices;
         edgeBegin[slice] = at.edges;
         faceBegin[slice] = at.faces;
     }
-    /// Records that the last slice ends at `at`, and truncates the arrays there.
+    /// Records that the last slice ends at the position `at` in the arrays, and truncates the arrays there.
     void finishSlices(SliceCounts at);
-    /// Removes all slices with their vertices, edges and faces, so that appendSlices() can add some. Keeps the planes,
-    /// surfaces and fogs.
+    /// Removes all slices with their vertices, edges and faces, so that appendSlices() can add others. Keeps the
+    /// planes, surfaces and fogs.
     void clearSlices();
-    /// Adds the vertices, edges and faces of all slices of `more`, as further slices. Does not add surfaces and fogs.
+    /// Adds the vertices, edges and faces of all slices of `more` after the last slice of this set. Does not add
+    /// surfaces and fogs.
     void appendSlices(const SliceSet& more);
 };
 

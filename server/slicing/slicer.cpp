@@ -25,7 +25,7 @@ void Slicer::slice(const Object& object, const geometry::Rotation& orientation, 
 
 void Slicer::sliceWithoutSurfaces(const Object& object, const geometry::Rotation& orientation,
                                   const geometry::Hyperplanes& planes, SliceSet& out) {
-    static const FieldSettings anySettings;  // static, because making it in each call would allocate memory
+    static const FieldSettings anySettings;  // static, because each construction would allocate memory
     slice(object, orientation, planes, anySettings, {}, out);
 }
 

@@ -18,13 +18,14 @@ namespace oval4d::slicing {
 /// size allocate nothing. Only one thread at a time may use a slicer.
 class Slicer {
   public:
-    /// If `forkJoin` is not null, slices large convex polytopes and fields on two cores. `forkJoin` must outlive this
-    /// object.
+    /// If `forkJoin` is not null, the slicer uses it to slice large convex polytopes and fields on two cores.
+    /// `forkJoin` must outlive this object.
     explicit Slicer(parallel::ForkJoin* forkJoin = nullptr) : complexes_(forkJoin), fields_(forkJoin) {}
 
-    /// Slices `object` rotated by `orientation`. For a field, extracts the surfaces and samples the fog as `settings`
-    /// and `detail` specify; other objects do not use these arguments. Overwrites `out` and reuses its memory. Throws
-    /// std::runtime_error if the samples of a field are in a file that can no longer be read.
+    /// Slices `object`, rotated by `orientation`, by all hyperplanes of `planes`, and writes the slices to `out`. For a
+    /// field, extracts the surfaces and samples the fog as `settings` and `detail` specify; other objects do not use
+    /// these arguments. Overwrites `out` and reuses its memory. Throws std::runtime_error if the samples of a field are
+    /// in a file that can no longer be read.
     void slice(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,
                const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
 

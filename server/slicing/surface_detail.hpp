@@ -1,5 +1,5 @@
 #pragma once
-// The resolution at which the surfaces of fields are extracted and their fog is sampled.
+// Settings and limits of the lattices on which the surfaces and the fog of a field are sampled.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace oval4d::slicing {
 
-/// The quality of a picture or a file that shows a field. It does not affect pictures and files of other objects.
+/// The quality of a picture or a file that shows a field. The quality does not affect pictures and files of other
+/// objects.
 enum class Quality : std::uint8_t {
     draft,  ///< coarser surfaces, for a picture that a better one soon replaces
     full,   ///< for any picture that is not a draft
@@ -18,21 +19,24 @@ enum class Quality : std::uint8_t {
 
 /// The lattices on which the surfaces and the fog of a field are sampled.
 struct SurfaceDetail {
-    /// Per slice: the distance between neighboring lattice points in the units of the object; 0 if the surfaces of this
-    /// slice are not needed. Empty if no surfaces are needed.
+    /// Per slice: the distance between neighboring lattice points of the surfaces, in the units of the object; 0 if the
+    /// surfaces of this slice are not needed. Empty if no surfaces are needed.
     std::vector<double> steps;
-    /// Determines the limits on time and points. Surfaces in drafts may lack details of the function that are smaller
-    /// than the lattice steps (see ScalarFunction::versionForSteps()).
+    /// The quality determines the limits on time and on the number of points. In drafts, surfaces may lack details of
+    /// the function that are smaller than the lattice steps (see ScalarFunction::versionForSteps()).
     Quality quality = Quality::full;
-    std::vector<double> fogSteps = {};  ///< like `steps`, but the lattice of the fog
-    /// Whether only the topology of the surfaces is needed. If it is true, the points of the surfaces lie only roughly
-    /// on the levels, and have no normals, growth or values.
+    /// per slice: the distance between neighboring lattice points of the fog; 0 if it is not needed. Empty if no fog is
+    /// needed
+    std::vector<double> fogSteps = {};
+    /// Whether only the topology of the surfaces is needed. If true, the points of the surfaces lie only roughly on the
+    /// levels, and have no normals, growth or values.
     bool topologyOnly = false;
     bool secondValues = false;  ///< whether the points need the values of the field's second function
 };
 
-/// Limits on the surfaces of all slices of a picture or file together: the estimated time to extract them on one core,
-/// in nanoseconds, and the number of their points. If the surfaces would exceed a limit, the lattices are made coarser.
+/// Limits on the surfaces of all slices of a picture or file together. If the surfaces would exceed a limit, the
+/// lattices are made coarser. `time` limits the estimated time to extract the surfaces on one core, in nanoseconds.
+/// `points` limits the number of their points.
 struct SurfaceLimits {
     double time;
     std::size_t points;
@@ -48,8 +52,8 @@ constexpr SurfaceLimits surfaceLimits(Quality quality) {
 /// takes one byte in a message, and two bytes of texture memory in a rendered picture.
 constexpr std::size_t maxFogSamples(Quality quality) { return quality == Quality::draft ? 250'000 : 2'000'000; }
 
-/// Returns the intended width, in pixels, of a lattice cube of the surfaces (see SurfaceDetail::steps) and of a lattice
-/// square of the contours in a rendered picture. A draft has wider cubes, so that it takes less time. Messages and
+/// Returns the intended width, in pixels, of a lattice cube of the surfaces (see SurfaceDetail::steps) in a rendered
+/// picture, and of a lattice square of the contours. A draft has wider cubes, so that it takes less time. Messages and
 /// files use cubesAcross() instead.
 constexpr double pixelsPerCube(Quality quality) { return quality == Quality::full ? 3 : 4.5; }
 
@@ -59,11 +63,11 @@ constexpr int cubesAcross(Quality quality) {
     return quality == Quality::file ? 160 : quality == Quality::full ? 48 : 32;
 }
 
-/// Returns the lattice step of messages and files in the units of an object with this circumradius.
+/// Returns the lattice step of surfaces in messages and files, in the units of an object with this circumradius.
 constexpr double uniformStep(double circumradius, Quality quality) { return 2 * circumradius / cubesAcross(quality); }
 
-/// Sets `out` for messages and files: the lattice step of the surfaces in all slices to uniformStep(), and the quality.
-/// Clears the steps of the fog, so that no fog is sampled.
+/// Sets `out` for messages and files. Sets the lattice step of the surfaces in all slices to uniformStep(), and sets
+/// the quality. Clears the steps of the fog, so that no fog is sampled.
 inline void setUniformDetail(double circumradius, const geometry::Hyperplanes& planes, Quality quality,
                              SurfaceDetail& out) {
     out.steps.assign(static_cast<std::size_t>(planes.count), uniformStep(circumradius, quality));
@@ -71,8 +75,8 @@ inline void setUniformDetail(double circumradius, const geometry::Hyperplanes& p
     out.quality = quality;
 }
 
-/// Sets the lattice step of the fog in all slices, for messages: half the step that setUniformDetail() sets for the
-/// surfaces in the quality `out.quality`. Surfaces are accurate even with the larger step, because their points are
+/// Sets the lattice step of the fog in all slices, for messages, to half the step that setUniformDetail() sets for
+/// surfaces of the quality `out.quality`. Surfaces are accurate even with the larger step, because their points are
 /// moved onto the level after sampling.
 inline void setUniformFogSteps(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
     out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));

@@ -19,7 +19,7 @@ void copyChunk(const std::byte* from, std::byte* to) {
 
 // Repeats the block of `size` items that begins at `begin`, so that it occurs `times` times in succession. Makes the
 // first few copies of a small block inline, because a call of memcpy takes longer than copying a small block. After
-// that, doubles the copied range with each call of memcpy.
+// these copies, doubles the copied range with each call of memcpy.
 template <typename Item>
 void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
     constexpr std::size_t kSmall = 256, kFew = 8;
@@ -36,7 +36,7 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
     for (; done < bytes * times; done *= 2) std::memcpy(first + done, first, std::min(done, bytes * times - done));
 }
 
-// Copies the only slice of the set `slice` into `out`, from position `at` on. Returns its size.
+// Copies the only slice of the set `slice` into `out`, from position `at` on. Returns the size of this slice.
 SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
     const SliceCounts size = slice.totalCounts();
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
@@ -65,7 +65,7 @@ bool Sweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices plane
 bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
                 SliceSet& out) {
     first_ = first;
-    SliceCounts here = at;  // a local copy, because writes to arrays might alias `at`
+    SliceCounts here = at;  // a local copy, because the compiler must assume that writes to the arrays change `at`
     for (std::size_t step = 0; step + 1 < structureChanges_.size(); ++step) {
         int k = structureChanges_[step];
         const int next = structureChanges_[step + 1];
@@ -88,7 +88,7 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
     return true;
 }
 
-// Finds the hyperplanes at which the set of cut elements may change.
+// Finds the hyperplanes at which the set of cut elements may change: see structureChanges_.
 void Sweep::findStructureChanges(const polytopes::Polytope& polytope, int planes) {
     verticesMet_.assign(planes + 1, VerticesMet::none);
     for (const std::int32_t below : planesBelow_.below) verticesMet_[below] = VerticesMet::between;
@@ -106,8 +106,8 @@ void Sweep::findStructureChanges(const polytopes::Polytope& polytope, int planes
     structureChanges_.push_back(planes);
 }
 
-// Finds the hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane cuts a
-// 2-face in several segments.
+// Finds the range of hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane
+// cuts a 2-face in several segments.
 bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) {
     const std::int32_t* below = planesBelow_.below.data();
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
@@ -118,7 +118,8 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
     edges_.clear(edges, planes);
     for (std::uint32_t e = 0; e < edges; ++e) {
         const std::int32_t a = below[polytope.edges[e][0]], b = below[polytope.edges[e][1]];
-        const std::int32_t from = std::min(a, b), to = a + b - from;  // the maximum, without a branch
+        // `to` is the maximum of a and b, computed without a branch
+        const std::int32_t from = std::min(a, b), to = a + b - from;
         total.vertices += to - from;
         ends += (to - from) * (polytope.edgeFaces.begin[e + 1] - polytope.edgeFaces.begin[e]);
         edges_.add(e, from, to);
@@ -174,7 +175,8 @@ void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::
     cells_.activateAt(plane);
 }
 
-// Makes an edge active: computes its line, and links the half-edges that meet on this edge (see edgeOfEnd_).
+// Makes an edge active: computes the line through the edge, and links the half-edges that meet on the edge (see
+// edgeOfEnd_).
 inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
                              const std::vector<glm::dvec4>& rotatedVertices) {
     const std::int32_t* below = planesBelow_.below.data();
@@ -197,8 +199,9 @@ inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t 
     }
 }
 
-// Writes the slices in hyperplanes plane … end − 1. No vertex lies between these hyperplanes, so the slices differ only
-// in the coordinates of their vertices. Returns false if a hyperplane cuts a cell in several polygons.
+// Writes the slices in the hyperplanes with the indices plane … end − 1. No vertex lies between these hyperplanes, so
+// their slices differ only in the coordinates of their vertices. Returns false if a hyperplane cuts a cell in several
+// polygons.
 bool Sweep::write(int plane, int end, SliceCounts at, SliceSet& out) {
     writeVertices(plane, end, at, out);
     writeEdges(at, out);
@@ -267,9 +270,9 @@ bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
         cornerBegin[i] = corner;
         const std::uint32_t start = firstEnd_[cut[i].number];
         const std::uint32_t first = sliceEdges[start >> 1U];
-        // `start` lies on the edge of the cell that became active last. In a convex cell, the hyperplane cuts this edge
-        // as long as it cuts the cell. If the hyperplane does not cut the 2-face of `start`, rounding errors have made
-        // the cell nonconvex.
+        // The half-edge `start` lies on the edge of the cell that became active last. In a convex cell, the hyperplane
+        // cuts this edge as long as it cuts the cell. If the hyperplane does not cut the 2-face of `start`, rounding
+        // errors have made the cell nonconvex.
         if (first >= faces_.size() || edgeSource[first] != start >> 1U) return false;
         std::uint32_t end = start;
         do {

@@ -1,5 +1,5 @@
 #pragma once
-// A sweep of a hyperplane through a convex polytope.
+// Slices a convex polytope by sweeping a hyperplane through it.
 
 #include <array>
 #include <cstdint>
@@ -18,28 +18,33 @@
 namespace oval4d::slicing {
 
 /// Slices a convex polytope with a sweep: a hyperplane w = const rises through the polytope, and active lists hold the
-/// elements that it currently cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and each cut
-/// cell a face. The vertex loop of a cut 2-face crosses the hyperplane on two polytope edges: on one the loop rises
-/// through the hyperplane, on the other it descends. The slice edge in this 2-face runs from the first to the second.
-/// In a cell, exactly two 2-faces meet at each polytope edge. So the boundary of the slice face in the cell is found by
-/// walking along the slice edges: where a slice edge ends, on a polytope edge, the walk goes on in the other 2-face of
-/// the cell at this polytope edge. Which elements are cut, and how they are joined, changes only when the hyperplane
-/// passes a vertex; between two vertices, only the coordinates of the slice change. Reuses its memory between calls.
+/// elements that the hyperplane currently cuts. Each cut edge gives a vertex of the slice, each cut 2-face an edge, and
+/// each cut cell a face.
+///
+/// The vertex loop of a cut 2-face crosses the hyperplane on two polytope edges. On one of them, the loop rises through
+/// the hyperplane; on the other, it descends. The slice edge in this 2-face runs from the first to the second. In a
+/// cell, exactly two 2-faces meet at each polytope edge. So a walk along slice edges finds the boundary of the slice
+/// face in the cell: where a slice edge ends, on a polytope edge, the walk goes on in the other 2-face of the cell at
+/// this polytope edge.
+///
+/// Only where the hyperplane passes a vertex, the set of cut elements and their connections change. Between two
+/// vertices, only the coordinates of the slice change. Reuses its memory between calls.
 class Sweep {
   public:
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts.
-    /// `planesBelow` locates the vertices relative to the hyperplanes; its arrays must stay valid until cut() returns.
-    /// Returns false if rounding errors in the vertices make a hyperplane cut a 2-face in several segments; cut() must
-    /// then not be called.
+    /// `planesBelow` says how many of these hyperplanes lie below each vertex; its arrays must stay valid until cut()
+    /// returns. Returns false if rounding errors in the vertices make a hyperplane cut a 2-face in several segments;
+    /// cut() must then not be called.
     bool begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes);
 
-    /// Returns an upper bound of the total size of the slices, except those in `touching` (see cut()). The bound is
-    /// exact if no vertex lies in a hyperplane; slices through vertices may be smaller (see DegeneracyCollapse).
+    /// Returns an upper bound of the total size of the slices, except those in the argument `touching` of cut(). The
+    /// bound is exact if no vertex lies in a hyperplane. Slices through vertices may be smaller (see
+    /// DegeneracyCollapse).
     SliceCounts maxSize() const { return size_; }
 
-    /// Writes the slices to `out`, which must contain the planes and the rotated vertices, and whose arrays must have
-    /// room for maxSize() and the slices in `touching`. The first slice becomes slice number `first` of `out`, and its
-    /// elements begin at position `at`; sets `at` to the position after the last slice.
+    /// Writes the slices to `out`. `out` must already contain the planes and the rotated vertices, and its arrays must
+    /// have room for maxSize() and the slices in `touching`. The first slice becomes slice number `first` of `out`, and
+    /// its elements begin at position `at`. Sets `at` to the position after the last slice.
     ///
     /// `touching` has an entry for each hyperplane. If the polytope touches the hyperplane from one side, the entry is
     /// a set that contains only the slice in this hyperplane; otherwise it is null. `touching` may be empty if all
@@ -49,17 +54,19 @@ class Sweep {
              SliceSet& out);
 
   private:
-    // The line through an edge. At height w, its point has x, y, z = (at.x, at.y, at.z) + (w − at.w) · slope.
+    // The line through an edge of the polytope. At height w, the coordinates x, y, z of its point are (at.x, at.y,
+    // at.z) + (w − at.w) · slope.
     struct alignas(16) Line {
         glm::dvec4 at;
         glm::dvec3 slope;
     };
-    // The hyperplanes with the indices in [from, to).
+    // A range of hyperplanes: those with the indices in [from, to).
     struct PlaneRange {
         std::int32_t from, to;
     };
-    // For a hyperplane: `inside` if vertices lie in it; otherwise `between` if vertices lie between the next lower
-    // hyperplane and this one (for the lowest hyperplane: below it), and `none` if there are no such vertices.
+    // Says where vertices lie relative to a hyperplane. `inside`: vertices lie in the hyperplane. `between`: no
+    // vertices lie in it, but some lie between the next lower hyperplane and it (for the lowest hyperplane: below it).
+    // `none`: there are no such vertices.
     enum class VerticesMet : std::uint8_t { none, between, inside };
     void findStructureChanges(const polytopes::Polytope& polytope, int planes);
     bool tryFindCutElements(const polytopes::Polytope& polytope, int planes);
@@ -74,23 +81,26 @@ class Sweep {
 
     PlanesBelowVertices planesBelow_;
     SliceCounts size_;  // the result of maxSize()
-    int first_ = 0;     // the number in `out` of the slice in hyperplane 0
+    int first_ = 0;     // the number that the slice in the hyperplane with the index 0 has in `out`
     ActiveList edges_, faces_, cells_;
-    std::vector<PlaneRange> faceSpan_;      // per 2-face: the hyperplanes that cut it
+    std::vector<PlaneRange> faceSpan_;      // per 2-face: the range of hyperplanes that cut it
     std::vector<VerticesMet> verticesMet_;  // per hyperplane: whether vertices lie in it, or just below it
-    // The indices of the hyperplanes at which elements may become active or inactive: hyperplane 0, and all others
-    // whose verticesMet_ is not `none`. The last entry is the number of hyperplanes.
+    // The indices of the hyperplanes at which elements may become active or inactive: 0, and the indices of all other
+    // hyperplanes whose entry in verticesMet_ is not `none`. The last entry is the number of hyperplanes.
     std::vector<int> structureChanges_;
-    std::vector<Line> line_;                // per active edge: its line
-    std::vector<std::uint32_t> vertex_;     // per active edge: the index of its slice vertex in the slice
-    std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: the index of its slice edge in the slice
-    // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on edge edgeOfEnd_[2 f], where the vertex
-    // loop of f rises through the hyperplane; end 2 f + 1 lies on edge edgeOfEnd_[2 f + 1], where the loop descends.
-    // The number of an end is also the number of the half-edge that runs along the segment toward this end: half-edge
-    // 2 f + i belongs to the boundary loop of the section of cell faceCells[f][i], and nextEnd_[2 f + i] is the next
+    std::vector<Line> line_;                // per active edge: the line through it
+    std::vector<std::uint32_t> vertex_;     // per active edge: the index of its slice vertex within the slice
+    std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: the index of its slice edge within the slice
+    // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on the polytope edge edgeOfEnd_[2 f], where
+    // the vertex loop of f rises through the hyperplane. End 2 f + 1 lies on the polytope edge edgeOfEnd_[2 f + 1],
+    // where the loop descends.
+    //
+    // The number of an end is also the number of the half-edge that runs along the segment toward this end. Half-edge 2
+    // f + i belongs to the boundary loop of the section of cell faceCells[f][i]. nextEnd_[2 f + i] is the next
     // half-edge of this loop.
     std::vector<std::uint32_t> edgeOfEnd_, nextEnd_;
-    std::vector<std::uint32_t> firstEnd_;  // per active cell: a half-edge of its section (see writeFaces())
+    // per active cell: a half-edge on the boundary of its section (see writeFaces())
+    std::vector<std::uint32_t> firstEnd_;
     DegeneracyCollapse collapse_;
 };
 

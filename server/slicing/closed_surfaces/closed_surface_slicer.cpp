@@ -15,7 +15,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Returns a mask in which bit i is set if values[i] fulfills the condition.
+// Returns a bit mask in which bit i is set if values[i] fulfills `condition`.
 template <typename Values, typename Condition>
 unsigned bitsOf(const Values& values, Condition condition) {
     unsigned bits = 0;
@@ -23,8 +23,8 @@ unsigned bitsOf(const Values& values, Condition condition) {
     return bits;
 }
 
-// Even permutations of the corners of a tetrahedron: kWithFirst[i] begins with corner i, and kWithFirstTwo contains,
-// for each unordered pair of corners, one that begins with this pair.
+// Even permutations of the four corners of a tetrahedron. kWithFirst[i] begins with corner i. kWithFirstTwo contains,
+// for each unordered pair of corners, a permutation that begins with this pair.
 using CornerPermutation = std::array<std::uint8_t, 4>;
 constexpr std::array<CornerPermutation, 4> kWithFirst{{{0, 1, 2, 3}, {1, 0, 3, 2}, {2, 0, 1, 3}, {3, 0, 2, 1}}};
 constexpr std::array<CornerPermutation, 6> kWithFirstTwo{
@@ -61,11 +61,11 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOpti
 
 // Returns `w` or, if the hyperplane at `w` contains a facet of the domain, a w just inside the domain. A hyperplane
 // through the lower facet would have no lattice points below it, because points in the hyperplane count as above it. A
-// hyperplane through the upper facet might have none above it, because w is rounded.
+// hyperplane through the upper facet might have no lattice points above it, because w is rounded.
 double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
     constexpr double kNear = 1e-9, kParallel = 1e-12;  // relative to the extent of the domain along w
     double least = 0, greatest = 0;
-    std::array<double, 4> extents{};  // the extents of the domain's sides along w
+    std::array<double, 4> extents{};  // per side of the domain: its extent along w
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const int last = lattice_.pointCounts()[static_cast<int>(axis)] - 1;
         const auto [low, high] = std::minmax({lattice_.positionTerm(axis, 0).w, lattice_.positionTerm(axis, last).w});
@@ -80,8 +80,8 @@ double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
     return std::abs(w - greatest) <= nearby ? greatest - nearby : w;
 }
 
-// Cuts the cells of a range if the surface may meet the range. Divides the range in two until it is at most as large as
-// a brick.
+// Cuts the lattice cells of a range, unless the surface cannot meet the range. Divides the range in two again and
+// again, until each part is at most as large as a brick.
 void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     if (status_ != RunStatus::working || !meetsHyperplane(range)) return;
     constexpr std::size_t kVisitsPerQuestion = 16;
@@ -106,10 +106,10 @@ void ClosedSurfaceSlicer::cutRange(const CellRange& range) {
     cutRange(upper);
 }
 
-// Returns whether at least one lattice point of the range lies below the hyperplane, and at least one in or above it.
-// The height of a lattice point above the hyperplane is the sum of four terms, one for each axis. So the sum of the
-// four least terms in the range is the least height, and the sum of the four greatest terms is the greatest one. All
-// these sums are added in the same order, because rounded sums, too, are then monotone in each term.
+// Returns whether the range has at least one lattice point below the hyperplane, and at least one in or above it. The
+// height of a lattice point above the hyperplane is the sum of four terms, one for each axis. So the least height is
+// the sum of the four least terms in the range, and the greatest height is the sum of the four greatest terms. All
+// these sums add their terms in the same order. Then each rounded sum, too, is monotone in each term.
 bool ClosedSurfaceSlicer::meetsHyperplane(const CellRange& range) const {
     std::array<double, 4> low{}, high{};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -185,9 +185,10 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
             }
             continue;
         }
-        // `upper` and `lower` mark the facets on the boundary of the domain: bit i stands for the facet opposite to
-        // corner i. Only two facets can lie there: the facet opposite to corner 0, at the upper end of an axis, and the
-        // facet opposite to corner 4, at the lower end of an axis. The other facets are inside the cell.
+        // `upper` and `lower` mark the facets of the pentatope on the boundary of the domain: bit i stands for the
+        // facet opposite to corner i. Only two facets can lie on the boundary: the facet opposite to corner 0, at the
+        // upper end of an axis, and the facet opposite to corner 4, at the lower end of an axis. The other facets are
+        // inside the cell.
         const unsigned upper = cell[shape.axisToNextCorner(0)] == last[shape.axisToNextCorner(0)] ? 1U : 0U;
         const unsigned lower = cell[shape.axisToNextCorner(3)] == 0 ? 1U << 4U : 0U;
         const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
@@ -198,9 +199,10 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
     if (out_->triangles.size() + caps_.size() > options_.maxTriangles) status_ = RunStatus::too_large;
 }
 
-// Sets `cut.crossings`. Pentatopes that share an edge compute its crossing from the same numbers. The value at the
-// crossing is clamped to the range between the values at the ends of the edge. Therefore, in spite of rounding, no
-// crossing is inside if both ends are outside, and none is outside if both ends are inside.
+// Sets `cut.crossings`: the points where the hyperplane crosses the edges of the pentatope. Pentatopes that share an
+// edge compute its crossing from the same numbers. The value at the crossing is clamped to the range between the values
+// at the ends of the edge. Therefore, in spite of rounding, no crossing is inside the body if both ends are outside,
+// and no crossing is outside if both ends are inside.
 void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const {
     for (std::size_t i = 0; i < 5; ++i) {
         for (std::size_t j = i + 1; j < 5; ++j) {
@@ -215,8 +217,8 @@ void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const
     }
 }
 
-// Adds the surface and its caps in a pentatope. `above`: as for sectionOf(). `boundaryFacets` has bit i set if the
-// facet opposite to corner i is on the boundary of the domain.
+// Adds the level set and the caps in a pentatope. Bit i of `above` is set if corner i lies above the hyperplane. Bit i
+// of `boundaryFacets` is set if the facet opposite to corner i lies on the boundary of the domain.
 void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets) {
     const std::size_t first = out_->triangles.size();
     for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
@@ -233,8 +235,9 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
     if (options_.pointData && first < out_->triangles.size()) addGradients(cut, first);
 }
 
-// Corner `hole` is the only corner without a value. Adds the cap in the facet opposite to this corner if the pentatope
-// on the other side of the facet has values at all of its corners.
+// Adds the cap of the body at a pentatope that is a hole because only its corner `hole` has no value. The cap lies in
+// the facet opposite to this corner. It is added if the pentatope on the other side of the facet has values at all of
+// its corners.
 void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->cornerAcrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
@@ -247,8 +250,8 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
     }
 }
 
-// Adds the level set in a tetrahedron: a triangle if only one corner is inside or only one is outside, a quadrilateral
-// if two corners are inside, and nothing if all corners are inside.
+// Adds the level set in a tetrahedron. The level set is a triangle if only one corner is inside the body or only one is
+// outside, a quadrilateral if two corners are inside, and nothing if all corners or none are inside.
 void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
     const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };
@@ -269,13 +272,13 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
     }
 }
 
-// In the pentatope, the interpolated function is linear, so its gradient is constant. Adds this gradient, for each
-// triangle in the pentatope, to the weighted sums of gradients at the three corners of the triangle. The weight is the
+// Adds the gradient of the interpolated function in a pentatope, where it is constant, to the sums of gradients at the
+// points of the triangles. Each triangle in the pentatope adds the gradient at its three corners. The weight is the
 // area of the triangle, but at least kLeastWeight, so that the sum is not 0 at a point whose triangles all have the
 // area 0. The triangles in the pentatope are those with the index `first` and greater ones.
 void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t first) {
     constexpr double kLeastWeight = 1e-100;
-    std::array<double, 4> rises{};  // along each axis of the lattice, per cell
+    std::array<double, 4> rises{};  // per axis of the lattice: the difference of the values per cell
     for (std::size_t i = 0; i < 4; ++i) {
         rises[static_cast<std::size_t>(cut.shape->axisToNextCorner(i))] = sign_ * (cut.values[i + 1] - cut.values[i]);
     }
@@ -290,8 +293,8 @@ void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t firs
     }
 }
 
-// Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed` is true, the orientation of the
-// cap is opposite to that of the face.
+// Adds a cap: the part of a tetrahedron's face that is inside the body. If `reversed` is true, the cap has the opposite
+// orientation of the face.
 void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face,
                                  bool reversed) {
     std::array<std::uint8_t, 3> corners = kTetrahedronFaces[face];
@@ -309,7 +312,8 @@ void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedr
     for (std::size_t i = 2; i < size; ++i) caps_.push_back({loop[0], loop[i - 1], loop[i]});
 }
 
-// Returns the index of the point where the hyperplane crosses an edge. Adds the point if it is new.
+// Returns the index of the surface point where the hyperplane crosses an edge of the pentatope. Adds the point if it is
+// new.
 std::uint32_t ClosedSurfaceSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
     const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
     if (isNew) {
@@ -320,8 +324,9 @@ std::uint32_t ClosedSurfaceSlicer::pointOn(const CutPentatope& cut, const Pentat
     return number;
 }
 
-// Returns the index of the point of the level set between the crossings of two edges. Adds the point if it is new. The
-// crossing of `inner` must be inside, and the crossing of `outer` outside.
+// Returns the index of the point of the level set between two points: those where the hyperplane crosses the edges
+// `inner` and `outer`. The first must be inside the body, and the second outside. Adds the point of the level set if it
+// is new.
 std::uint32_t ClosedSurfaceSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
                                                 const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
@@ -344,9 +349,9 @@ glm::dvec3 ClosedSurfaceSlicer::position(const CutPentatope& cut, const Pentatop
     return glm::mix(corner(edge[0]), corner(edge[1]), cut.crossings[edge[0]][edge[1]].t);
 }
 
-// Returns a key of the simplex whose corners are the corners i of the pentatope for which bit i of `corners` is set.
-// The key contains the lattice index of the first corner and, for each other corner, the axes along which it is above
-// the first.
+// Returns a key that identifies a lattice simplex. Its corners are the corners i of the pentatope for which bit i of
+// `corners` is set. The key contains the lattice index of the first corner and, for each other corner, the axes along
+// which this corner is above the first.
 std::uint64_t ClosedSurfaceSlicer::keyOf(const CutPentatope& cut, unsigned corners) const {
     const auto& chain = cut.shape->corners;
     const unsigned first = chain[static_cast<std::size_t>(std::countr_zero(corners))];

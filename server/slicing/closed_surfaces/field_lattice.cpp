@@ -15,7 +15,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-// Calls `visit` with each point from `first` to `last`, x fastest.
+// Calls `visit` with each lattice point from `first` to `last`, both included, in the order in which x varies fastest.
 template <typename Visit>
 void forEachPoint(glm::ivec4 first, glm::ivec4 last, Visit visit) {
     glm::ivec4 p;
@@ -40,7 +40,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
     : field_(field) {
     const glm::dmat4 toSlice = orientation.matrix() * glm::inverse(field.toFunction);
     const glm::dvec4 size = field.box.max - field.box.min;
-    std::array<double, 4> lengths{};  // the lengths of the domain's sides
+    std::array<double, 4> lengths{};  // per axis: the length of the domain's side
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);
         lengths[axis] = size[a] * glm::length(toSlice[a]);
@@ -57,7 +57,8 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
         }
         sides_[axis] = size[a] * toSlice[a];
     }
-    // The gradient g satisfies dot(g, s) = rise for each step s from a point to the next along an axis.
+    // The gradient g satisfies dot(g, s) = rise for each step s from a lattice point to the next along an axis, where
+    // `rise` is the difference of the function's values at the two points.
     glm::dmat4 steps(1);
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);
@@ -70,7 +71,7 @@ FieldLattice::FieldLattice(const fields::Field& field, const geometry::Rotation&
 }
 
 fields::ValueBounds FieldLattice::valueBounds(glm::ivec4 first, glm::ivec4 last) const {
-    constexpr double kMargin = 1e-3;  // in lattice cells; allows for rounded positions of samples
+    constexpr double kMargin = 1e-3;  // in lattice cells; the margin allows for rounding of the positions of samples
     fields::Box region;
     for (std::size_t axis = 0; axis < 4; ++axis) {
         const auto a = static_cast<int>(axis);

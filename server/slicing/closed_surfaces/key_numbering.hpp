@@ -1,5 +1,6 @@
 #pragma once
-// Numbers keys, such as those of the lattice simplices in which the points of a surface lie.
+// A hash table that gives keys consecutive numbers, for example keys of the lattice simplices in which the points of a
+// surface lie.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,11 +9,11 @@
 
 namespace oval4d::slicing {
 
-/// A hash table that numbers keys 0, 1, 2 … in the order in which they are first looked up. Keys must be less than
-/// 2⁶⁴ − 1. Uses open addressing with linear probing.
+/// A hash table that numbers 64-bit keys 0, 1, 2 … in the order in which they are first looked up. Keys must be less
+/// than 2⁶⁴ − 1. Uses open addressing with linear probing.
 class KeyNumbering {
   public:
-    /// Returns the number of the key, and whether this is the first lookup of the key.
+    /// Returns the number of `key`, and true if this is the first lookup of `key`. A new key gets the next number.
     std::pair<std::uint32_t, bool> findOrAdd(std::uint64_t key) {
         if (2 * (count_ + 1) > slots_.size()) grow();
         KeySlot& slot = slotOf(key);

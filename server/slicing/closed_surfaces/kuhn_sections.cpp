@@ -30,7 +30,8 @@ std::array<Pentatope, 24> makePentatopes() {
     return pentatopes;
 }
 
-// Returns corner i of the reference pentatope, whose corners are 0, e_x, e_x + e_y, …
+// Returns corner i of the reference pentatope. Its corners are 0, e_x, e_x + e_y, …, where e_x and e_y are unit
+// vectors.
 glm::dvec4 referenceCorner(std::size_t i) {
     glm::dvec4 corner(0);
     for (std::size_t axis = 0; axis < i; ++axis) corner[static_cast<int>(axis)] = 1;
@@ -38,9 +39,9 @@ glm::dvec4 referenceCorner(std::size_t i) {
 }
 
 // Returns whether the signed volume of `tetrahedron`, a part of the section of the reference pentatope by a hyperplane,
-// is positive: the sign of det(b − a, c − a, d − a, u), where a, b, c and d are its corners, and u points to the upper
-// side of the hyperplane. Bit i of `above` says whether corner i of the pentatope is on the upper side. The middles of
-// the cut edges serve as the corners a, b, c and d.
+// is positive. Its sign is that of det(b − a, c − a, d − a, u), where a, b, c and d are the corners of the tetrahedron,
+// and u points to the upper side of the hyperplane. Bit i of `above` says whether corner i of the pentatope is on the
+// upper side. The middles of the cut edges serve as the corners a, b, c and d.
 bool isPositive(const SectionTetrahedron& tetrahedron, unsigned above) {
     const auto middle = [&](const PentatopeEdge& edge) {
         return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1]));
@@ -53,8 +54,9 @@ bool isPositive(const SectionTetrahedron& tetrahedron, unsigned above) {
                                        up * (referenceCorner(edge[1]) - referenceCorner(edge[0])))) > 0;
 }
 
-// Finds the facet of the pentatope in which each face lies. The three corners of a face lie on edges of the pentatope.
-// If these edges have only four of the five corners, the face lies in the facet opposite to the missing corner.
+// Finds, for each face of a tetrahedron, the facet of the pentatope in which the face lies. The three corners of a face
+// lie on edges of the pentatope. If these edges have only four of the five corners of the pentatope, the face lies in
+// the facet opposite to the missing corner.
 void findFacets(SectionTetrahedron& tetrahedron) {
     for (std::size_t k = 0; k < 4; ++k) {
         unsigned corners = 0;
@@ -67,8 +69,10 @@ void findFacets(SectionTetrahedron& tetrahedron) {
     }
 }
 
+// Computes the result of sectionOf() for these arguments.
 Section makeSection(unsigned above, bool positive) {
-    // The corners on the side of the hyperplane with fewer corners, and those on the other side.
+    // `few` has the corners on the side of the hyperplane that has fewer corners, and `many` has the corners on the
+    // other side.
     std::vector<std::uint8_t> few, many;
     for (std::uint8_t i = 0; i < 5; ++i) ((above >> i & 1U) != 0 ? few : many).push_back(i);
     if (few.size() > many.size()) std::swap(few, many);

@@ -11,12 +11,13 @@ namespace oval4d::slicing {
 
 namespace {
 
-constexpr double kDifference = 2e-3;  // the offset of the points of a difference quotient, in radii of PlacedFunction
-constexpr double kDamping = 1e-6;     // relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
+// the offset of the points of a difference quotient, in units of PlacedFunction::radius
+constexpr double kDifference = 2e-3;
+constexpr double kDamping = 1e-6;  // the damping, relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
 constexpr int kIterations = 30;
-// Upper bounds of three values at a point that counts as critical: the length of the next step, the gradient's part in
-// the hyperplane relative to the gradient, and the distance from the level set. Lengths are in radii (see
-// PlacedFunction::radius).
+// Upper bounds of three values at a point that counts as critical. kSmallStep bounds the length of the next step.
+// kTangent bounds the part of the gradient in the hyperplane, relative to the gradient. kOnLevel bounds the distance
+// from the level set. The unit of length is PlacedFunction::radius.
 constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
 
 /// The value and the derivatives of the function at a point. The unit of length is PlacedFunction::radius.
@@ -26,9 +27,10 @@ struct TaylorExpansion {
     std::array<glm::dvec4, 3> second{};  // the derivatives of ∂f/∂x, ∂f/∂y and ∂f/∂z along x, y, z and w
 };
 
+// Computes the value at `point`, its gradient, and second derivatives by difference quotients.
 TaylorExpansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
-    // Point 0 is the point itself; points 1 … 8 are its two neighbors along each axis. The remaining points repeat
-    // point 0 to fill the batch.
+    // Point 0 of the batch is `point` itself. Points 1 … 8 are the two neighbors of `point` along each axis. The
+    // remaining points repeat point 0 to fill the batch.
     constexpr std::size_t kPoints = 16;
     std::array<std::array<float, kPoints>, 4> at{}, slopes{};
     std::array<float, kPoints> values{};
@@ -65,8 +67,8 @@ std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double
         const TaylorExpansion f = expand(placed, point);
         if (scale == 0) scale = glm::length(f.gradient);
         const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
-        // The gradients are the rows of the Jacobian. The GLM constructor takes columns, so it makes the transpose of
-        // the Jacobian.
+        // The gradients of the functions to be made 0 are the rows of the Jacobian. The GLM constructor takes columns,
+        // so it makes the transpose of the Jacobian.
         const glm::dmat4 transposed =
             glm::dmat4(f.second[0], f.second[1], f.second[2], f.gradient) * glm::dmat4(1 / scale);
         const glm::dmat4 product = glm::transpose(transposed) * transposed;

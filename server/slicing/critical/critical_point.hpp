@@ -1,5 +1,6 @@
 #pragma once
-// Critical points of w on the level sets of fields: points at which a level set is tangent to a hyperplane w = const.
+// Finds critical points of w on the level sets of fields: points at which a level set is tangent to a hyperplane w =
+// const.
 
 #include <optional>
 
@@ -10,17 +11,17 @@
 
 namespace oval4d::slicing {
 
-/// A function f on the coordinates of a rotated object: f(p) = function(center + toFunction · p).
+/// A function f of the coordinates p of a rotated object: f(p) = function(center + toFunction · p).
 struct PlacedFunction {
     const fields::ScalarFunction& function;
     glm::dmat4 toFunction;
     glm::dvec4 center;
-    double radius;  ///< the circumradius of the object, which findCriticalPoint() uses as its unit of length
+    double radius;  ///< the circumradius of the object; findCriticalPoint() uses it as its unit of length
 };
 
-/// Finds a point near `start` at which a level set is tangent to a hyperplane w = const: a point where f = `level` and
-/// ∂f/∂x = ∂f/∂y = ∂f/∂z = 0. Uses Newton's method with damped least squares, which converges even if such points are
-/// not isolated. All lengths are in the units of the object. Returns an empty optional if the iteration does not
+/// Finds a point near `start` at which a level set of f is tangent to a hyperplane w = const: a point where f = `level`
+/// and ∂f/∂x = ∂f/∂y = ∂f/∂z = 0. Uses Newton's method with damped least squares, which converges even if such points
+/// are not isolated. All lengths are in the units of the object. Returns an empty optional if the iteration does not
 /// converge within the distance `reach` of `start`, or if ∂f/∂w is also 0 at the point.
 std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double level, const glm::dvec4& start,
                                             double reach);

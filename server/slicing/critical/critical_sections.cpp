@@ -28,10 +28,11 @@ using TopologyByLevel = std::vector<SectionTopology>;
 const Error kCanceled{ErrorCode::canceled,
                       "the search for critical w has ended because its result is no longer needed"};
 
-// Whole sections show in which interval of w a change lies. searchOnFinerLattices() also searches up to this far beyond
-// both ends of the interval. Relative to the range of w.
+// How far searchOnFinerLattices() searches beyond both ends of the interval of w in which whole sections show a change,
+// as a fraction of the range of w.
 constexpr double kLocalReach = 5e-3;
-constexpr std::size_t kMaxChanges = 1000;  // of all levels together; a noisy field may have more changes
+// the maximum number of changes of all levels together; a noisy field may have more
+constexpr std::size_t kMaxChanges = 1000;
 
 /// Cuts one field by one hyperplane at a time.
 class SectionCutter {
@@ -39,7 +40,7 @@ class SectionCutter {
     SectionCutter(const fields::Field& field, const geometry::Rotation& orientation, const FieldSettings& settings)
         : field_(field), orientation_(orientation), settings_(settings) {}
 
-    /// Returns the surfaces of the section at `w`. They are valid until the next call.
+    /// Returns the surfaces of the section at `w`. The reference is valid until the next call.
     const SliceSurface& cut(double w, bool topologyOnly = false) {
         const geometry::Hyperplanes plane{0, 1, 1, w};
         slicer_.slice(field_, orientation_, plane, settings_, {}, slice_);
@@ -54,14 +55,15 @@ class SectionCutter {
                       {.steps = {cube_}, .quality = Quality::full, .topologyOnly = topologyOnly}, slice_);
         return slice_.surfaces.front();
     }
-    /// Returns the side of the lattice cubes of the last section.
+    /// Returns the side of the lattice cubes of the last section, in the units of the object.
     double cubeSide() const { return cube_; }
 
-    /// Returns whether a part with this volume is too small to count. Such a part may not exist in reality: sampling on
-    /// a lattice may separate the tip of a sharp corner from the rest of the body.
+    /// Returns whether a part of the section with this volume is too small to count. Such a part may not exist in
+    /// reality: sampling on a lattice may separate the tip of a sharp corner from the rest of the body.
     bool isSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
 
-    /// Returns, for each level, the topology of its body in the section at `w`, without the parts that are small.
+    /// Returns, for each level, the topology of its body in the section at `w`. Leaves out the parts of the body that
+    /// are too small to count.
     TopologyByLevel topologies(double w) {
         const SliceSurface& surface = cut(w, true);
         TopologyByLevel result;
@@ -95,7 +97,8 @@ struct SearchInterval {
     bool operator<(const SearchInterval& other) const { return width() < other.width(); }
 };
 
-/// Returns what happens between two different topologies, as far as the numbers of components and cavities tell.
+/// Returns the change between sections with two different topologies, as far as the numbers of components and cavities
+/// determine it.
 SectionChange changeOf(const SectionTopology& before, const SectionTopology& after) {
     if (before.components == 0 && after.components > 0) return SectionChange::appearance;
     if (after.components == 0 && before.components > 0) return SectionChange::disappearance;
@@ -104,18 +107,19 @@ SectionChange changeOf(const SectionTopology& before, const SectionTopology& aft
     return before.cavities != after.cavities ? SectionChange::cavity : SectionChange::handle;
 }
 
-/// Matches the parts of the surfaces in two sections at close values of w.
+/// Pairs the parts of the surfaces in two sections at close values of w, to find which parts appear, vanish, merge or
+/// split.
 class PartMatching {
   public:
-    /// A part has a partner if most of its points are close to points of the other section: at a distance of at most
-    /// twice the side of a lattice cube.
+    /// Pairs the parts of the surfaces `a` and `b`. A part has a partner in the other section if most of its points are
+    /// close to points of that section: at a distance of at most twice the side of a lattice cube.
     PartMatching(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
         : cutter_(cutter), reach_(2 * cutter.cubeSide()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
         toB_ = partners(a, partsA_, b, partsB_);
         toA_ = partners(b, partsB_, a, partsA_);
     }
 
-    /// Returns what happens from the first section to the second. `before` and `after` are the topologies of these
+    /// Returns the change from the first section to the second. `before` and `after` are the topologies of these
     /// sections, and must differ.
     SectionChange change(const SectionTopology& before, const SectionTopology& after) const {
         if (count(partsB_, toA_) > 0) return SectionChange::appearance;
@@ -124,9 +128,10 @@ class PartMatching {
     }
 
   private:
-    using HasPartner = std::vector<bool>;  // per part: whether it has a partner
+    using HasPartner = std::vector<bool>;  // per part: whether it has a partner in the other section
 
-    // Returns the number of components that have no partner and are not too small (see SectionCutter::isSmall()).
+    // Returns the number of components in `parts` that have no partner and are not too small (see
+    // SectionCutter::isSmall()).
     std::size_t count(const SurfaceParts& parts, const HasPartner& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {
@@ -136,7 +141,8 @@ class PartMatching {
         return lonely;
     }
 
-    // Points are sorted into grid cells with sides of reach_. Returns a number that identifies a grid cell.
+    // Returns a number that identifies the grid cell `cell`. The grid, into which points are sorted, has cells with
+    // sides of length reach_.
     std::uint64_t cellOf(glm::ivec3 cell) const {
         constexpr int kBias = 1 << 20;
         const glm::u64vec3 c(cell + kBias);
@@ -144,7 +150,7 @@ class PartMatching {
     }
     glm::ivec3 cellAt(const glm::vec3& point) const { return glm::ivec3(glm::floor(glm::dvec3(point) / reach_)); }
 
-    // Returns for each part of the surface `own` whether it has a partner in the surface `other`.
+    // Returns, for each part of the surface `own`, whether it has a partner in the surface `other`.
     HasPartner partners(const SliceSurface& own, const SurfaceParts& parts, const SliceSurface& other,
                         const SurfaceParts& otherParts) const {
         std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
@@ -182,7 +188,7 @@ class PartMatching {
     HasPartner toB_, toA_;
 };
 
-/// An interval of w in which the topology of one level changes.
+/// An interval of w in which the topology of the body of one level changes.
 struct TopologyChangeInterval {
     double from, to;
     std::size_t level;
@@ -223,11 +229,11 @@ class CriticalSearch {
     double width() const { return found_.greatest - found_.least; }
     bool mustEnd() const { return limits_.stop.stop_requested() || Clock::now() > end_; }
 
-    // Finds the intervals in which the topology changes. Always halves the widest interval, so that w is covered evenly
-    // even if the search ends early.
+    // Finds the intervals of w in which the topology changes. Always halves the widest interval, so that the range of w
+    // is covered evenly even if the search ends early.
     void findIntervals() {
         const double gap = width() / kCriticalSections;
-        // Leaves out the ends of the range of w, where the domain may be a wedge that is thinner than a lattice cube.
+        // Leaves out the ends of the range of w. There, the domain may be a wedge that is thinner than a lattice cube.
         const double margin = width() / 80;
         const double from = found_.least + margin, to = found_.greatest - margin;
         std::priority_queue<SearchInterval> open;
@@ -249,7 +255,7 @@ class CriticalSearch {
         std::ranges::sort(intervals_, {}, &SearchInterval::from);
     }
 
-    // Returns the changes of each level. Combines changes that are close to each other, because the lattice shows
+    // Returns the changes of each level. Combines changes that are close to each other in w, because the lattice shows
     // several changes where a surface touches itself along a curve.
     std::vector<TopologyChangeInterval> combined() const {
         std::vector<TopologyChangeInterval> all;
@@ -269,10 +275,10 @@ class CriticalSearch {
         return all;
     }
 
-    // Finds the critical w and the kind of a change.
+    // Finds the critical w and the kind of the change in an interval.
     CriticalSection criticalSectionOf(const TopologyChangeInterval& change) {
         if (Clock::now() > end_ + (end_ - begin_) / 2) {
-            // The time is over, so the sections are not compared.
+            // The time limit of the search has passed, so the sections are not compared.
             return {(change.from + change.to) / 2,
                     changeOf(change.before, change.after),
                     0,
@@ -297,10 +303,10 @@ class CriticalSearch {
         return result;
     }
 
-    // `surface` is the section at `w`. Searches for critical points near those points of `surface` at which the level
-    // set is most nearly tangent to the hyperplane. Ignores critical points whose w is outside the interval of the
-    // change by more than the resolution. Of the others, the one whose w is nearest to the middle of the interval
-    // replaces `best`, unless `best` is at least as near.
+    // Searches for critical points near those points of `surface`, the section at `w`, at which the level set is most
+    // nearly tangent to the hyperplane. Ignores critical points whose w is farther than the resolution from the
+    // interval of the change. `best` is a critical w, if one is known. It is replaced by the w of a critical point that
+    // is nearer to the middle of the interval.
     void searchNearTangentPoints(const TopologyChangeInterval& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;
@@ -317,7 +323,7 @@ class CriticalSearch {
         }
     }
 
-    // Refines the critical w of a change of this kind on finer lattices around the points where the section is most
+    // Refines the critical w of a change of kind `kind` on finer lattices around the points where the section is most
     // nearly tangent to the hyperplane. Parts that merge or vanish are tangent in the section `before`; parts that
     // split or appear are tangent in the section `after`. Returns an empty optional for a change of handles, because
     // finer lattices show additional handles where the surface has creases.
@@ -345,8 +351,8 @@ class CriticalSearch {
         return std::nullopt;
     }
 
-    // Returns the indices of up to `count` points of the level set: those where |growth| is greatest, but more than
-    // `distance` from each other.
+    // Returns the indices of up to `count` points of the level set: those where |growth| (see SliceSurface::growth) is
+    // greatest. Any two of these points are more than `distance` apart.
     static std::vector<std::uint32_t> tangentPoints(const SliceSurface& surface, std::size_t level, double distance,
                                                     std::size_t count) {
         std::vector<std::uint32_t> candidates;

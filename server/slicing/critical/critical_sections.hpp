@@ -1,5 +1,6 @@
 #pragma once
-// The critical values of w of an object: those at which the type of its section by the hyperplane w = const changes.
+// Finds the critical values of w of an object: those at which the type of its section by the hyperplane w = const
+// changes.
 
 #include <chrono>
 #include <cstddef>
@@ -17,8 +18,8 @@
 
 namespace oval4d::slicing {
 
-/// What happens to the section of an object while w increases past a critical w. All changes except `vertices` are
-/// changes of the body of one level of a field.
+/// What happens to the section of an object while w increases past a critical value. All changes except `vertices` are
+/// changes of the body of a field: the region where its function is below a level, or above it.
 enum class SectionChange : std::uint8_t {
     vertices,       ///< for any object but a field: the hyperplane passes vertices or points
     appearance,     ///< a component appears
@@ -37,73 +38,77 @@ inline constexpr auto kSectionChanges =
                                                           {"handle", SectionChange::handle},
                                                           {"cavity", SectionChange::cavity}});
 
-/// The topology of the body of one level in a section: see SurfaceMeasurements.
+/// The topology of the body (the region on the inner side of one level of a field) in a section: see
+/// SurfaceMeasurements.
 struct SectionTopology {
     std::size_t components = 0, cavities = 0;
-    long euler = 0;  ///< the Euler characteristic of the surface
+    long euler = 0;  ///< the Euler characteristic of the body's surface
     bool operator==(const SectionTopology&) const = default;
 };
 
-/// A critical w, and the change of the section there.
+/// A critical value of w, and the change of the section there.
 struct CriticalSection {
     double w = 0;  ///< in the units of the object
     SectionChange change = SectionChange::vertices;
-    std::size_t vertices = 0;                 ///< the number of vertices or points at this w; 0 for a field
-    std::size_t levelIndex = 0;               ///< for a field: the index of the level whose body changes
-    SectionTopology before = {}, after = {};  ///< for a field: the topology below and above w
+    std::size_t vertices = 0;    ///< the number of the object's vertices or points with this w; 0 for a field
+    std::size_t levelIndex = 0;  ///< for a field: the index of the level whose body changes
+    /// for a field: the topology of the section just below w, and just above it
+    SectionTopology before = {}, after = {};
 };
 
-/// The critical values of w of an object in one orientation.
+/// All critical values of w of an object in one orientation.
 struct CriticalSections {
     double least = 0, greatest = 0;  ///< the range of w in which the object, or the domain of a field, lies
-    /// Each change was narrowed down to an interval of w of at most this length, before close changes were combined
-    /// (see `resolution`).
+    /// An upper bound of the error of each critical w. The search narrowed down each change of the section to an
+    /// interval of w of at most this length, before it combined close changes (see `resolution`).
     double tolerance = 0;
-    /// For a field: successive changes of the body of a level count as one change if the distance between them in w is
-    /// at most this. 0 for other objects. Changes of a field are not found if their distance from an end of the range
-    /// of w is less than 1/80 of this range.
+    /// For a field: successive changes of the body of a level count as one change if their distance in w is at most
+    /// this. For other objects, 0. A change of a field is not found if its distance from an end of the range of w is
+    /// less than 1/80 of this range.
     double resolution = 0;
     std::vector<CriticalSection> all;  ///< in ascending order of w
 };
 
 using CriticalSectionsPtr = std::shared_ptr<const CriticalSections>;
 
-/// Limits on one search of findCriticalSections().
+/// The limits on one search of findCriticalSections().
 struct CriticalSearchLimits {
-    /// The time limit of the search, in seconds. When it is reached, no further intervals are halved, so that
-    /// CriticalSections::tolerance may be greater than usual. Sections are compared to find the SectionChange of each
-    /// critical w until 1.5 times this limit has passed since the start. After that, the SectionChange is derived from
+    /// The time limit of the search, in seconds. After this time, no further intervals of w are halved, so that
+    /// CriticalSections::tolerance may be greater than usual. Until 1.5 times this limit has passed since the start,
+    /// sections are compared to find the SectionChange of each critical w. After that, the SectionChange follows from
     /// the numbers of components and cavities alone.
     std::chrono::duration<double> time{10};
+    /// The search ends early if a stop is requested.
     std::stop_token stop = {};
 };
 
-/// Finds the critical values of w of the object rotated by `orientation`. For any object but a field, these are the w
-/// coordinates of its vertices or points. For a field, these are the values of w at which the body of one of
-/// `settings.levels`, within the domain, changes its topology. To find them, the field is cut at more than
-/// kCriticalSections values of w, and the intervals between sections of different topology are halved until their
-/// lengths are at most kCriticalTolerance of the range of w. The search misses changes that cancel each other between
-/// two successive sections. It ignores parts whose volume is less than that of eight lattice cubes; the lattice of a
-/// section has kCriticalCubes cubes along the longest side of the section. If there are about a thousand changes or
-/// more, the search ends early, with a greater tolerance.
+/// Finds the critical values of w of `object`, rotated by `orientation`. For any object but a field, these are the w
+/// coordinates of its vertices or points. For a field, these are the values of w at which a body (the region on the
+/// inner side of one of `settings.levels`, within the domain) changes its topology. To find them, the field is cut at
+/// more than kCriticalSections values of w. The intervals between sections of different topology are halved until their
+/// lengths are at most kCriticalTolerance of the range of w.
+///
+/// The search misses changes that cancel each other between two successive sections. It ignores parts whose volume is
+/// less than that of eight lattice cubes; the lattice of a section has kCriticalCubes cubes along the longest side of
+/// the section. If there are about a thousand changes or more, the search ends early, with a greater tolerance.
 ///
 /// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
-/// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w, where it
-/// converges. If the field is an array, each critical w at which parts of the body appear, vanish, merge or split, or
-/// at which cavities open or close, is refined on lattices around the change (see LocalChangeSearch). These lattices
-/// are up to 256 times finer. The refined w is that of the interpolated function, with an error of about
-/// kCriticalTolerance of the range of w.
+/// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w; a w at which
+/// the method does not converge stays as it is. If the field is an array, finer lattices around a change refine the
+/// critical w (see LocalChangeSearch). This refinement applies if parts of the body appear, vanish, merge or split
+/// there, or if cavities open or close. The lattices are up to 256 times finer. The refined w is that of the
+/// interpolated function, with an error of about kCriticalTolerance of the range of w.
 ///
 /// Error: `canceled` if a stop is requested. Throws std::runtime_error if the samples of a field are in a file that can
 /// no longer be read.
 Result<CriticalSections> findCriticalSections(const Object& object, const geometry::Rotation& orientation,
                                               const FieldSettings& settings, const CriticalSearchLimits& limits);
 inline constexpr int kCriticalSections = 128, kCriticalCubes = 160;
-inline constexpr double kCriticalTolerance = 1e-4;   // CriticalSections::tolerance / range of w, if time suffices
-inline constexpr double kCriticalResolution = 1e-3;  // CriticalSections::resolution / range of w
+inline constexpr double kCriticalTolerance = 1e-4;   // the usual CriticalSections::tolerance, divided by the range of w
+inline constexpr double kCriticalResolution = 1e-3;  // CriticalSections::resolution, divided by the range of w
 
-/// Returns the next critical w above `w` or, if `upward` is false, below it. Values that differ by at most `same` count
-/// as equal. Returns an empty optional if there is no such critical w.
+/// Returns the next critical w above `w` or, if `upward` is false, below it. Two values that differ by at most `same`
+/// count as equal. Returns an empty optional if there is no such critical w.
 std::optional<double> nextCriticalW(const CriticalSections& sections, double w, bool upward, double same);
 
 }  // namespace oval4d::slicing

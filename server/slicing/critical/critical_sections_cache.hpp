@@ -1,5 +1,5 @@
 #pragma once
-// A cache of the results of findCriticalSections().
+// A cache of the critical values of w that findCriticalSections() has found.
 
 #include <cstddef>
 #include <cstdint>
@@ -13,22 +13,23 @@
 
 namespace oval4d::slicing {
 
-/// Keeps the most recently used results of findCriticalSections(), up to a memory limit. Thread-safe.
+/// Keeps the most recently used results of findCriticalSections(), up to a limit on their memory. Thread-safe.
 class CriticalSectionsCache {
   public:
-    /// `bytes` is the maximum memory of the results in the cache.
+    /// Creates an empty cache. `bytes` is the maximum memory of the results in it.
     explicit CriticalSectionsCache(std::size_t bytes) : maxBytes_(bytes) {}
 
-    /// Returns the result for these arguments of findCriticalSections(), or null if it is not in the cache.
+    /// Returns the result of findCriticalSections() for this object, orientation and settings, or null if the result is
+    /// not in the cache.
     CriticalSectionsPtr find(const Object& object, const geometry::Rotation& orientation,
                              const FieldSettings& settings);
 
-    /// Adds the result for these arguments of findCriticalSections(). Does nothing if the memory of this result exceeds
-    /// the limit.
+    /// Adds `result`, the result of findCriticalSections() for this object, orientation and settings. Does nothing if
+    /// the memory of `result` exceeds the limit.
     void add(const Object& object, const geometry::Rotation& orientation, const FieldSettings& settings,
              CriticalSectionsPtr result);
 
-    /// Returns the memory of the results in the cache, in bytes. It never exceeds the limit.
+    /// Returns the memory of the results in the cache, in bytes. The memory never exceeds the limit.
     std::size_t bytes() const;
 
   private:

@@ -15,12 +15,15 @@ namespace {
 constexpr int kWindowSide = LocalChangeSearch::kSide, kWindowMiddle = kWindowSide / 2;
 constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWindowSide,
                       kWindowPoints = kWindowLayer * kWindowSide;
-constexpr int kMaxSamplings = 600;          // how often one search may sample a window
-constexpr std::size_t kMaxTriedPoints = 8;  // the number of points of a change that are tried as middles of windows
-constexpr int kWindowMargin = 2;          // points closer to the boundary of a window than this are not in its interior
-constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, relative to SearchStart::tolerance
-constexpr double kReachShrink = 2;        // the reach in a window, divided by that in the next one
-constexpr int kNeededWindows = 3;         // the number of windows in which a change must be found
+constexpr int kMaxSamplings = 600;  // how often one search may sample a window
+// how many of the points that change sides are tried as the middle of the next window
+constexpr std::size_t kMaxTriedPoints = 8;
+// points less than this many lattice steps from the boundary of a window are not in its interior
+constexpr int kWindowMargin = 2;
+constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, as a fraction of SearchStart::tolerance
+// the greatest distance in w of a change in a window, divided by that in the next window
+constexpr double kReachShrink = 2;
+constexpr int kNeededWindows = 3;  // the number of windows in which a change must be found to count
 
 std::size_t windowPointIndex(int x, int y, int z) {
     return static_cast<std::size_t>(x) +
@@ -28,7 +31,8 @@ std::size_t windowPointIndex(int x, int y, int z) {
 }
 
 // Returns twice the least step along w that changes at least one coordinate of every point in the box. The coordinates
-// are 32-bit floats. `normal` is one unit of w, as a vector in the function's coordinates.
+// of points are 32-bit floats, so a smaller step may be lost by rounding. `normal` is one unit of w, as a vector in the
+// function's coordinates.
 double leastStepAlongW(const fields::Box& box, const glm::dvec4& normal) {
     double least = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 4; ++axis) {
@@ -65,8 +69,8 @@ std::optional<double> LocalChangeSearch::find(const PartCountChange& change, con
     return findIn({start.point, start.half}, start.w, start.reach, 1);
 }
 
-// Finds the change in a window, and refines it in smaller windows around the points that change sides. `number` is 1
-// for the first, largest window.
+// Returns the w of the change in a window, refined in smaller windows around the points that enter or leave the body.
+// `number` is 1 for the first, largest window.
 std::optional<double> LocalChangeSearch::findIn(const SearchWindow& window, double w, double reach, int number) {
     const std::optional<LocalEvent> event = eventIn(window, w, reach, number);
     if (!event) return std::nullopt;
@@ -79,7 +83,7 @@ std::optional<double> LocalChangeSearch::findIn(const SearchWindow& window, doub
     return number >= kNeededWindows ? std::optional(event->w) : std::nullopt;
 }
 
-// Finds the change in a window that is nearest to `w`, at a distance of at most `reach`.
+// Finds the change in the window whose w is nearest to `w`, at a distance of at most `reach`.
 std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const SearchWindow& window, double w,
                                                                         double reach, int number) {
     double from = w, to = w;
@@ -93,7 +97,8 @@ std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Se
         if (isChange(before, after)) break;
         if (distance >= reach) return std::nullopt;
     }
-    // The finer the lattice is, the more points change sides in an interval of w.
+    // On a finer lattice, more points enter or leave the body in an interval of w of the same length. So the interval
+    // must be shorter.
     const double precision = std::max(leastStep_, kFirstPrecision * tolerance_ / std::pow(kZoom, number - 1));
     while (to - from > precision) {
         if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
@@ -122,8 +127,8 @@ std::size_t LocalChangeSearch::partsAt(const SearchWindow& window, double w) {
     return countParts(flags_);
 }
 
-// Sets `inside`: which points of the window in the section at `w` are in the body. Points beside the domain and points
-// without a value are outside.
+// Sets `inside` to whether each lattice point of the window, in the section at `w`, is in the body. Points outside the
+// domain and points without a value are not in the body.
 void LocalChangeSearch::sample(const SearchWindow& window, double w, PointFlags& inside) {
     ++samplings_;
     const double step = window.half / kWindowMiddle;
@@ -152,7 +157,7 @@ void LocalChangeSearch::sample(const SearchWindow& window, double w, PointFlags&
     }
 }
 
-// Counts the parts of the body or, if change_.ofBody is false, the parts outside of the body.
+// Returns the number of connected parts of the body or, if change_.ofBody is false, of the rest of the window.
 std::size_t LocalChangeSearch::countParts(const PointFlags& inside) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     const auto rootOf = [&](std::uint32_t point) {
@@ -167,8 +172,8 @@ std::size_t LocalChangeSearch::countParts(const PointFlags& inside) {
                 const std::size_t point = windowPointIndex(x, y, z);
                 if (inside[point] != counted) continue;
                 ++parts;
-                // The edges of the Freudenthal subdivision lead from a corner of a cube to those with larger
-                // coordinates.
+                // The edges of the Freudenthal subdivision lead from a corner of a lattice cube to the corners with
+                // larger coordinates.
                 for (int bits = 1; bits < 8; ++bits) {
                     const int dx = bits & 1, dy = bits >> 1 & 1, dz = bits >> 2;
                     if (x < dx || y < dy || z < dz) continue;

@@ -1,5 +1,5 @@
 #pragma once
-// A step of Newton's method for several equations.
+// Computes a step of Newton's method that makes up to three functions zero at once.
 
 #include <array>
 #include <cmath>
@@ -10,14 +10,15 @@
 
 namespace oval4d::slicing {
 
-/// Computes the shortest step from the current point to a point where up to three functions are zero, as if the
-/// functions were linear. Ignores a function whose gradient is almost a linear combination of the gradients of the
-/// functions added before.
+/// The shortest step from the current point to a point where up to three functions are zero, as if the functions were
+/// linear. Ignores a function whose gradient is almost a linear combination of the gradients of the functions added
+/// before.
 class ConstrainedStep {
   public:
-    /// Adds a function with this gradient, which must be a unit vector, and this value at the current point.
+    /// Adds a function, by its gradient and its value at the current point. The gradient must be a unit vector.
     void add(const glm::dvec3& gradient, double value) {
-        // Gram–Schmidt: basis_ is orthonormal, and targets_ are the components of the step along the vectors of basis_.
+        // Gram–Schmidt: basis_ is an orthonormal basis of the gradients. targets_ are the components of the step along
+        // the vectors of basis_.
         constexpr double kIndependent = 0.05;
         glm::dvec3 rest = gradient;
         double target = -value;
@@ -32,7 +33,7 @@ class ConstrainedStep {
         targets_[count_++] = target / length;
     }
 
-    /// Returns the step; 0 if no function was added.
+    /// Returns the step. Returns 0 if no function was added.
     glm::dvec3 solve() const {
         glm::dvec3 step(0);
         for (std::size_t i = 0; i < count_; ++i) step += targets_[i] * basis_[i];

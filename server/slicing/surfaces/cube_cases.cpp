@@ -8,7 +8,8 @@ namespace oval4d::slicing {
 namespace {
 
 struct Face {
-    std::array<std::uint8_t, 4> corners, edges;  // in cyclic order; edge i joins corners i and i + 1
+    // the corners and edges of the face in cyclic order; edge i joins corners i and i + 1
+    std::array<std::uint8_t, 4> corners, edges;
 };
 
 std::array<Face, 6> makeFaces() {
@@ -30,8 +31,9 @@ std::array<Face, 6> makeFaces() {
     return faces;
 }
 
-// Returns the case of a cube. On a face with alternating corners, joins the inside corners if it is the face `joined`,
-// and separates them otherwise.
+// Returns the case of a cube. Bit c of `inside` is set if corner c is inside the body. On the face with the index
+// `joined`, if its corners are alternately inside and outside, joins the inside corners. On all other faces, separates
+// them.
 CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t joined) {
     const auto isInside = [&](std::uint8_t corner) { return (inside >> corner & 1U) != 0; };
     // loop[e] is the least number of an edge that is in the same loop as edge e.
@@ -42,7 +44,7 @@ CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t
         std::ranges::replace(loop, std::uint8_t{high}, std::uint8_t{low});
     };
     CubeCase result;
-    std::uint8_t alternating = 0;  // a bit for each face: whether its corners are alternately inside and outside
+    std::uint8_t alternating = 0;  // a bit for each face: whether the face's corners are alternately inside and outside
     for (std::size_t f = 0; f < faces.size(); ++f) {
         const auto& [corners, edges] = faces[f];
         std::array<std::uint8_t, 4> crossed{};

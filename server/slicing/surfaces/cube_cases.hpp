@@ -1,15 +1,15 @@
 #pragma once
-// How a surface passes through a cube whose corners are inside or outside a body: the cases of dual marching cubes
-// (G. Nielson, "Dual marching cubes", 2004).
+// The ways in which a surface can pass through a cube, depending on which corners of the cube are inside the body: the
+// cases of dual marching cubes (G. Nielson, "Dual marching cubes", 2004).
 
 #include <array>
 #include <cstdint>
 
 namespace oval4d::slicing {
 
-/// The two corners of each edge of a cube. The corners are numbered x + 2y + 4z for x, y, z in {0, 1}. Edge 4a + u + 2v
-/// is parallel to axis a, and u, v in {0, 1} are its coordinates along the other two axes: u along the one that comes
-/// first in the order x, y, z. Face 2a + s is perpendicular to axis a, at the coordinate s along this axis.
+/// The two corners of each edge of a cube. Corner x + 2y + 4z has the coordinates x, y, z in {0, 1}. Edge 4a + u + 2v
+/// is parallel to axis a; u and v in {0, 1} are its coordinates along the other two axes: u along the one that comes
+/// first in the order x, y, z. Face 2a + s is perpendicular to axis a, at the coordinate s in {0, 1} along this axis.
 inline constexpr std::array<std::array<std::uint8_t, 2>, 12> kCubeEdges = [] {
     std::array<std::array<std::uint8_t, 2>, 12> edges{};
     for (std::uint8_t axis = 0; axis < 3; ++axis) {
@@ -22,26 +22,27 @@ inline constexpr std::array<std::array<std::uint8_t, 2>, 12> kCubeEdges = [] {
     return edges;
 }();
 
-/// How a surface passes through a cube: in one or more patches. Each patch is bounded by a closed loop, which visits
-/// edges of the cube that have one end inside the body and the other outside.
+/// The way in which a surface passes through a cube: in one or more patches. Each patch is bounded by a closed loop.
+/// The loop visits edges of the cube that have one end inside the body and the other end outside.
 struct CubeCase {
     static constexpr std::uint8_t kNoPatch = 0xff;
     static constexpr std::uint8_t kNoFace = 0xff;
 
-    std::uint8_t patches = 0;                    ///< the number of patches, 0 … 4
-    std::array<std::uint8_t, 12> patchOfEdge{};  ///< per edge: its patch; kNoPatch if both ends are on the same side
-    /// The face whose corners are alternately inside and outside, and whose four edges belong to the same patch;
-    /// kNoFace if there is no such face. If this face is also the mergingFace of the neighboring cube that shares it,
-    /// the surface would touch itself along an edge there. Therefore, use joinedCubeCase() for both cubes in this case.
+    std::uint8_t patches = 0;  ///< the number of patches, 0 … 4
+    /// per edge: the index of its patch; kNoPatch if both ends are on the same side of the surface
+    std::array<std::uint8_t, 12> patchOfEdge{};
+    /// The face of the cube whose corners are alternately inside and outside, and whose four edges belong to the same
+    /// patch; kNoFace if there is no such face. If the face is also the mergingFace of the neighboring cube that shares
+    /// it, the surface would touch itself along an edge there. In this case, use joinedCubeCase() for both cubes.
     std::uint8_t mergingFace = kNoFace;
 };
 
-/// Returns the case of a cube. Bit c of `inside` is set if corner c is inside the body. On faces whose corners are
-/// alternately inside and outside, the inside corners are separated.
+/// Returns the case of a cube. Bit c of `inside` is set if corner c is inside the body. On a face whose corners are
+/// alternately inside and outside, the two inside corners are separated.
 const CubeCase& cubeCase(std::uint8_t inside);
 
-/// Like cubeCase(), but joins the inside corners of the mergingFace, if the cube has one. The edges of this face then
-/// belong to two patches.
+/// Returns the case of a cube like cubeCase(), but joins the inside corners on the mergingFace, if the cube has one.
+/// The edges of this face then belong to two patches.
 const CubeCase& joinedCubeCase(std::uint8_t inside);
 
 }  // namespace oval4d::slicing

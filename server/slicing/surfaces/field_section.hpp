@@ -1,5 +1,5 @@
 #pragma once
-// The hyperplane of one slice of a field, and the domain in it.
+// The hyperplane of one slice of a field, with the part of the field's domain that lies in it.
 
 #include <array>
 #include <cstddef>
@@ -10,10 +10,11 @@
 
 namespace oval4d::slicing {
 
-/// The hyperplane of one slice of a field, with the coordinates x, y and z of the slice, and the slice of the field's
-/// domain, which is a convex polyhedron in this hyperplane.
+/// The hyperplane of one slice of a field, with the coordinates x, y and z of points in it, and the slice of the
+/// field's domain. This slice of the domain is a convex polyhedron in the hyperplane.
 struct FieldSection {
-    /// A half-space of the slice, which contains the points p with dot(normal, p) ≤ offset. `normal` is a unit vector.
+    /// A half-space of the hyperplane: the points p = (x, y, z) with dot(normal, p) ≤ offset. `normal` is a unit
+    /// vector.
     struct HalfSpace {
         glm::dvec3 normal;
         double offset;
@@ -23,8 +24,8 @@ struct FieldSection {
     glm::dvec4 origin{0};              ///< the point x = y = z = 0, in the function's coordinates
     std::array<glm::dvec4, 3> axes{};  ///< one unit of x, of y and of z, as vectors in the function's coordinates
     glm::dvec4 normal{0};              ///< one unit of w, as a vector in the function's coordinates
-    std::vector<HalfSpace> walls;      ///< at most kMaxWalls; the domain's slice is their intersection
-    glm::dvec3 min{0}, max{0};         ///< a box that contains the domain's slice
+    std::vector<HalfSpace> walls;      ///< at most kMaxWalls half-spaces, whose intersection is the slice of the domain
+    glm::dvec3 min{0}, max{0};         ///< the corners of a box that contains the slice of the domain
 };
 
 }  // namespace oval4d::slicing

@@ -1,5 +1,5 @@
 #pragma once
-// Points of a slice at which a function is evaluated.
+// Converts points of a slice to the points at which a function is evaluated.
 
 #include <array>
 #include <cstddef>
@@ -13,8 +13,8 @@
 
 namespace oval4d::slicing {
 
-/// Points of a slice in the function's coordinates, as a structure of arrays of fixed capacity. Points are passed in
-/// the slice's coordinates; the members below convert them.
+/// Up to kCapacity points of a slice, in the coordinates of a function, as a structure of arrays. The functions below
+/// take points in the slice's coordinates x, y, z, and convert them.
 struct FunctionPoints {
     static constexpr std::size_t kCapacity = 512;
     std::array<std::array<float, kCapacity>, 4> coordinates;
@@ -24,9 +24,9 @@ struct FunctionPoints {
         const glm::dvec4 at = section.origin + p.x * section.axes[0] + p.y * section.axes[1] + p.z * section.axes[2];
         for (int k = 0; k < 4; ++k) coordinates[static_cast<std::size_t>(k)][i] = static_cast<float>(at[k]);
     }
-    /// Sets points i … i + size.x · size.y · size.z − 1 to those of a box-shaped part of a lattice; x varies fastest.
-    /// `first` is the lower corner of the box, in the slice's coordinates. `steps` are the vectors to the next points
-    /// along x, y and z, in the function's coordinates.
+    /// Sets the points with the indices i … i + size.x · size.y · size.z − 1 to a box-shaped part of a lattice; x
+    /// varies fastest. `first` is the lower corner of the box, in the slice's coordinates. `steps` are the vectors to
+    /// the next points along x, y and z, in the function's coordinates.
     void setPointsInBox(std::size_t i, const FieldSection& section, const glm::dvec3& first,
                         const std::array<glm::vec4, 3>& steps, const glm::ivec3& size) {
         setPoint(i, section, first);
@@ -42,8 +42,8 @@ struct FunctionPoints {
             }
         }
     }
-    /// Sets points begin … begin + count − 1 to a row that begins at the point `first` of the slice. `step` is the
-    /// vector to the next point, in the function's coordinates.
+    /// Sets the points with the indices begin … begin + count − 1 to a row that begins at the point `first` of the
+    /// slice. `step` is the vector to the next point, in the function's coordinates.
     void setPointsInRow(std::size_t begin, const FieldSection& section, const glm::dvec3& first, const glm::vec4& step,
                         std::size_t count) {
         setPoint(begin, section, first);
@@ -53,7 +53,7 @@ struct FunctionPoints {
             for (std::size_t k = 0; k < count; ++k) out[k] = origin + static_cast<float>(k) * step[c];
         }
     }
-    /// Returns the first `size` points. The batch refers to this object.
+    /// Returns the first `size` points, as spans of the arrays of this object.
     fields::PointBatch batch(std::size_t size) const {
         const auto span = [&](std::size_t k) { return std::span(coordinates[k]).first(size); };
         return {span(0), span(1), span(2), span(3)};

@@ -1,5 +1,5 @@
 #pragma once
-// The values of functions at the points of a slice.
+// Evaluates functions at the points of a slice.
 
 #include <span>
 #include <vector>
@@ -12,12 +12,12 @@
 
 namespace oval4d::slicing {
 
-/// Sets the origin, the axes and the normal of `section` for the hyperplane at `w` of a rotated field. `toFunction`
+/// Sets the origin, the axes and the normal of `section` for the hyperplane w = `w` of a rotated field. `toFunction`
 /// must be Field::toFunction times the inverse of the rotation matrix.
 void placeSection(const fields::Field& field, const glm::dmat4& toFunction, double w, FieldSection& section);
 
-/// Sets `values` to the values of `function` at `points`, which are given by their x, y and z in the slice. A value is
-/// NaN where the function has none.
+/// Sets `values` to the values of `function` at `points`, which are given by their coordinates x, y and z in the slice.
+/// A value is NaN where the function has no value.
 void evaluateInSection(const fields::ScalarFunction& function, const FieldSection& section,
                        std::span<const glm::vec3> points, std::vector<float>& values);
 void evaluateInSection(const fields::ScalarFunction& function, const FieldSection& section,

@@ -17,7 +17,7 @@ namespace {
 std::uint8_t byteOf(float value, double least, double scale) {
     if (std::isnan(value)) return 0;
     const double above = (value - least) * scale;
-    // If the scale is infinite, `above` is 0 · ∞ = NaN for the least value, and the result is 1.
+    // If `scale` is infinite, `above` is 0 · ∞ = NaN for the least value. The result is then 1, as it must be.
     return static_cast<std::uint8_t>(above > 0 ? 1 + std::lround(std::min(above, 254.0)) : 1);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Fog in one slice: the values of a field on a lattice.
+// The fog in one slice of a field: the values of the field on a lattice.
 
 #include <cstdint>
 #include <vector>
@@ -12,17 +12,17 @@
 
 namespace oval4d::slicing {
 
-/// The values of a field at the points min + step · (i, j, k) of a lattice in one slice, as bytes.
+/// The fog in one slice: the values of a field at the points min + step · (i, j, k) of a lattice, as bytes.
 struct SliceFog {
     /// The maximum number of lattice points along each axis.
     static constexpr int kMaxPoints = 128;
 
-    glm::ivec3 size{0};  ///< the number of points along x, y and z; 0 if there is no fog
-    glm::dvec3 min{0};   ///< the point (0, 0, 0) of the lattice, in the units of the object
+    glm::ivec3 size{0};  ///< the number of lattice points along x, y and z; 0 if there is no fog
+    glm::dvec3 min{0};   ///< the lattice point with i = j = k = 0, in the units of the object
     double step = 1;     ///< the distance between neighboring points, in the units of the object
     std::vector<FieldSection::HalfSpace> walls;  ///< the fog is in the intersection of these half-spaces
-    /// One byte per point; x varies fastest. 0: the field has no value there; 1 … 255: values from `least` to
-    /// `greatest` in even steps (see sampleFog()).
+    /// One byte per lattice point; x varies fastest. 0 means that the field has no value at the point. 1 … 255 mean
+    /// values from the least to the greatest in even steps (see sampleFog()).
     std::vector<std::uint8_t> values;
 
     bool empty() const { return values.empty(); }
@@ -33,14 +33,14 @@ struct SliceFog {
     }
 };
 
-/// Returns the numbers of points along x, y and z of a lattice that covers this box. The coordinates of its points are
-/// multiples of `step`. On each side, at most one layer of points lies outside the box.
+/// Returns the number of points along x, y and z of a lattice that covers the box from `min` to `max`. The coordinates
+/// of lattice points are multiples of `step`. On each side, at most one layer of points lies outside the box.
 glm::ivec3 fogLatticeSize(const glm::dvec3& min, const glm::dvec3& max, double step);
 
 /// Samples a function on a lattice in a section. The coordinates of lattice points are multiples of the step, so that
 /// the lattice stays in place while an object turns. Enlarges `step` if an axis would have more than
-/// SliceFog::kMaxPoints points. `least` and all lower values become the byte 1; `greatest`, which must be greater than
-/// `least`, and all higher values become 255. Overwrites `out`.
+/// SliceFog::kMaxPoints points. The value `least` and all lower values become the byte 1; `greatest`, which must be
+/// greater than `least`, and all higher values become the byte 255. Overwrites `out`.
 void sampleFog(const fields::ScalarFunction& function, const FieldSection& section, double least, double greatest,
                double step, SliceFog& out);
 

@@ -1,5 +1,5 @@
-// This file is long, because its class is not divided: the stages work on the same lattice, and the compiler inlines
-// the inner loops of one stage into the next.
+// This file is long because its class is not divided: the stages of the extraction work on the same lattice, and the
+// compiler inlines the inner loops of one stage into the next.
 
 #include "slicing/surfaces/surface_extractor.hpp"
 
@@ -21,19 +21,20 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Distances in lattice steps. A point within kOnWall of a wall counts as on the wall. Points are moved onto walls by at
-// most kMostMoved along each axis. The layers of points that layOutLattice() adds around the domain must be thicker
-// than kMostMoved.
+// Distances in lattice steps. kOnWall: a point within this distance of a wall of the domain counts as on the wall.
+// kMostMoved: points are moved onto walls by at most this along each axis. The layers of points that layOutLattice()
+// adds around the domain must be thicker than kMostMoved.
 constexpr double kOnWall = 1e-6, kMostMoved = 1.5;
 
-/// Returns the least float that is not less than `value`. A float is less than this result if and only if it is less
+/// Returns the least float that is not less than `value`. A float is less than the result if and only if it is less
 /// than `value`.
 float roundedUp(double value) {
     const auto rounded = static_cast<float>(value);
     return rounded < value ? std::nextafter(rounded, kInfinity) : rounded;
 }
 
-/// For each set of inside corners of a cube: a bit for each edge that has one end inside and the other end outside.
+/// For each set of inside corners of a cube (bit c is corner c): a bit for each edge with one end inside and the other
+/// outside.
 constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
     std::array<std::uint16_t, 256> crossed{};
     for (unsigned inside = 0; inside < crossed.size(); ++inside) {
@@ -45,9 +46,9 @@ constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
     return crossed;
 }();
 
-/// Returns a bit for each wall beyond which a point of this block of cubes may lie, even after the point was moved onto
-/// other walls. `first` is the position of the block's corner 0, and `cubes` the number of cubes along each side of the
-/// block.
+/// Returns a bit for each wall of the domain beyond which a point of a block of cubes may lie, even after the point was
+/// moved onto other walls. `first` is the position of the block's corner 0, `cubes` the number of cubes along each side
+/// of the block, and `step` the lattice step.
 std::uint8_t wallsNear(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
     const double half = 0.5 * cubes * step;
     const glm::dvec3 center = first + half;
@@ -76,7 +77,7 @@ struct SurfaceExtractor::Evaluation {
     glm::dvec4 gradient(std::size_t i) const {
         return {gradients[0][i], gradients[1][i], gradients[2][i], gradients[3][i]};
     }
-    /// Returns the gradient in the coordinates of the slice.
+    /// Returns the gradient at point i, in the coordinates of the slice.
     glm::dvec3 slope(const FieldSection& section, std::size_t i) const {
         const glm::dvec4 steepest = gradient(i);
         return {glm::dot(steepest, section.axes[0]), glm::dot(steepest, section.axes[1]),
@@ -89,13 +90,14 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
     out.clear();
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
     sign_ = options.inside == fields::Inside::below ? 1 : -1;
-    constexpr double kEnlarge = 1.6;  // the number of points of a surface falls with the square of the step
+    // the factor for the step; the number of points of a surface is inversely proportional to the square of the step
+    constexpr double kEnlarge = 1.6;
     for (double step = options.step; !tryExtract(step, function, section, options, out); step = kEnlarge * step_)
         out.clear();
 }
 
-// Extracts the surfaces with a lattice step of at least `step`. Returns false if there are too many points and the
-// lattice can still become coarser.
+// Extracts the surfaces with a lattice step of at least `step`. Returns false if the surfaces have too many points and
+// the step can still be enlarged.
 bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                   const ExtractionOptions& options, SliceSurface& out) {
     chooseLattice(step, function, section, options);
@@ -118,13 +120,14 @@ bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& fun
     return true;
 }
 
-// Lays out the lattice and classifies its blocks. Enlarges the step until the extraction does not take too long.
+// Lays out the lattice and classifies its blocks. Enlarges the step until the estimated time of the extraction is short
+// enough.
 void SurfaceExtractor::chooseLattice(double step, const fields::ScalarFunction& function, const FieldSection& section,
                                      const ExtractionOptions& options) {
     const fields::EvaluationCost cost = function.cost();
     constexpr double kEnlarge = 1.25, kBoundsShare = 0.25;
     // The surface passes through about one in six cubes of an active block, and the gradient is evaluated twice for
-    // each of its points. All times are in nanoseconds.
+    // each of its points. kPerPoint and kPerSample are times in nanoseconds.
     constexpr double kPointsPerBlock = kBlockPoints / 6.0, kGradients = 2, kPerPoint = 60, kPerSample = 1;
     const double perBlock =
         kBlockPoints * (cost.value + kPerSample) + static_cast<double>(options.levels.size()) * kPointsPerBlock *
@@ -145,8 +148,8 @@ void SurfaceExtractor::layOutLattice(const FieldSection& section, double step) {
         const glm::dvec3 n = glm::abs(section.walls[i].normal);
         maxMoveOntoWall_[i] = (1 - kOnWall) * step_ * std::max({n.x, n.y, n.z});
     }
-    // Adds two layers of points on each side of the domain's bounding box: one of points that may be moved onto walls,
-    // and one of points outside the domain.
+    // Adds two layers of lattice points on each side of the domain's bounding box: a layer of points that may be moved
+    // onto walls, and a layer of points outside the domain.
     base_ = glm::ivec3(glm::floor(section.min / step_)) - 2;
     const glm::ivec3 cubes = glm::ivec3(glm::ceil(section.max / step_)) + 2 - base_;
     blockCount_ = (cubes + kBlock - 1) / kBlock + 1;
@@ -155,16 +158,16 @@ void SurfaceExtractor::layOutLattice(const FieldSection& section, double step) {
         cornerOffsets_[static_cast<std::size_t>(c)] = index(glm::ivec3(c & 1, c >> 1 & 1, c >> 2));
     const std::size_t needed = static_cast<std::size_t>(points_.x) * points_.y * points_.z;
     if (needed <= capacity_) return;
-    // The arrays are not initialized, so that memory for blocks that are skipped is not touched.
+    // The arrays are not initialized. So the memory of blocks that are skipped is never touched.
     values_ = std::make_unique_for_overwrite<float[]>(needed);
     inside_ = std::make_unique_for_overwrite<std::uint8_t[]>(needed);
     cubeAt_ = std::make_unique_for_overwrite<std::uint32_t[]>(needed);
     capacity_ = needed;
 }
 
-// Returns a bit for each wall that a cube with this center may touch or lie beyond. Sets `outside` to true if the whole
-// cube lies so far beyond one of the walls that none of its points is moved onto this wall, else leaves `outside`
-// unchanged. `extents` must be the result of extentsTowardWalls() for the size of the cube.
+// Returns a bit for each wall of the domain that a cube with the center `center` may touch or lie beyond. Sets
+// `outside` to true if the whole cube lies so far beyond one of the walls that none of its points is moved onto this
+// wall; else leaves `outside` unchanged. `extents` must be the result of extentsTowardWalls() for the size of the cube.
 std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents,
                                        const glm::dvec3& center, bool& outside) const {
     unsigned walls = 0;
@@ -176,7 +179,8 @@ std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const Extent
     return static_cast<std::uint8_t>(walls);
 }
 
-// For each wall, returns how far a cube extends from its center toward the wall. `half` is half the side of the cube.
+// Returns, for each wall of the domain, how far a cube extends from its center toward the wall. `half` is half the side
+// of the cube.
 SurfaceExtractor::ExtentsTowardWalls SurfaceExtractor::extentsTowardWalls(const FieldSection& section,
                                                                           double half) const {
     ExtentsTowardWalls extents{};
@@ -187,33 +191,36 @@ SurfaceExtractor::ExtentsTowardWalls SurfaceExtractor::extentsTowardWalls(const 
     return extents;
 }
 
-// Finds the blocks that may contain a surface, and notes which points of their upper neighbors they need. Looks at
-// groups of 2 × 2 × 2 blocks first, and at single blocks only in groups that may contain a surface.
+// Finds the blocks that may contain a surface, and notes which points of their upper neighbors are needed for them.
+// Looks at groups of 2 × 2 × 2 blocks first. Looks at the single blocks of a group only if the group may contain a
+// surface.
 void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                                       const ExtractionOptions& options) {
     blocks_.assign(static_cast<std::size_t>(blockCount_.x) * blockCount_.y * blockCount_.z, LatticeBlock{});
     active_.clear();
     glm::dvec4 unit(0);  // half the size of the bounding box of a cube with the side 2, in the function's coordinates
     for (const glm::dvec4& axis : section.axes) unit += glm::abs(axis);
-    // Returns whether a cube of blocks may contain a surface. `half` is half the side of the cube, and `extents` the
-    // result of extentsTowardWalls() for it.
+    // Returns whether a cube that consists of blocks may contain a surface. `half` is half the side of the cube, and
+    // `extents` the result of extentsTowardWalls() for `half`.
     const auto mayContain = [&](const glm::dvec3& center, double half, const ExtentsTowardWalls& extents) {
         bool outside = false;
         const std::uint8_t walls = wallsAt(section, extents, center, outside);
         if (outside) return false;
-        // Half the size of the bounding box of the cube in the function's coordinates. Points that are moved onto a
-        // wall may leave the cube.
+        // Half the size of the bounding box of the cube, in the function's coordinates. The box is larger near walls,
+        // because points that are moved onto a wall may leave the cube.
         const glm::dvec4 reach = unit * (walls == 0 ? half : half + kMostMoved * step_);
         const glm::dvec4 middle =
             section.origin + center.x * section.axes[0] + center.y * section.axes[1] + center.z * section.axes[2];
-        const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);  // allows for rounded positions
+        // the added part allows for rounding of positions
+        const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);
         const fields::ValueBounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
-            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;  // the whole cube is in the body
+            // whether the whole cube is in the body
+            const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;
             return bounds.mayCross(level) || (walls != 0 && full);
         });
     };
-    // Computing the bounds of a block is worthwhile if it takes less time than the samples that it may save.
+    // Computing the bounds of a block saves time if it takes less time than the samples that it may make unnecessary.
     const fields::EvaluationCost cost = function.cost();
     const bool refines = cost.bounds < 0.5 * kBlockPoints * cost.value;
     const double half = 0.5 * kBlock * step_;
@@ -240,8 +247,8 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     });
 }
 
-// Marks the block as active. Notes that all its points must be sampled, and that the first layer of points of each of
-// its upper neighbors must be sampled, too.
+// Marks a block as active. Notes that all points of the block must be sampled, and also the first layer of points of
+// each of its upper neighbors.
 void SurfaceExtractor::activate(glm::ivec3 block) {
     active_.push_back(static_cast<std::uint32_t>(blockIndex(block)));
     for (int i = 0; i < 8; ++i) {
@@ -257,11 +264,11 @@ void SurfaceExtractor::activate(glm::ivec3 block) {
 
 void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                                     const ExtractionOptions& options) {
-    // Blocks are collected until they fill a batch, which is then evaluated at once.
+    // Blocks are collected until they fill a batch. The function is then evaluated at all points of the batch at once.
     struct BatchedBlock {
         const LatticeBlock* block;
-        glm::ivec3 first;   // the lattice point at its lower end
-        std::size_t begin;  // the index of its first point in the batch
+        glm::ivec3 first;   // the lattice point at the lower end of the block
+        std::size_t begin;  // the index of the block's first point in the batch
     };
     constexpr std::size_t kCapacity = FunctionPoints::kCapacity;
     FunctionPoints points;
@@ -291,7 +298,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
         }
         batchedCount = size = 0;
     };
-    // The steps to the next point along x, y and z, in the function's coordinates.
+    // The vectors from a lattice point to the next along x, y and z, in the function's coordinates.
     std::array<glm::vec4, 3> steps;
     for (std::size_t i = 0; i < 3; ++i) steps[i] = glm::vec4(step_ * section.axes[i]);
     forEachBlock([&](const LatticeBlock& block, glm::ivec3 b) {
@@ -309,7 +316,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     sample();
 }
 
-// For each value, sets the bits of the levels whose body contains a point with this value.
+// Sets `inside`: for each value, a bit for each level whose body contains the points with this value.
 void SurfaceExtractor::findInside(std::span<const float> values, const ExtractionOptions& options,
                                   std::span<std::uint8_t> inside) const {
     std::ranges::fill(inside, std::uint8_t{0});
@@ -325,9 +332,9 @@ void SurfaceExtractor::findInside(std::span<const float> values, const Extractio
     }
 }
 
-// Moves those points of a block that are just beyond walls onto these walls, and sets `inDomain` to whether each point
-// is then in the domain. `first` is the lattice point at the lower end of the block, `size` the number of points along
-// each axis, and `begin` the index in `points` of the point `first`.
+// Moves the points of a block that are just beyond walls of the domain onto these walls. Then sets `inDomain` to
+// whether each point is in the domain. `first` is the lattice point at the lower end of the block, `size` the number of
+// points along each axis, and `begin` the index in `points` of the point `first`.
 void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
                                      FunctionPoints& points, std::span<bool> inDomain) const {
     const std::uint8_t walls = wallsNear(section, position(first), kBlock, step_);
@@ -358,9 +365,9 @@ void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 fir
     }
 }
 
-// Returns whether a point is in the domain or just beyond some walls. In the latter case, moves the point onto these
-// walls: along an axis of the lattice if it is a single wall. `walls` has a bit for each wall to consider; these must
-// include all walls near the point.
+// Returns whether a point is in the domain or just beyond some walls of the domain. In the latter case, moves the point
+// onto these walls; if there is only one such wall, moves the point along an axis of the lattice. `walls` has a bit for
+// each wall to consider, and must include all walls near the point.
 bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const {
     const auto wall = [&](unsigned bits) -> const FieldSection::HalfSpace& {
         return section.walls[static_cast<std::size_t>(std::countr_zero(bits))];
@@ -389,8 +396,8 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
     if (beyond == 0) return true;
     const glm::dvec3 start = point;
     if (std::has_single_bit(beyond)) moveAlongAxis(wall(beyond), distance(wall(beyond)));
-    // A point beyond several walls is moved to where these walls meet. If it is then beyond another wall, the next
-    // round includes that wall.
+    // A point beyond several walls is moved to the place where these walls meet. If the point is then beyond another
+    // wall, the next round includes this wall.
     for (int round = 0; round < 3; ++round) {
         unsigned now = 0;
         for (unsigned rest = walls; rest != 0; rest &= rest - 1)
@@ -415,14 +422,15 @@ std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level)
     return static_cast<std::uint8_t>(corners);
 }
 
-// Finds the cubes that the surface passes through. Returns false if they have more than `maxPoints` points and the
-// lattice can still become coarser.
+// Finds the cubes through which the surface passes. Returns false if these cubes have more than `maxPoints` points and
+// the step of the lattice can still be enlarged.
 bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
-    // Describes a row of lattice points along x. Each member has a byte for each of the four cubes along the row, and
-    // in this byte a bit for each level, as in inside_.
+    // Describes a row of lattice points along x, for the four cubes along the row. Each member has one byte per cube,
+    // and in this byte a bit for each level, as in inside_.
     constexpr std::size_t kRows = kBlock + 1;
     struct CornerPairs {
-        std::uint32_t some, all;  // whether any, and whether both, of the cube's two corners in this row are inside
+        // bits: whether at least one (`some`) or both (`all`) of the cube's two corners in this row are inside the body
+        std::uint32_t some, all;
     };
     const auto rowAt = [&](std::uint32_t at) -> CornerPairs {
         std::array<std::uint32_t, 2> ends{};
@@ -473,9 +481,9 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
     cubes_.push_back(cube);
 }
 
-// Appends the points of a cube through which no wall passes, one for each patch: the mean of the places where the level
-// set crosses those edges of the cube that belong to the patch. Returns false, and appends nothing, if the value of the
-// function at one of the corners is not finite.
+// Appends the points of a cube through which no wall passes: one point for each patch. The point is the mean of the
+// places where the level set crosses the cube edges of the patch. Returns false, and appends nothing, if the value of
+// the function at one of the corners is not finite.
 bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
@@ -490,8 +498,8 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& c
         const unsigned from = kCubeEdges[e][0];
         const float start = values[from] - level, end = values[kCubeEdges[e][1]] - level;
         glm::vec3 point(from & 1U, from >> 1U & 1U, from >> 2U);
-        // Because the level is rounded to a float, both ends may be on the same side of the level; therefore the
-        // quotient is clamped.
+        // The level is rounded to a float, so both ends may be on the same side of the level. Therefore the quotient is
+        // clamped.
         point[static_cast<int>(e / 4)] = start == end ? 0.5F : std::clamp(start / (start - end), 0.0F, 1.0F);
         const std::size_t patch = patches.patchOfEdge[e];
         sums[patch] += point;
@@ -505,9 +513,10 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& c
     return true;
 }
 
-// Appends the points of a cube through which a wall or the boundary of a hole (where the function has no value) may
-// pass: for each patch (see CubeCase), the mean of the places where its edges leave the body, with the union of their
-// constraint masks. Notes in `cube.cap` at which of the edges from corner 0 the surface is a cap.
+// Appends the points of a cube through which a wall, or the boundary of a hole (where the function has no value), may
+// pass: one point for each patch (see CubeCase). The point is the mean of the places where the edges of the patch leave
+// the body. Its constraint mask is the union of the masks of these places. Notes in `cube.cap` at which of the edges
+// from corner 0 the surface is a cap.
 void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
                                           glm::ivec3 place, CrossedCube& cube) {
     std::array<CubeCorner, 8> corners{};
@@ -540,9 +549,10 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
     }
 }
 
-// Returns where a lattice edge leaves the body: where it meets the level set or, if its outer end is not in the domain,
-// a wall. If the function has no value at the outer end, the edge is taken to meet the boundary of the hole halfway
-// between its two ends. If the edge meets several of these, returns the place closest to its inner end.
+// Returns the place where a lattice edge leaves the body. There, the edge meets the level set or, if its outer end is
+// not in the domain, a wall of the domain. If the function has no value at the outer end, the edge meets the boundary
+// of a hole, which is assumed to be halfway between the two ends. If the edge meets several of these, returns the place
+// closest to its inner end.
 SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
                                                                  const CubeCorner& inner, float atInner,
                                                                  const CubeCorner& outer, float atOuter) const {
@@ -551,8 +561,9 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
     double first = 0.5;
     std::uint16_t constraint = kAtHole;
     bool found = false;
-    // The function minus the level (times sign_) and the distances from the walls are negative or zero at the inner
-    // end. Those that are not negative at the outer end cross zero.
+    // At the inner end, two kinds of functions are negative or zero: the function minus the level (times sign_), and
+    // the distances from the walls. The functions that are not negative at the outer end cross zero between the two
+    // ends.
     const auto consider = [&](double from, double to, std::uint16_t by) {
         if (to < 0) return false;
         const double zero = from / (from - to);
@@ -571,8 +582,8 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
         const double to = glm::dot(normal, outer.position) - offset, rise = to - from;
         const auto by = static_cast<std::uint16_t>(1U << static_cast<unsigned>(i));
         const double t = to > 0 ? -from / rise : 1;
-        // Where an inner end lies on several walls, the edge leaves through the wall that it meets at the greatest
-        // angle.
+        // If the inner end lies on several walls, the edge leaves the domain through the wall that it meets at the
+        // greatest angle.
         const bool same = found && constraint < kOnLevel && to > 0 && std::abs(t - first) <= kSame;
         if (same && rise > steepest) constraint = by;
         if (same || consider(from, to, by)) steepest = std::max(same ? steepest : 0.0, rise);
@@ -581,11 +592,11 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
 }
 
 // Moves each point of the current level onto the level set and the walls in its constraint mask (see kWalls), and
-// appends the points to `out`. The points of a batch make all their steps before those of the next batch, because the
-// samples of an array that one step reads are then still in the cache when the next step reads them again.
+// appends the points to `out`. The points of a batch make all their steps before the points of the next batch. So the
+// samples of an array that one step reads are still in the cache when the next step reads them again.
 void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section,
                                              SliceSurface& out) {
-    constexpr int kRimSteps = 2;  // Newton steps of points on rims, whose first positions may be far off
+    constexpr int kRimSteps = 2;  // the number of Newton steps of points on rims, which may begin far from the surface
     starts_ = positions_;
     std::size_t next = out.points.size();  // the index in `out` of the next point
     const std::size_t end = next + positions_.size();
@@ -606,8 +617,8 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
             }
         }
         approachLevel(function, section, at);
-        // Points that have left the domain through a wall belong to the rim: this wall becomes one of their
-        // constraints.
+        // Points that have left the domain through a wall belong to the rim of the surface. So this wall becomes one of
+        // their constraints.
         for (const std::uint32_t i : moving_) {
             for (std::size_t wall = 0; wall < section.walls.size(); ++wall) {
                 const auto& [normal, offset] = section.walls[wall];
@@ -633,10 +644,9 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
     }
 }
 
-// Makes one step of Newton's method for each of the points `moving_`, of which there are at most
-// FunctionPoints::kCapacity, toward the level set f = level_ and the walls in its constraint mask (see kWalls). With
-// the gradient g of f in the slice, the step of a point that need not lie on a wall is −(f − level_) g / |g|².
-// Overwrites `at`.
+// Moves each of the points `moving_` by one step of Newton's method toward the level set f = level_ and the walls in
+// its constraint mask (see kWalls). There are at most FunctionPoints::kCapacity such points. With the gradient g of f
+// in the slice, the step of a point that need not lie on a wall is −(f − level_) g / |g|². Overwrites `at`.
 void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section,
                                      Evaluation& at) {
     if (moving_.empty()) return;
@@ -648,7 +658,8 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
         const double square = glm::dot(slope, slope), excess = at.values[i] - level_;
         const bool valid = square > 0 && std::isfinite(square) && std::isfinite(excess);
         if ((constraints_[point] & kWalls) == 0) {
-            // The step of most points, which ConstrainedStep would compute with several more divisions and roots.
+            // The step of a point that need not lie on a wall. ConstrainedStep would compute the same step with several
+            // more divisions and roots.
             if (valid) moveBy(slope * (-excess / square), point);
             continue;
         }
@@ -658,10 +669,10 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
     }
 }
 
-// Returns a step for a point of the surface with one condition for each wall on which the point must lie: the walls in
-// its constraint mask (see kWalls). The condition for a wall is that the signed distance from it, normal · p − offset,
-// becomes 0. The caller may add the condition for the level set; ConstrainedStep::solve() then gives the shortest step
-// that satisfies all conditions.
+// Returns a step for a point of the surface, with one condition for each wall in the constraint mask of the point (see
+// kWalls). The condition for a wall is that the signed distance from the wall, normal · p − offset, becomes 0. The
+// caller may add the condition for the level set. ConstrainedStep::solve() then gives the shortest step that satisfies
+// all conditions.
 ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
     ConstrainedStep step;
     for (unsigned rest = constraints_[point] & kWalls; rest != 0; rest &= rest - 1) {
@@ -671,27 +682,28 @@ ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, s
     return step;
 }
 
-// Moves a point by a Newton step. If the point would be more than one lattice step from its start along an axis, moves
-// it back to its start instead, because the linear approximation does not hold so far away.
+// Moves a point of the surface by a Newton step. If the point would then be more than one lattice step from its start
+// along an axis, moves it back to its start instead: the linear approximation does not hold so far away.
 void SurfaceExtractor::moveBy(const glm::dvec3& step, std::uint32_t point) {
     const glm::dvec3 next = positions_[point] + step;
     const glm::dvec3 moved = glm::abs(next - starts_[point]);
     positions_[point] = std::max({moved.x, moved.y, moved.z}) <= step_ ? next : starts_[point];
 }
 
-// Adds two triangles for each lattice edge that the surface crosses. Their corners are the points of the four cubes
-// around the edge.
+// Adds two triangles for each lattice edge that the surface crosses. The corners of the triangles are the points of the
+// four cubes around the edge.
 void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
     caps_.clear();
     const auto firstPoint = static_cast<std::uint32_t>(out.points.size() - positions_.size());
-    // For the axis of an edge: the two axes that follow it in the cyclic order x, y, z.
+    // For each axis: the two axes that follow it in the cyclic order x, y, z.
     static constexpr std::array<std::array<int, 2>, 3> kOthers{{{1, 2}, {2, 0}, {0, 1}}};
-    // Returns the number that the edge has in the cube at the offset (−u, −v) along these two axes (see kCubeEdges).
+    // Returns the number that a lattice edge parallel to `axis` has in the cube at the offset (−u, −v) along the next
+    // two axes (see kOthers). The numbers are those of kCubeEdges.
     const auto edgeNumber = [](int axis, int u, int v) {
         return static_cast<std::size_t>(4 * axis) + static_cast<std::size_t>(axis == 1 ? v + 2 * u : u + 2 * v);
     };
-    // The four cubes around an edge are at the offsets (−u, −v) from the cube where the edge begins, for these (u, v):
-    // counterclockwise as seen from the second end of the edge.
+    // The offsets (−u, −v) of the four cubes around a lattice edge, from the cube where the edge begins. The cubes are
+    // in counterclockwise order, as seen from the second end of the edge.
     static constexpr std::array<std::array<int, 2>, 4> kAround{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     for (const CrossedCube& cube : cubes_) {
         const bool cornerInside = (cube.inside & 1U) != 0;
@@ -706,8 +718,9 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 glm::ivec3 other = place;
                 other[kOthers[static_cast<std::size_t>(axis)][0]] -= u;
                 other[kOthers[static_cast<std::size_t>(axis)][1]] -= v;
-                // A surface passes through all cubes around an edge that it crosses, so that their blocks are active,
-                // unless boundsIn() has returned wrong bounds. In that case, the triangles at this edge are omitted.
+                // A surface passes through all cubes around an edge that it crosses, so the blocks of these cubes are
+                // active. Only if boundsIn() has returned wrong bounds, a block is not active; the triangles at this
+                // edge are then omitted.
                 complete = glm::all(glm::greaterThanEqual(other, glm::ivec3(0))) && blockOf(other).isActive;
                 if (!complete) break;
                 const CrossedCube& around = cubes_[cubeAt_[index(other)]];
@@ -722,7 +735,8 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 const glm::vec3 d = out.points[corners[a]] - out.points[corners[b]];
                 return glm::dot(d, d);
             };
-            const std::size_t turn = length(0, 2) <= length(1, 3) ? 0 : 1;  // divides along the shorter diagonal
+            // the quadrilateral is divided along its shorter diagonal
+            const std::size_t turn = length(0, 2) <= length(1, 3) ? 0 : 1;
             for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
                 triangles.push_back({corners[turn], corners[(turn + i) % 4], corners[(turn + i + 1) % 4]});
         }

@@ -1,5 +1,5 @@
 #pragma once
-// Extracts the surfaces of one slice of a field.
+// Extracts the surfaces of one slice of a field by dual marching cubes.
 
 #include <algorithm>
 #include <array>
@@ -24,64 +24,69 @@ namespace oval4d::slicing {
 
 /// Extracts the surfaces of slices by dual marching cubes on a cubic lattice. Skips blocks of the lattice that
 /// certainly contain no surface. A cube through which the surface passes gets one point per patch (see CubeCase).
-/// Newton's method moves the point onto the level set and, where the surface leaves the domain, also onto the walls
-/// (see FieldSection), so that caps (see SliceSurface) are flat, and their rims sharp.
+/// Newton's method moves this point onto the level set. Where the surface leaves the domain, the method also moves the
+/// point onto the walls of the domain (see FieldSection), so that caps (see SliceSurface) are flat, and their rims
+/// sharp.
 ///
-/// Lattice points just beyond a wall are moved onto it before the function is sampled (as in F. Labelle, J. Shewchuk,
-/// "Isosurface stuffing", 2007). So the rims follow the values on the walls themselves, and are smooth even where a
-/// surface meets a wall at a small angle, in a wedge that is thinner than a cube.
+/// Lattice points just beyond a wall are moved onto the wall before the function is sampled (as in F. Labelle, J.
+/// Shewchuk, "Isosurface stuffing", 2007). So the rims follow the values on the walls themselves. They are smooth even
+/// where a surface meets a wall at a small angle, in a wedge that is thinner than a cube.
 ///
 /// Reuses its memory, so that repeated calls of similar size allocate nothing. Only one thread at a time may use an
 /// extractor.
 class SurfaceExtractor {
   public:
+    /// Says which surfaces to extract, and limits the work.
     struct ExtractionOptions {
-        std::span<const double> levels;  ///< at most 7
+        std::span<const double> levels;  ///< the values of the function on the surfaces; at most 7
         fields::Inside inside = fields::Inside::below;
-        /// The distance between neighboring lattice points. Their coordinates are multiples of the step, so that the
-        /// lattice stays in place while an object turns. The step is enlarged if an axis would have more than kMaxCubes
-        /// cubes.
+        /// The distance between neighboring lattice points, in the units of the object. The coordinates of lattice
+        /// points are multiples of the step, so that the lattice stays in place while an object turns. The step is
+        /// enlarged if an axis would have more than kMaxCubes cubes.
         double step = 0.1;
-        /// The limits on the estimated time of the extraction, in nanoseconds, and on the number of points. The step is
-        /// enlarged until both are met, or until no axis has more than 8 cubes.
+        /// The limits on the estimated time of the extraction, in nanoseconds, and on the number of points of the
+        /// surfaces. The step is enlarged until both limits are met, or until no axis has more than 8 cubes.
         double maxTime = 1e9;
         std::size_t maxPoints = 10'000'000;
-        bool topologyOnly = false;  ///< see SurfaceDetail::topologyOnly
+        bool topologyOnly = false;  ///< whether only the topology of the surfaces is needed: see SurfaceDetail
         double pointTime = 0;  ///< the estimated time that the caller spends on each extracted point, in nanoseconds
     };
     static constexpr int kMaxCubes = 256;
 
-    /// Extracts the surfaces of all levels. Points where the function has no value are outside the body. Calls with the
-    /// same arguments give the same surfaces. Overwrites `out`; leaves its secondValues empty.
+    /// Extracts the surfaces of all levels, and writes them to `out`. Points where the function has no value are
+    /// outside the body. Calls with the same arguments give the same surfaces. Overwrites `out`; leaves
+    /// `out.secondValues` empty.
     void extract(const fields::ScalarFunction& function, const FieldSection& section, const ExtractionOptions& options,
                  SliceSurface& out);
 
   private:
-    static constexpr int kBlock = 4;  // cubes along each side of a block
+    static constexpr int kBlock = 4;  // the number of cubes along each side of a block
     static constexpr std::size_t kBlockPoints = 64;
-    // Bits of a constraint mask, which says what a point must lie on: wall i (bit 1 << i), the level set, or the
-    // boundary of a hole, where the function has no value.
+    // The bits of a constraint mask, which says on what a point of the surface must lie. Bit 1 << i stands for wall i
+    // of the domain, kOnLevel for the level set, and kAtHole for the boundary of a hole, where the function has no
+    // value.
     static constexpr std::uint16_t kWalls = 0xff, kOnLevel = 0x100, kAtHole = 0x200;
 
     struct Evaluation;
     struct LatticeBlock {
         bool isActive = false;   // whether it may contain a surface
-        std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that it may touch or lie beyond
+        std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that the block may touch or lie beyond
         glm::u8vec3 needed{0};   // how many points along each axis are sampled, from the block's lower end on
         bool isSampled() const { return needed.x != 0; }
     };
-    // A cube through which the surface passes, and the points of its patches.
+    // A lattice cube through which the surface passes, and the points of its patches.
     struct CrossedCube {
-        std::uint32_t at;                 // the lattice index of its corner 0
-        std::uint8_t inside;              // a bit for each corner: whether it is inside the body
-        bool joined;                      // whether its case is joinedCubeCase(inside)
-        std::array<std::uint8_t, 3> cap;  // for the edges from corner 0 along x, y, z: 1 if a cap crosses the edge
-        std::uint32_t firstPoint;         // the index in positions_ of its first point
+        std::uint32_t at;     // the lattice index of corner 0 of the cube
+        std::uint8_t inside;  // a bit for each corner: whether the corner is inside the body
+        bool joined;          // whether the case of the cube is joinedCubeCase(inside), not cubeCase(inside)
+        // for the edges from corner 0 along x, y and z: 1 if a cap crosses the edge, else 0
+        std::array<std::uint8_t, 3> cap;
+        std::uint32_t firstPoint;  // the index in positions_ of the first of the cube's points
     };
-    // A corner of a cube.
+    // A corner of a lattice cube.
     struct CubeCorner {
         glm::dvec3 position;
-        bool inDomain;  // whether it is in the domain; also true if it was moved onto a wall
+        bool inDomain;  // whether the corner is in the domain; also true if it was moved onto a wall
     };
     // A place where the surface crosses an edge of the lattice.
     struct LatticeEdgeCrossing {
@@ -125,9 +130,9 @@ class SurfaceExtractor {
     std::uint32_t index(glm::ivec3 point) const {
         return static_cast<std::uint32_t>(point.x + points_.x * (point.y + points_.y * point.z));
     }
-    // Returns whether the lattice is so coarse that it must not become coarser.
+    // Returns whether the lattice is already so coarse that its step must not be enlarged further.
     bool isCoarsest() const { return std::max({blockCount_.x, blockCount_.y, blockCount_.z}) <= 3; }
-    // Calls visit(LatticeBlock&, ivec3 block) for all blocks, in their order.
+    // Calls visit(LatticeBlock&, ivec3 block) for all blocks, in the order of blocks_.
     template <typename Visit>
     void forEachBlock(Visit&& visit) {
         std::size_t number = 0;
@@ -146,26 +151,31 @@ class SurfaceExtractor {
     std::uint8_t insideCorners(glm::ivec3 cube, std::size_t level) const;
 
     double step_ = 0;
-    // Per wall: points beyond the wall are moved onto it if their distance from it is at most this.
+    // Per wall of the domain: a lattice point beyond the wall is moved onto the wall if its distance from the wall is
+    // at most this.
     std::array<double, FieldSection::kMaxWalls> maxMoveOntoWall_{};
-    double sign_ = 1, level_ = 0;                   // the body of the current level is where sign_ · (f − level_) < 0
-    glm::ivec3 base_{0};                            // the coordinates of lattice point (0, 0, 0), in lattice steps
-    glm::ivec3 blockCount_{0};                      // blocks along each axis, with an inactive one at its upper end
-    glm::ivec3 points_{0};                          // the numbers of lattice points along each axis
-    std::array<std::uint32_t, 8> cornerOffsets_{};  // the indices of a cube's corners, relative to corner 0
-    std::size_t capacity_ = 0;                      // the size of each of the next three arrays
-    std::unique_ptr<float[]> values_;               // per lattice point of a sampled block: its value
-    std::unique_ptr<std::uint8_t[]> inside_;        // per lattice point: a bit for each level, set if inside its body
-    std::unique_ptr<std::uint32_t[]> cubeAt_;  // per lattice point: the index in cubes_ of the cube with this corner 0
+    double sign_ = 1, level_ = 0;  // the body of the current level is where sign_ · (f − level_) < 0 for the function f
+    glm::ivec3 base_{0};           // the coordinates of the lattice point (0, 0, 0), in lattice steps
+    glm::ivec3 blockCount_{0};     // the number of blocks along each axis, with an inactive block at the upper end
+    glm::ivec3 points_{0};         // the numbers of lattice points along each axis
+    // the lattice indices of a cube's corners, minus that of its corner 0
+    std::array<std::uint32_t, 8> cornerOffsets_{};
+    std::size_t capacity_ = 0;         // the number of elements of each of the next three arrays
+    std::unique_ptr<float[]> values_;  // per lattice point of a sampled block: the value of the function
+    // per lattice point: a bit for each level, set if the point is inside the level's body
+    std::unique_ptr<std::uint8_t[]> inside_;
+    // per lattice point: the index in cubes_ of the cube whose corner 0 is this point
+    std::unique_ptr<std::uint32_t[]> cubeAt_;
     std::vector<LatticeBlock> blocks_;
-    std::vector<std::uint32_t> active_;  // the indices of active blocks
+    std::vector<std::uint32_t> active_;  // the indices of the blocks that may contain a surface
     std::vector<CrossedCube> cubes_;     // the cubes through which the surface of the current level passes
-    // Per point of the current level: its position, and its position before it was moved.
+    // Per point of the surface of the current level: its position, and its position before it was moved.
     std::vector<glm::dvec3> positions_, starts_;
-    std::vector<std::uint32_t> moving_;  // the points of a batch that are being moved onto the level set
-    // The triangles of the caps of the current level. In the result, they follow the other triangles of this level.
+    std::vector<std::uint32_t> moving_;  // the points of a batch that are now being moved onto the level set
+    // The triangles of the caps of the current level. They will follow the other triangles of this level in the result.
     std::vector<std::array<std::uint32_t, 3>> caps_;
-    std::vector<std::uint16_t> constraints_;  // per point of the current level: a constraint mask
+    // per point of the surface of the current level: its constraint mask (see kWalls)
+    std::vector<std::uint16_t> constraints_;
 };
 
 }  // namespace oval4d::slicing

@@ -16,7 +16,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// The connected parts of a surface: a union–find structure on its points.
+/// The connected parts of a surface, as a union–find structure on the surface's points.
 class ConnectedParts {
   public:
     ConnectedParts(std::size_t points, std::span<const Triangle> triangles) : parents_(points) {
@@ -26,7 +26,7 @@ class ConnectedParts {
             join(b, c);
         }
     }
-    /// Returns the point that represents the part to which a point belongs.
+    /// Returns the point that represents the connected part to which `point` belongs.
     std::uint32_t representativeOf(std::uint32_t point) {
         while (parents_[point] != point) point = parents_[point] = parents_[parents_[point]];
         return point;
@@ -43,7 +43,8 @@ class ConnectedParts {
 
 struct VolumeAndMoment {
     double volume = 0;
-    glm::dvec3 moment{0};  // the volume times the centroid, relative to the point that represents the part
+    // the volume times the centroid, where coordinates are relative to the point that represents the part
+    glm::dvec3 moment{0};
 };
 
 template <typename Point>
@@ -56,8 +57,8 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& corners = triangles[t];
         const std::uint32_t root = connected.representativeOf(corners[0]);
-        // Coordinates are relative to a point of the part, so that rounding errors are small even if the volume of the
-        // part is small.
+        // Coordinates are relative to a point of the connected part. So rounding errors are small even if the volume of
+        // the part is small.
         const glm::dvec3 base(points[root]);
         const glm::dvec3 a = glm::dvec3(points[corners[0]]) - base, b = glm::dvec3(points[corners[1]]) - base,
                          c = glm::dvec3(points[corners[2]]) - base;
@@ -75,8 +76,8 @@ SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<co
         moment += part.moment + part.volume * glm::dvec3(points[point]);
     }
     if (result.volume > 0) result.centroid = moment / result.volume;
-    // The Euler characteristic is V − E + F. Each triangle has three edges, and each edge belongs to two triangles; so
-    // E = 3F / 2, and the result is V − F / 2.
+    // The Euler characteristic is V − E + F. Each triangle has three edges, and each edge belongs to two triangles. So
+    // E = 3F / 2, and the Euler characteristic is V − F / 2.
     result.euler = static_cast<long>(std::ranges::count(used, true)) - static_cast<long>(triangles.size() / 2);
     return result;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Measures the body that a closed surface bounds: volume, surface area, centroid and topology.
+// Measures the body that a closed surface bounds: its volume, surface area, centroid and topology.
 
 #include <cstddef>
 #include <cstdint>
@@ -14,45 +14,48 @@
 
 namespace oval4d::slicing {
 
-/// The measurements of the body inside a closed surface that is oriented outward, in the units of the object.
+/// The measurements of the body inside a closed surface that is oriented outward. Lengths, areas and volumes are in the
+/// units of the object.
 struct SurfaceMeasurements {
     double volume = 0;
     double area = 0;                     ///< the area of the level set, without caps
     double capArea = 0;                  ///< the area of the caps
     std::optional<glm::dvec3> centroid;  ///< the centroid of the body; empty unless the volume is positive
     /// The number of connected components of the body. Each component has one outer surface, which encloses a positive
-    /// volume. The surface of a cavity encloses a negative volume, and is not counted.
+    /// volume. The surface of a cavity encloses a negative volume, and does not count as a component.
     std::size_t components = 0;
-    /// The Euler characteristic of the surface, including its caps: the sum of 2 − 2 · genus over its connected parts.
-    /// This is twice the Euler characteristic of the body: 2 for a ball, 4 for a ball with a cavity, and 0 for a solid
-    /// torus.
+    /// The Euler characteristic of the surface, including its caps: the sum of 2 − 2 · genus over the connected parts
+    /// of the surface. This is twice the Euler characteristic of the body: 2 for a ball, 4 for a ball with a cavity,
+    /// and 0 for a solid torus.
     long euler = 0;
 };
 
-/// Measures the surface of one level of a slice. `level` is the index of the level, as for SliceSurface::levelIndex().
+/// Measures the surface of one level of a slice. `level` is the index of the level, as in SliceSurface::levelIndex().
 SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t level);
 
 /// Returns the mean of a function over the level set, without caps, weighted by area. `values` are the values of the
-/// function at the points of the surface; the function is treated as linear in each triangle. Ignores triangles with a
-/// value that is not finite. Returns an empty optional if the area of the other triangles is 0.
+/// function at the points of `surface`. The function is treated as linear in each triangle. Ignores triangles with a
+/// value that is not finite. Returns an empty optional if the area of the remaining triangles is 0.
 std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<const float> values);
 
 /// The connected parts of the surface of one level.
 struct SurfaceParts {
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
+    /// The volume that a connected part encloses, and its Euler characteristic.
     struct SurfacePart {
-        double volume = 0;  ///< negative for the surface of a cavity
-        long euler = 0;     ///< the Euler characteristic
+        double volume = 0;  ///< in the units of the object; negative for the surface of a cavity
+        long euler = 0;     ///< the Euler characteristic of the part
     };
-    std::vector<std::uint32_t> ofPoint;  ///< per point: the index of its part; kNone for points of other levels
+    /// per point: the index in `parts` of the part to which the point belongs; kNone for points of other levels
+    std::vector<std::uint32_t> ofPoint;
     std::vector<SurfacePart> parts;
 };
 
 /// Finds the connected parts of the surface of the level with the index `level`.
 SurfaceParts findParts(const SliceSurface& surface, std::size_t level);
 
-/// Measures a closed surface.
+/// Measures a closed surface in one slice.
 SurfaceMeasurements measureSurface(const ClosedSurface& surface);
 
 }  // namespace oval4d::slicing
