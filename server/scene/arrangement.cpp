@@ -12,31 +12,34 @@ namespace oval4d::scene {
 
 namespace {
 
-// The number of slices for which the oval was designed.
+// The number of slices for which the shape of the oval was designed.
 constexpr int kReferenceCount = 21;
-// The ovals of wide and of tall pictures. Their numbers were found by a search for the largest focus slice at which
-// neighboring slices hide little of each other.
+// The shapes of the ovals in wide and in tall pictures. A search found their numbers: those for which the focus slice
+// is largest while neighboring slices hide little of each other.
 constexpr Arrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
 constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
 
-// The distance between neighboring slices in a row or column, in radii of slices with balls.
+// The distance between neighboring slices in a row or column, as a multiple of the radius of a slice with its balls.
 constexpr double kLineStep = 2.12;
 // The distance of the eye from a row or column is kSingleDistance plus this multiple of half the length of the row or
 // column. From so far away, the projection is nearly parallel.
 constexpr double kLineDistance = 4;
-constexpr double kRowFocusDrop = 1.4;  // the label of the focus slice is this far below the others, in heights of text
-// In a column, the label of the focus slice is this far to the right of the others, in heights of text, because the
-// plate behind this label is wider.
+// how far the label of the focus slice is below the other labels of a row, in heights of text
+constexpr double kRowFocusDrop = 1.4;
+// How far the label of the focus slice is to the right of the other labels of a column, in heights of text. The
+// distance is needed because the plate behind this label is wider.
 constexpr double kColumnFocusDrop = 0.8;
-// In a grid, the gap between a slice and the slice below it, which contains the label of the upper one, as a multiple
-// of the text height.
+// In a grid, the gap between a slice and the slice below it, as a multiple of the text height. The gap contains the
+// label of the upper slice.
 constexpr double kGridLabelRoom = 2.3;
-constexpr double kGridFocusRoom = 2.1;    // by how much the gap below the focus slice is larger, likewise
-constexpr double kGridLabelWidth = 0.94;  // the greatest width of the other labels, as a fraction of the column step
+// in a grid, by how much the gap below the focus slice is larger than other gaps, as a multiple of the text height
+constexpr double kGridFocusRoom = 2.1;
+// in a grid, the greatest width of labels, except that of the focus slice, as a fraction of the column step
+constexpr double kGridLabelWidth = 0.94;
 // The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
 // farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.
 constexpr double kGridDistance = 8;
-constexpr double kSingleDistance = 7;  // from the eye to a slice that is shown alone, in circumradii
+constexpr double kSingleDistance = 7;  // the distance from the eye to a slice that is shown alone, in circumradii
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
@@ -47,13 +50,13 @@ Arrangement ovalOf(int count, double aspect) {
     made.depth = mix(kWideOval.depth, kTallOval.depth, t);
     made.pitch = mix(kWideOval.pitch, kTallOval.pitch, t);
     made.distance = mix(kWideOval.distance, kTallOval.distance, t);
-    // With twice as many slices on the same parabola, each slice has about half the space.
+    // If twice as many slices stand on the same parabola, each slice has about half the space.
     made.sliceRadius = std::clamp(std::pow(static_cast<double>(kReferenceCount) / count, 0.8), 0.1, 1.25);
     made.isClearOfAxes = count == 1;
     return made;
 }
 
-// Returns a straight row. `reach`: the radius of a slice with its balls.
+// Returns a straight row of `count` slices. `reach` is the radius of a slice with its balls.
 Arrangement rowOf(int count, double reach) {
     Arrangement made;
     made.halfWidth = kLineStep * reach * (count - 1) / 2;
@@ -72,13 +75,14 @@ Arrangement focusSliceAlone() {
     return made;
 }
 
-// Returns a straight column, with the last slice at the top: a row that is turned by a quarter. `reach`: the radius of
-// a slice with its balls.
+// Returns a straight column of `count` slices, with the last slice at the top: a row that is turned by a quarter.
+// `reach` is the radius of a slice with its balls.
 Arrangement columnOf(int count, double reach) {
     if (count == 1) return focusSliceAlone();
     Arrangement made = rowOf(count, reach);
     std::swap(made.halfWidth, made.halfHeight);
-    made.isClearOfAxes = true;  // the uppermost slices would often cover the axes symbol of tall pictures
+    // otherwise, the uppermost slices would often cover the symbol of the axes in tall pictures
+    made.isClearOfAxes = true;
     made.labelDrop = 0;
     made.focusLabelDrop = kColumnFocusDrop;
     made.labelsAreBeside = true;
@@ -86,22 +90,23 @@ Arrangement columnOf(int count, double reach) {
     return made;
 }
 
-// Returns a grid with the number of columns at which the slices are largest. `reach`: the radius of a slice with its
+// Returns a grid with the number of columns at which the slices are largest. `reach` is the radius of a slice with its
 // balls.
 Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
-    // The projection fills a square. To the left of the grid, the side of the square is kProjectionShare times the
-    // width of the room, but at most kProjectionBreadth times its height. Above the grid, width and height are
-    // exchanged.
+    // The projection of the whole object fills a square. To the left of the grid, the side of the square is
+    // kProjectionShare times the width of the room, but at most kProjectionBreadth times the height of the room. Above
+    // the grid, width and height are exchanged.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
-    constexpr double kLeastWideAspect = 1.3;  // from this width / height on, the projection is to the left
+    // if the width of the room divided by its height is at least this, the projection is to the left
+    constexpr double kLeastWideAspect = 1.3;
     if (count == 1) return focusSliceAlone();
     const double text = style().textHeight;
     SliceGrid grid;
     grid.count = count;
     grid.projectionIsAbove = room.size.x < kLeastWideAspect * room.size.y;
-    double scale = 0;  // how many viewport heights a world unit takes up in the picture
+    double scale = 0;  // the length of a world unit in the picture, in viewport heights
     for (const glm::dvec2& part : room.besideAxes) {
-        glm::dvec2 left = part;  // the part without the square of the projection
+        glm::dvec2 left = part;  // the size of the part that remains without the square of the projection
         double side = 0;
         if (room.hasProjection) {
             double& length = grid.projectionIsAbove ? left.y : left.x;
@@ -135,17 +140,17 @@ Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
     return made;
 }
 
-// Places the projection to the right of the focus slice or, in a tall room, above it.
+// Places the projection of the whole object to the right of the focus slice or, in a tall room, above it.
 ProjectionPlacement besideFocusSlice(double reach, double aspect) {
     constexpr double kGap = 0.2;
     const double radius = 1.1 * reach, distance = reach + radius + kGap;
     return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
 }
 
-// Places the projection beside a row or column, in the direction of the unit vector `away`. It fills most of the
-// breadth that the slices leave in the room, but it is at least as large as a slice and at most as long as the row or
-// column. `halfLength`: half the length of the row or column. `aspect`: the length of the room in the direction of the
-// row or column, divided by its breadth.
+// Places the projection of the whole object beside a row or column, in the direction of the unit vector `away`. The
+// projection fills most of the breadth that the slices leave in the room. It is at least as large as a slice, and at
+// most as long as the row or column. `halfLength` is half the length of the row or column. `aspect` is the length of
+// the room in the direction of the row or column, divided by the breadth of the room.
 ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double reach, double aspect) {
     constexpr double kGap = 0.3, kShare = 0.9;
     const double left = 2 * halfLength / aspect - 2 * reach;  // the breadth that the slices leave, in world units
@@ -153,9 +158,10 @@ ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double
     return {true, (reach + kGap + radius) * away, radius};
 }
 
-// Places the projection to the left of a grid or, unless the room is wide, above it.
+// Places the projection of the whole object to the left of a grid or, unless the room is wide, above it.
 ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
-    constexpr double kShare = 0.94;  // the diameter of the projection, as a fraction of the side of its square
+    // the diameter of the projection, as a fraction of the side of the square that contains it
+    constexpr double kShare = 0.94;
     const double half = grid.projectionSide / 2;
     const glm::dvec3 first = grid.positionOf(0), last = grid.positionOf(grid.count - 1);
     const glm::dvec3 center = grid.projectionIsAbove ? glm::dvec3(first.x + (grid.columns - 1) * grid.columnStep / 2,
@@ -166,13 +172,14 @@ ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
 
 }  // namespace
 
-// The switches over the views have no default, so that a view without a case does not compile.
+// The following switches over the views have no default case, so that a view without a case does not compile.
 
 Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room) {
     Arrangement made;
     switch (view) {
         case View::oval:
-            // The ends of an oval are far away; two slices, which only exported files have, would be tiny.
+            // The ends of an oval are far away from the viewer. If there are only two slices, as in some exported
+            // files, both would be tiny at these ends. So they stand in a row.
             made = count == 2 ? rowOf(count, 1 + relativeBall) : ovalOf(count, aspect);
             break;
         case View::single:
@@ -205,7 +212,7 @@ ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, 
             return besideFocusSlice(reach, aspect);
         case View::oval:
             if (count > 2) break;
-            [[fallthrough]];  // an oval of two slices is a row: see arrangementOf()
+            [[fallthrough]];  // two slices of an oval stand in a row: see arrangementOf()
         case View::strip:
             return besideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
         case View::column:
@@ -233,8 +240,8 @@ ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::
         }
         return room;
     };
-    // Along the axis, the room first grows with the distance from the focus slice, and then shrinks toward the upper
-    // end of the oval. So it has one maximum, which a golden-section search finds.
+    // Along the axis of the parabola, the room for the projection first grows with the distance from the focus slice.
+    // Then it shrinks toward the upper end of the oval. So it has one maximum, which a golden-section search finds.
     constexpr double kGolden = std::numbers::phi - 1;
     constexpr int kSteps = 24;
     double from = 0, to = arrangement.depth;

@@ -1,5 +1,5 @@
 #pragma once
-// What the views differ in: how they arrange the slices, their labels and the projection, and how the camera sees them.
+// Arranges the slices, their labels and the projection of the whole object in each view, and places the camera.
 
 #include <array>
 #include <cmath>
@@ -14,28 +14,31 @@
 
 namespace oval4d::scene {
 
-/// The room that a picture has for the slices, their labels and the projection. Sizes are (width, height), in viewport
-/// heights.
+/// The room that a picture has for the slices, their labels and the projection of the whole object. Sizes are (width,
+/// height), in viewport heights.
 struct AvailableSpace {
     glm::dvec2 size{0};
-    std::array<glm::dvec2, 2> besideAxes{};  ///< the sizes of two parts: to the right of the axes symbol, and below it
-    bool hasProjection = false;              ///< whether the projection is shown
+    /// The sizes of two parts of the room: to the right of the symbol of the axes, and below it.
+    std::array<glm::dvec2, 2> besideAxes{};
+    bool hasProjection = false;  ///< whether the projection of the whole object is shown
 };
 
 /// The places of slices that stand in rows, from left to right and from top to bottom. Each row but the last has the
-/// same number of slices. All lengths are in world units. The focus slice stands at the origin. It is the middle one
-/// or, if the number of slices is even, the last one before the middle.
+/// same number of slices. All lengths are in world units. The focus slice stands at the origin. The focus slice is the
+/// middle one or, if the number of slices is even, the last one before the middle.
 struct SliceGrid {
     int count = 0;  ///< the number of slices; 0 if the view has no grid
     int columns = 1;
+    /// The distances from one column, and from one row, to the next.
     double columnStep = 0, rowStep = 0;
     double focusGap = 0;  ///< the additional length of the step from the row of the focus slice to the next row
-    /// The side of the square that contains the projection, to the left of the grid or above it; 0 if the projection is
-    /// not shown.
+    /// The side of the square that contains the projection of the whole object, to the left of the grid or above it; 0
+    /// if the projection is not shown.
     double projectionSide = 0;
+    /// Whether this square is above the grid, not to its left.
     bool projectionIsAbove = false;
 
-    /// Returns the position of slice i. No coordinate is −0, because messages would contain the sign.
+    /// Returns the position of slice i. No coordinate is −0, because messages would show the minus sign.
     glm::dvec3 positionOf(int i) const {
         const int focus = (count - 1) / 2;
         const int right = i % columns - focus % columns, down = i / columns - focus / columns;
@@ -45,38 +48,40 @@ struct SliceGrid {
 
 /// The arrangement of the slices in a view, before the viewer moves the camera. All lengths are in world units. The
 /// slices stand in a grid or on a curve: a parabola, a straight row, a straight column or a single place. The middle of
-/// the curve is the origin. The focus slice stands at the origin, except on a curve with an even number of slices, as
-/// exported files may have. The camera looks at the origin from the distance `distance`, downward by the angle `pitch`
-/// (radians).
+/// the curve is the origin. The focus slice stands at the origin, except on a curve with an even number of slices,
+/// which only exported files can have. The camera looks at the origin from the distance `distance`, downward by the
+/// angle `pitch` (radians).
 struct Arrangement {
-    double halfWidth = 0;   ///< the x of the last slice; the first slice has −halfWidth. In a grid, the greatest |x|
-    double halfHeight = 0;  ///< the y of the last slice; the first slice has −halfHeight. In a grid, the greatest |y|
-    double depth = 0;       ///< how far behind the focus slice the first and the last slice stand
-    double pitch = 0, distance = 1;  ///< of the camera
+    /// the x of the last slice; the first slice has −halfWidth. In a grid: the greatest |x| of a slice
+    double halfWidth = 0;
+    /// the y of the last slice; the first slice has −halfHeight. In a grid: the greatest |y| of a slice
+    double halfHeight = 0;
+    double depth = 0;                ///< how far behind the focus slice the first and the last slice stand
+    double pitch = 0, distance = 1;  ///< the downward angle of the camera, in radians, and its distance from the origin
     double sliceRadius = 1;          ///< the radius of the object's circumscribed sphere
-    double reach = 1;                ///< the radius of a slice with its balls
-    /// Whether the layout places the slices and the projection such that they do not overlap the symbol of the axes. If
-    /// false, the slices and the projection may overlap the symbol.
+    double reach = 1;                ///< the radius of a slice together with its balls
+    /// Whether the layout places the slices and the projection of the whole object such that they do not overlap the
+    /// symbol of the axes. If false, they may overlap the symbol.
     bool isClearOfAxes = false;
-    bool showsMatrix = false;  ///< whether the matrix of planar sections is beside the slices
-    /// The direction from a slice to its label is the sum of the unit vector away from the curve and a downward vector
-    /// of this length. With a longer vector, labels would cover the next slice; with a shorter one, labels at the sides
-    /// would leave less room for the slices.
+    bool showsMatrix = false;  ///< whether the matrix of planar sections stands beside the slices
+    /// The length of the downward vector that is added to the unit vector away from the curve. The sum is the direction
+    /// from a slice to its label. With a longer vector, labels would cover the next slice; with a shorter vector,
+    /// labels at the sides would leave less room for the slices.
     double labelDrop = 0.54;
     double focusLabelDrop = 0;  ///< the additional gap between the focus slice and its label, in heights of text
     /// Whether the labels are to the right of the slices, so that they take a part of the width of the room.
     bool labelsAreBeside = false;
-    /// If not 0, the width of the room is divided into this many columns, and labels shrink until they fit into one
-    /// column. If the labels are beside the slices, all of them shrink, and the gap between slice and label takes a
+    /// If not 0, the width of the room is divided into this number of columns, and labels shrink until they fit into
+    /// one column. If the labels are beside the slices, all of them shrink, and the gap between slice and label takes a
     /// part of the column. If the labels are below the slices, the label of the focus slice keeps its size, because it
-    /// is farther down than the others. If a grid is narrower than the room, this is the number of columns that the
+    /// is farther down than the others. If a grid is narrower than the room, the number is that of the columns that the
     /// room could hold, which may be a fraction.
     double labelColumns = 0;
-    SliceGrid grid = {};  ///< the grid in which the slices stand, if they do
+    SliceGrid grid = {};  ///< the grid in which the slices stand; its `count` is 0 if they stand on a curve
 
     /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
-    /// coordinate is −0, because messages would contain the sign. In a grid, parameters between those of two slices
-    /// belong to the nearer slice. So a grid, unlike a curve, has no direction at a slice, and the label is straight
+    /// coordinate is −0, because messages would show the minus sign. In a grid, a parameter between those of two slices
+    /// belongs to the nearer slice. So a grid, unlike a curve, has no direction at a slice, and the label is straight
     /// below the slice.
     glm::dvec3 positionAt(double u) const {
         if (grid.count > 0) return grid.positionOf(static_cast<int>(std::lround((grid.count - 1) / 2.0 * (1 + u))));
@@ -84,45 +89,46 @@ struct Arrangement {
     }
     /// Returns an upper bound of the distance from the focus slice to any other slice.
     double maxDistanceFromFocus() const { return depth + halfWidth + halfHeight; }
-    /// Returns the radius, as a fraction of the circumradius, of a sphere that is assumed to contain the slice with the
-    /// parameter u. In a grid, a row, a column or a single place, the sphere has the circumradius: the result is 1. On
-    /// a parabola, the sphere is the section of the object's circumscribed sphere, as if the hyperplanes of the first
-    /// and the last slice (u = ±1) just touched the circumscribed sphere; the parabola has just enough room for such
-    /// slices.
+    /// Returns the radius of a sphere that is assumed to contain the slice with the parameter u, as a fraction of the
+    /// circumradius. In a grid, a row, a column or a single place, the result is 1. On a parabola, the sphere is the
+    /// section of the object's circumscribed sphere, as if the hyperplanes of the first and the last slice (u = ±1)
+    /// just touched the circumscribed sphere. The parabola has just enough room for such slices.
     double relativeSliceRadiusAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 
-/// Returns how a view arranges `count` slices in a picture with this aspect ratio (width / height). `relativeBall`: the
-/// radius of balls as a fraction of the slice radius. Only a grid depends on `room`.
+/// Returns how a view arranges `count` slices in a picture with the aspect ratio `aspect` (width / height).
+/// `relativeBall` is the radius of balls as a fraction of the slice radius. Only the arrangement in a grid depends on
+/// `room`.
 Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room);
 
-/// Places the projection of the whole object beside the slices of a view. `count`: the number of slices. `aspect`: the
-/// aspect ratio of the room that the slices and the projection have, without the part of the width that labels beside
-/// the slices take. If the view shows the projection between its slices, returns a placement that is not `shown`; in
-/// this case, the caller must call projectionInside().
+/// Places the projection of the whole object beside the slices of a view. `count` is the number of slices. `aspect` is
+/// the aspect ratio of the room that the slices and the projection have, without the part of the width that labels
+/// beside the slices take. If the view shows the projection between its slices, returns a placement that is not
+/// `shown`; the caller must then call projectionInside().
 ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
 
-/// Places the projection in the middle of the oval, on the axis of the parabola: at the point where the largest circle
-/// on the screen fits between the slices and below `top`, a height on the plane at distance 1 from the eye.
+/// Places the projection of the whole object in the middle of the oval, on the axis of the parabola. The place is the
+/// point where the largest circle on the screen fits between the slices and below `top`, a height on the plane at
+/// distance 1 from the eye.
 ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
                                      double top);
 
-/// Returns the parameter u of slice i: −1 … 1 from the first to the last. Slices at the same distance from the middle
-/// have exactly opposite parameters.
+/// Returns the parameter u of slice i of `count` slices: −1 … 1 from the first slice to the last. Slices at the same
+/// distance from the middle have exactly opposite parameters.
 inline double parameterOf(std::size_t i, std::size_t count) {
     const double middle = static_cast<double>(count - 1) / 2;
     return count == 1 ? 0 : (static_cast<double>(i) - middle) / middle;
 }
 
-/// The view space of the camera before the viewer moves it: world space with its y and z axes rotated by the pitch
-/// about the x axis.
+/// The view space of the camera before the viewer moves the camera: world space with its y and z axes rotated by the
+/// pitch about the x axis.
 struct InitialViewSpace {
     double cos, sin, distance;
     explicit InitialViewSpace(const Arrangement& arrangement)
         : cos(std::cos(arrangement.pitch)), sin(std::sin(arrangement.pitch)), distance(arrangement.distance) {}
-    /// Returns the depth of a point: its distance from the eye along the view axis.
+    /// Returns the depth of the point p: its distance from the eye along the view axis.
     double depth(const glm::dvec3& p) const { return distance - p.y * sin - p.z * cos; }
-    /// Returns the height of a point above the view axis.
+    /// Returns the height of the point p above the view axis.
     double up(const glm::dvec3& p) const { return p.y * cos - p.z * sin; }
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The background of a picture, and the scheme of the colors on it: for a dark or for a light background.
+// The background of a picture, and the color scheme that fits it: for a dark or for a light background.
 
 #include <array>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace oval4d::scene {
 
-/// A color scheme: the colors of a picture are chosen for a dark or for a light background.
+/// A color scheme: the colors of a picture that are chosen for a dark, or for a light, background.
 enum class Scheme : std::uint8_t { dark, light };
 inline constexpr auto kSchemes =
     text::completeTable<text::NamedValue<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
@@ -20,7 +20,7 @@ enum class Background : std::uint8_t {
     dark = 1,         ///< nearly black
     light = 2,        ///< nearly white, like the page in its light scheme
     white = 3,        ///< like paper
-    transparent = 4,  ///< transparent in PNG files, else white; all other colors are as with `white`
+    transparent = 4,  ///< transparent in PNG files, otherwise white; all other colors are those for `white`
 };
 inline constexpr auto kBackgrounds =
     text::completeTable<text::NamedValue<Background>>({{"auto", Background::automatic},
@@ -30,8 +30,7 @@ inline constexpr auto kBackgrounds =
                                                        {"transparent", Background::transparent}});
 constexpr const auto& choicesOf(Background /*type*/) { return kBackgrounds; }
 
-/// Returns the scheme of the colors on a background. For `automatic`, this is `viewer`, the scheme that the viewer
-/// prefers.
+/// Returns the color scheme for a background. For `automatic`, this is `viewer`, the scheme that the viewer prefers.
 constexpr Scheme schemeOn(Background background, Scheme viewer = Scheme::dark) {
     if (background == Background::automatic) return viewer;
     return background == Background::dark ? Scheme::dark : Scheme::light;

@@ -12,7 +12,7 @@ glm::dmat4 Camera::view() const { return glm::lookAt(eye, target, up); }
 
 glm::dmat4 Camera::projection(double aspect) const {
     glm::dmat4 matrix = glm::perspective(fieldOfView, aspect, near, far);
-    // Shifts the clip coordinates x and y by 2 · shift · w. The clip coordinate w is −z, for the z of view space.
+    // Shifts the clip coordinates x and y by 2 · shift · w. The clip coordinate w equals −z in view space.
     matrix[2][0] = -2 * shiftX;
     matrix[2][1] = -2 * shiftY;
     return matrix;

@@ -21,8 +21,8 @@ Color pack(const std::array<double, 3>& rgb) {
 }
 
 // Converts a color from Oklch to sRGB (B. Ottosson, "A perceptual color space for image processing", 2020). In Oklch,
-// colors of equal lightness look equally light whatever their hue. If the color is outside the sRGB gamut, reduces its
-// chroma. `hue` is in radians.
+// colors of equal lightness look equally light, whatever their hue. Reduces the chroma of a color outside the sRGB
+// gamut until the color is inside. `hue` is in radians.
 Color fromOklch(double lightness, double chroma, double hue) {
     for (;; chroma *= 0.95) {
         const double a = chroma * std::cos(hue);
@@ -40,13 +40,13 @@ Color fromOklch(double lightness, double chroma, double hue) {
     }
 }
 
-// A lightness in Oklch, 0 … 1, for each scheme.
+// The lightness of a color in Oklch, 0 … 1, in each of the two color schemes.
 struct Lightness {
     double onDark, onLight;
 };
 
-// Returns the color for a scheme, given in Oklch. In the light scheme, reduces the lightness until the contrast to
-// white is at least kLeastContrast.
+// Returns the color, given in Oklch, for a color scheme. In the light scheme, reduces the lightness until the contrast
+// to white is at least kLeastContrast.
 Color colorFor(Scheme scheme, Lightness lightness, double chroma, double hue) {
     constexpr double kLeastContrast = 3.6;
     constexpr Color kWhite = 0xffffff;
@@ -57,16 +57,17 @@ Color colorFor(Scheme scheme, Lightness lightness, double chroma, double hue) {
     }
 }
 
-// Returns color i of `count` colors with well-separated hues.
+// Returns color i of `count` colors with well-separated hues, for a color scheme.
 Color distinct(std::size_t i, std::size_t count, Scheme scheme) {
     const double step = count <= 8 ? 1.0 / static_cast<double>(count) : std::numbers::phi - 1;
     const double hue = kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0));
     return colorFor(scheme, i % 2 == 0 ? Lightness{0.76, 0.61} : Lightness{0.69, 0.5}, 0.18, hue);
 }
 
-// If there are at most kFew cells, gives them well-separated hues. If there are more, the Hopf map takes the direction
-// of each cell's center to a point on the 2-sphere; the longitude of this point determines the hue, and its latitude
-// the lightness. The cells of a ring along a Hopf fiber therefore have the same color.
+// Gives each cell a color of its own if there are at most kFew cells: the hues are well separated. If there are more
+// cells, the Hopf map takes the direction of each cell's center to a point on the 2-sphere. The longitude of this point
+// determines the hue, and its latitude the lightness. Therefore the cells of a ring along a Hopf fiber have the same
+// color.
 void assignByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
@@ -91,10 +92,10 @@ void assignByType(const slicing::Object& object, Scheme scheme, std::vector<Colo
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types, scheme);
 }
 
-// A color scale is a table of kScaleSteps colors for values from −1 to 1. divergingScale() is blue at −1, gray at 0 and
-// amber at 1.
+// A color scale: a table of kScaleSteps colors for values from −1 to 1.
 constexpr int kScaleSteps = 255;
 using ColorScale = std::array<Color, kScaleSteps>;
+// Returns a color scale that is blue at −1, gray at 0 and amber at 1.
 ColorScale divergingScale(Scheme scheme) {
     constexpr double kBlue = 4.5, kAmber = 1.25;  // hues in radians
     ColorScale scale{};
@@ -107,7 +108,7 @@ ColorScale divergingScale(Scheme scheme) {
     return scale;
 }
 
-// A color scale in each scheme. The index is the number of the enumerator of Scheme.
+// One color scale for each color scheme. The index is the number of the enumerator of Scheme.
 using ScalePerScheme = std::array<ColorScale, kSchemes.size()>;
 ScalePerScheme scalesFor(ColorScale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
 const ColorScale& scaleOf(const ScalePerScheme& scales, Scheme scheme) {
@@ -119,12 +120,13 @@ const ScalePerScheme& divergingScales() {
     return kScales;
 }
 
-// The direction toward the light, which does not turn with the object: to the upper left, to the front and to large w.
+// The direction toward the 4-D light, which does not turn with the object: to the upper left, to the front and to large
+// w.
 const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 
-// A color scale of one hue. The values are cosines of angles between the normals of cells and the direction toward the
-// light. The lightness also decreases with negative values, so that cells that are turned away from the light differ
-// from each other.
+// Returns a color scale of one hue. Its values are cosines of angles between the normals of cells and the direction
+// toward the light. The lightness also decreases with negative values, so that cells that are turned away from the
+// light differ from each other.
 ColorScale lightScale(Scheme scheme) {
     constexpr double kHue = 4.2;
     constexpr Lightness kDark{0.3, 0.22}, kRange{0.58, 0.4};
@@ -137,7 +139,8 @@ ColorScale lightScale(Scheme scheme) {
     return scale;
 }
 
-// A color scale whose lightness grows evenly from −1 to 1, while the hue turns from blue through green to yellow.
+// Returns a color scale whose lightness grows evenly from −1 to 1, while the hue turns from blue through green to
+// yellow.
 ColorScale sequentialScale(Scheme scheme) {
     constexpr double kBlue = 4.8, kYellow = 1.8;
     constexpr Lightness kDarkest{0.4, 0.28}, kLightest{0.92, 0.6};
@@ -226,7 +229,8 @@ void CellPainter::updateFaceColors(const slicing::Object& object, Coloring color
     }
 }
 
-// Resizes `out` to `count` colors, and remembers for what they are. Returns whether this differs from the last time.
+// Resizes `out` to `count` colors, and stores the object, the coloring and the color scheme for which they are. Returns
+// whether one of these differs from the last call.
 bool CellPainter::prepare(const slicing::Object& object, Coloring coloring, Scheme scheme, std::size_t count,
                           std::vector<Color>& out) {
     const std::uint64_t serial = slicing::infoOf(object).serial;
@@ -238,24 +242,24 @@ bool CellPainter::prepare(const slicing::Object& object, Coloring coloring, Sche
     return changed;
 }
 
-// Gives each cell or 2-face the divergingColor() of the w of its center. If `isNew`, directions_ are the centers;
-// otherwise, an earlier call has scaled them.
+// Gives each cell or 2-face the divergingColor() for the w of its center. If `isNew` is true, directions_ has the
+// centers; otherwise, an earlier call has already scaled them.
 void CellPainter::colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
                                  std::vector<Color>& out) {
     if (isNew) scaleDirections(slicing::infoOf(object).circumradius);
     colorByDirection(scaleOf(divergingScales(), scheme_), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
 }
 
-// Scales directions_, which are centers of cells or 2-faces, so that the longest one has length 1.
+// Scales directions_ (the centers of cells or 2-faces) so that the longest vector has the length 1.
 void CellPainter::scaleDirections(double circumradius) {
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
-    // If all centers are at the origin, all directions become 0, and everything gets the color of w = 0.
+    // If all centers are at the origin, all entries become 0, and everything gets the color for w = 0.
     const bool anyAway = farthest > 1e-9 * circumradius;
     for (glm::dvec4& center : directions_) center *= anyAway ? 1 / farthest : 0;
 }
 
-// Sets directions_ to the cells' unit normals, or 0 for cells that enclose no volume.
+// Sets directions_ to the unit normals of the cells; to 0 for cells that enclose no volume.
 void CellPainter::setDirectionsToNormals(const slicing::Object& object) {
     std::vector<double> offsets;
     slicing::findCellHyperplanes(object, directions_, offsets);
@@ -265,8 +269,8 @@ void CellPainter::setDirectionsToNormals(const slicing::Object& object) {
     }
 }
 
-// Gives each cell or 2-face the color of `scale` at the dot product of its entry in directions_ and `axis`, a unit
-// vector in coordinates before the rotation.
+// Gives each cell or 2-face the color of `scale` at the dot product of its entry in directions_ and `axis`. `axis` is a
+// unit vector in coordinates before the rotation.
 void CellPainter::colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis,
                                    std::vector<Color>& out) const {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));

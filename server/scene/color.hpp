@@ -1,5 +1,5 @@
 #pragma once
-// The colors of cells, of the levels of fields, and of values.
+// Chooses the colors of cells, of the levels of fields, and of values.
 
 #include <array>
 #include <cstddef>
@@ -24,15 +24,15 @@ std::string cssColor(Color color);
 /// Returns the contrast of two colors by WCAG 2.2: from 1 (equal luminance) to 21 (black and white).
 double contrast(Color a, Color b);
 
-// The following functions return colors with the same hues for both schemes. Colors for a light background have a
-// contrast to white of at least 3.6. Even if shading brightens them, their contrast to white and to a nearly white
-// background is at least 3.
+// The following functions take a color scheme, and return a color with the same hue for both schemes. Colors for a
+// light background have a contrast to white of at least 3.6. Even if shading brightens them, their contrast to white
+// and to a nearly white background is at least 3.
 
-/// Returns the color that Coloring::cell_type gives to the cells of type `type`, an index less than `count`, the number
-/// of the object's cell types.
+/// Returns the color that Coloring::cell_type gives to all cells of the type `type`. `type` is an index less than
+/// `count`, the number of the object's cell types.
 Color cellTypeColor(std::size_t type, std::size_t count, Scheme scheme = Scheme::dark);
 
-/// Returns the color that Coloring::cell gives to level i of a field with `count` levels.
+/// Returns the color that Coloring::cell gives to the surface of level i of a field with `count` levels.
 Color levelColor(std::size_t i, std::size_t count, Scheme scheme = Scheme::dark);
 
 /// Returns the color of cells and surfaces whose color has no meaning, as with Coloring::plain.
@@ -46,29 +46,29 @@ Color divergingColor(double value, Scheme scheme = Scheme::dark);
 /// light scheme, the yellow is darkened to olive. Values outside this range have the color of the nearer end.
 Color sequentialColor(double value, Scheme scheme = Scheme::dark);
 
-/// Returns the color of points without a value: a gray.
+/// Returns the color of points without a value: gray.
 Color noValueColor();
 
-/// Computes the colors of an object's cells. Caches whatever does not depend on the orientation.
+/// Computes the colors of an object's cells. Caches all data that do not depend on the orientation.
 class CellPainter {
   public:
-    /// Writes one color per cell to `out`. Every call must get the vector that the previous call wrote, because colors
-    /// that stay the same are not written again.
+    /// Writes one color per cell to `out`, as `coloring` specifies. Every call must get the vector that the previous
+    /// call wrote, because colors that stay the same are not written again.
     ///
-    /// - Coloring::cell: up to 24 cells all have different colors; with more than 24 cells, those along one Hopf fiber
-    ///   (a great circle) share a color.
-    /// - Coloring::cell_type: cellTypeColor().
-    /// - Coloring::w: the divergingColor() of the w of the cell's center after the rotation, divided by the greatest
-    ///   distance of any center from the origin.
+    /// - Coloring::cell: up to 24 cells all have different colors. With more than 24 cells, the cells along one Hopf
+    ///   fiber (a great circle) share a color.
+    /// - Coloring::cell_type: the color is cellTypeColor().
+    /// - Coloring::w: the color is divergingColor() for the w of the cell's center after the rotation, divided by the
+    ///   greatest distance of any center from the origin.
     /// - Coloring::light: one hue, whose lightness depends on the angle between the cell's outward normal after the
     ///   rotation and the direction toward a light in four dimensions.
-    /// - Other values: plainColor().
+    /// - Other values: the color is plainColor().
     void updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
                           const geometry::Rotation& orientation, std::vector<Color>& out);
 
-    /// Writes the colors of the 2-faces of a surface, which has no cells, to `out`: with Coloring::w, one per 2-face,
-    /// the divergingColor() of the w of its center, as for cells; otherwise a single one for all 2-faces, plainColor().
-    /// `out` must be the vector of updateCellColors().
+    /// Writes to `out` the colors of the 2-faces of a surface, which has no cells. With Coloring::w, there is one color
+    /// per 2-face: divergingColor() for the w of its center, as for cells. Otherwise, there is a single color for all
+    /// 2-faces: plainColor(). `out` must be the vector of updateCellColors().
     void updateFaceColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
                           const geometry::Rotation& orientation, std::vector<Color>& out);
 
@@ -81,11 +81,11 @@ class CellPainter {
     void setDirectionsToNormals(const slicing::Object& object);
     void colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis, std::vector<Color>& out) const;
 
-    std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells or 2-faces were last colored
+    std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells or 2-faces were colored last
     Coloring coloring_ = Coloring::cell;
     Scheme scheme_ = Scheme::dark;
-    // Per cell or 2-face, before the rotation: with Coloring::w, its center divided by the greatest distance of a
-    // center; with Coloring::light, its unit normal.
+    // Per cell or 2-face, before the rotation. With Coloring::w: its center, divided by the greatest distance of any
+    // center from the origin. With Coloring::light: its unit normal.
     std::vector<glm::dvec4> directions_;
 };
 

@@ -15,7 +15,8 @@ namespace {
 using slicing::Object;
 using slicing::SliceSet;
 
-// Returns whether the bars, balls and surfaces of a slice may cross or hide each other in any order.
+// Returns whether the bars, balls and surfaces in the slices of `object` may cross each other, or hide each other in
+// any order.
 bool needsDepthBuffer(const Object& object) {
     switch (slicing::propertiesOf(object).slices) {
         case slicing::SliceContent::curves:
@@ -28,10 +29,10 @@ bool needsDepthBuffer(const Object& object) {
     return !slicing::infoOf(object).convex;
 }
 
-// Writes to `out`, for each of the slice faces `faces`, the cell that determines its color. `sourceOf` returns the
-// source number of a face (see SliceSet::faceSource): the index of the cell from which the face was cut or, for 2-face
-// f of the object if it lies in the hyperplane, the number of cells + f. If every face was cut from a cell, this cell
-// is its source number, and `out` is left empty.
+// Finds the cells that determine the colors of the slice faces `faces`, and writes one cell per face to `out`.
+// `sourceOf` returns the source number of a face (see SliceSet::faceSource): the index of the cell from which the face
+// was cut or, if the face is 2-face f of the object, the number of cells + f. If every face was cut from a cell, this
+// cell is its source number, and `out` is left empty.
 template <typename Faces, typename SourceOf>
 void findCells(const Object& object, const slicing::VisibilityBySource& visibilities, const Faces& faces,
                SourceOf sourceOf, std::vector<std::uint32_t>& out) {
@@ -41,8 +42,9 @@ void findCells(const Object& object, const slicing::VisibilityBySource& visibili
     for (const auto& face : faces) out.push_back(slicing::coloringCell(object, visibilities, sourceOf(face)));
 }
 
-// Adds the filled faces `from` of a slice of `slices` to `out.fill`, as those of part `part` of the projection, which
-// shows this slice magnified by `magnification`. Parts from this one on must have no filled faces.
+// Adds filled faces of a slice to the filled faces of the projection of the whole object. `from` has the filled faces
+// of the slice number `slice`. In the projection, this slice is part `part`, magnified by `magnification`. Before the
+// call, this part and the following ones must have no filled faces.
 void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, int slice, double magnification,
                       std::size_t part, ObjectProjection& out) {
     slicing::FilledFaces& fill = out.fill;
@@ -64,8 +66,8 @@ void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, 
         fill.faceBegin[p] = static_cast<std::uint32_t>(fill.faces.size());
 }
 
-// Returns the opacity of translucent faces: `own` times Look::opacity. The result is always below 1, because 1 tells
-// clients that faces may cross each other; the greatest result looks opaque.
+// Returns the opacity of translucent faces: `own` times Look::opacity, but at most kMost, which looks opaque. An
+// opacity of 1 would tell clients that faces may cross each other.
 double translucent(double own, const Look& look) {
     constexpr double kMost = 0.999;
     return std::min(own * look.opacity, kMost);
@@ -74,8 +76,8 @@ double translucent(double own, const Look& look) {
 }  // namespace
 
 // Sets the title, the circumradius, the look and the viewport of `out`. If `object` is not the object of the last call,
-// sets objectChanged_, which stays set until compose() reads it, because layOutAndChooseDetail() may get a new object
-// before compose() does.
+// sets objectChanged_. This flag stays set until compose() reads it, because layOutAndChooseDetail() may get a new
+// object before compose() does.
 void Composer::setObjectLookAndViewport(const Object& object, const Look& look, Viewport viewport, Scene& out) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     objectChanged_ = objectChanged_ || object_ != info.serial;
@@ -100,7 +102,7 @@ void Composer::layOutAndChooseDetail(const Object& object, const geometry::Hyper
     layoutInput_.focusName.clear();
     layOutIfChanged(object, planes, focus, scene);
     const glm::dvec3 forward = glm::normalize(scene.camera.target - scene.camera.eye);
-    // The size in pixels of one unit of the object at distance 1 from the eye.
+    // The size in pixels of one unit of the object at the distance 1 from the eye.
     const double unit = scene.camera.focalLength() * viewport.height * scene.sliceRadius / scene.circumradius;
     // In full quality, no lattice is coarser than that of the slices in messages (uniformStep()). On a coarser lattice,
     // thin bodies in small slices would break into pieces.
@@ -166,7 +168,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     if (draws && out.showsHistogram()) measureFieldHistograms(object, orientation, out);
 }
 
-// Finds the slice elements that show the highlighted element. Gives a highlighted cell the highlight color.
+// Finds the slice elements that show the highlighted element of the object. Gives a highlighted cell the highlight
+// color.
 void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
     const std::optional<slicing::Element>& element = out.look.highlight;
     if (objectChanged || highlight_ != element) {
@@ -183,16 +186,17 @@ void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
     }
 }
 
-// Restores the color that highlight() replaced, because the cell painter does not write unchanged colors again.
+// Restores the cell color that highlight() has replaced. This is necessary because the cell painter does not write
+// unchanged colors again.
 void Composer::removeHighlightColor(Scene& out) {
     if (!replacedColor_) return;
     const auto [cell, color] = *std::exchange(replacedColor_, {});
     if (cell < out.cellColors.size()) out.cellColors[cell] = color;
 }
 
-// Names the section of the focus hyperplane. If the slice has no name, its label shows the name of the convex hull of
-// those vertices of the polytope that lie in the hyperplane, provided that this hull is a solid. The label of a field
-// shows the moment or the place of the slice in the box instead.
+// Finds the name of the section in the focus slice. If the slice has no name, its label shows the name of the convex
+// hull of those vertices of the polytope that lie in the hyperplane, if this hull is a solid. The
+// label of a field shows the moment or the place of the slice in the box instead.
 void Composer::nameSection(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;
@@ -235,11 +239,12 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
     laidOutIn_ = &out;
 }
 
-// `fillSteps`: see slicing::FaceFiller::fill().
+// Projects the whole object and the sections that the look shows in the projection. `fillSteps` limits the work of
+// filling faces: see slicing::FaceFiller::fill().
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus,
                              std::size_t fillSteps, Scene& out) {
-    // The radii of the bars of sections, as multiples of the radius of the bars of the object: for the section of the
-    // focus slice, and for the other sections.
+    // The radii of the bars of sections, as multiples of the radius of the object's bars: kSection for the section of
+    // the focus slice, kThinSection for the other sections.
     constexpr double kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
@@ -259,7 +264,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.onlyTurnedAwayLeftOut = projector_.lacksSteps();
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     if (!isSurface) {
-        // If a face of a section is a whole 2-face of the object, its source is this 2-face, not a cell.
+        // If a face of a section is a whole 2-face of the object, its source number stands for this 2-face, not for a
+        // cell.
         for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
     } else if (out.cellColors.size() == 1) {
         std::ranges::fill(projection.faceCells, 0U);
@@ -267,7 +273,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.fill.clear();
     if (!slicing::hasConvexFaces(object))
         filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
-    // The faces of the focus slice are already filled if they may cross each other.
+    // If the faces of the focus slice may cross each other, they are already filled.
     projection.fill.faceBegin.resize(projection.elements.faceBegin.size());
     const bool hasFocus = focusSlice >= options.firstSlice && focusSlice < options.endSlice;
     const double magnification = hasFocus ? options.projection.magnification(slices.planes.w(focusSlice)) : 1;
@@ -289,11 +295,12 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const Style& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
-    // If balls are hidden, balls with the radius and color of the bars join the bars, and the points of a cloud have
-    // this radius, too (see Scene::drawnBallRadius()).
+    // If balls are hidden, balls with the radius and the color of the bars join the bars. The points of a cloud then
+    // have this radius, too (see Scene::drawnBallRadius()).
     const bool isCloud = !projection.elements.ballScale.empty();
     const double pointRadius = look.parts.balls ? ball : bar;
-    // A line of sight meets a surface less often than the 2-faces between cells, so a surface may be denser.
+    // Surfaces may be less translucent than the 2-faces between cells, because a line of sight meets a surface less
+    // often.
     const double faceOpacity = translucent(isSurface ? 0.5 : 0.25, look);
     projection.parts.push_back({look.parts.balls || isCloud ? pointRadius : barRadius, barRadius,
                                 look.parts.balls ? styles.ball : styles.bar, styles.bar, faceOpacity});
@@ -322,7 +329,8 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
             styles.edges.push_back(out.visibilities.face(source));
         }
         for (const std::uint32_t source : matrix.sections[i].pointSource) {
-            // Source numbers count 2-faces first, then edges, then vertices; a point cloud has only vertices.
+            // Source numbers stand first for 2-faces, then for edges, then for vertices. For a point cloud, they stand
+            // only for vertices.
             const bool isVertex = source >= faces + edges;
             styles.points.push_back(isVertex ? out.visibilities.vertex(source - faces) : out.visibilities.edge(source));
             styles.highlighted.push_back(isVertex ? out.highlight.hasVertex(source - faces)
@@ -331,8 +339,8 @@ void Composer::cutSectionMatrix(const Object& object, const geometry::Rotation& 
     }
 }
 
-// Finds the contours in the planes of the matrix, unless the scene still has them from the last call: changes of the
-// camera and of colors do not move the contours.
+// Finds the contours of a field in the planes of the matrix. Keeps the contours of the last call if they are still
+// valid: changes of the camera and of colors do not move them.
 void Composer::traceContours(const Object& object, const geometry::Rotation& orientation, slicing::Quality quality,
                              Scene& out) {
     SectionMatrix& matrix = out.sectionMatrix;

@@ -1,5 +1,6 @@
 #pragma once
-// Composes the scene of a picture from an object, its slices and the user's choices.
+// Composes the scene of a picture: the complete description of what is drawn, from an object, its slices and the user's
+// choices.
 
 #include <cstddef>
 #include <cstdint>
@@ -23,38 +24,38 @@
 
 namespace oval4d::scene {
 
-/// What a scene is composed for.
+/// The purpose for which a scene is composed.
 enum class ScenePurpose : std::uint8_t {
-    drawing,   ///< to be drawn or written
-    pointing,  ///< only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or
-               ///< histograms
+    drawing,  ///< to be drawn or written
+    /// only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or histograms
+    pointing,
 };
 
-/// Composes scenes. Reuses its working memory, and caches data that stay the same from one scene to the next. All calls
-/// must pass the same Scene object, because it holds part of the cached data. Only one thread at a time may use a
-/// composer.
+/// Composes scenes: the complete descriptions of pictures. Reuses its working memory, and caches data that stay the
+/// same from one scene to the next. All calls must pass the same Scene object, because this object holds part of the
+/// cached data. Only one thread at a time may use a composer.
 class Composer {
   public:
-    /// Limits the work of filling faces that cross each other: compose() passes `steps` to slicing::FaceFiller::fill()
-    /// for the slices, and what they leave for the projection of the object. By default, there is no limit.
+    /// Limits the work of filling faces that cross each other. compose() passes `steps` to slicing::FaceFiller::fill()
+    /// for the slices. It uses the steps that are left for the projection of the object. By default, there is no limit.
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
-    /// Limits the work of finding what lies behind other cells in the projection of the object (see
+    /// Limits the work of finding which elements lie behind other cells in the projection of the object (see
     /// slicing::Projector::ProjectionOptions::occlusionSteps).
     void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 
-    /// Composes the scene of `slices`, which must have been cut from `object` rotated by `orientation`. `focus` is the
-    /// index n of the focus slice (see SlicePlacement::index). `quality` is the quality of the contours of a field in
-    /// the matrix. If `purpose` is ScenePurpose::pointing, the parts that this purpose does not need are not valid in
-    /// `out`, and `slices` may lack the surfaces and the fog of a field. Overwrites `out` and reuses its memory. `out`
-    /// keeps a pointer to `slices`; `slices` must outlive `out`.
+    /// Composes the scene of `slices`, and writes it to `out`. `slices` must have been cut from `object` rotated by
+    /// `orientation`. `focus` is the index n of the focus slice (see SlicePlacement::index). `quality` is the quality
+    /// of the contours of a field in the matrix. If `purpose` is ScenePurpose::pointing, the parts that pointing does
+    /// not need are not valid in `out`, and `slices` may lack the surfaces and the fog of a field. Overwrites `out` and
+    /// reuses its memory. `out` keeps a pointer to `slices`; `slices` must outlive `out`.
     void compose(const slicing::Object& object, const geometry::Rotation& orientation, const slicing::SliceSet& slices,
                  int focus, const Look& look, Viewport viewport, Scene& out,
                  slicing::Quality quality = slicing::Quality::full, ScenePurpose purpose = ScenePurpose::drawing);
 
-    /// Returns the section in the focus slice that compose() has named last, or that was passed to keepSection(); an
-    /// empty optional before that.
+    /// Returns the section in the focus slice that compose() has named last, or that was passed to keepSection() last.
+    /// Returns an empty optional if there is none yet.
     const std::optional<slicing::NamedSection>& section() const { return section_; }
-    /// Lets compose() take these names for this section, instead of finding them.
+    /// Gives compose() the names of a section, so that compose() need not find them.
     void keepSection(const slicing::NamedSection& section) { section_ = section; }
 
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
@@ -67,8 +68,8 @@ class Composer {
                                slicing::SurfaceDetail& out);
 
   private:
-    // All inputs of the layout. While the object turns, only `focusName` can change; most frames therefore reuse the
-    // layout.
+    // All data that determine the layout. While the object turns, only `focusName` can change; therefore most frames
+    // reuse the layout.
     struct LayoutInput {
         geometry::Hyperplanes planes;
         int focus = 0;
@@ -79,9 +80,9 @@ class Composer {
         bool operator==(const LayoutInput&) const = default;
     };
 
-    // All that determines the contours in the matrix.
+    // All data that determine the contours in the matrix.
     struct ContourInput {
-        std::uint64_t object = 0;  // the serial number
+        std::uint64_t object = 0;  // the serial number of the object
         geometry::Rotation orientation;
         glm::dvec4 point{0};
         std::vector<double> levels;
@@ -108,30 +109,32 @@ class Composer {
     std::size_t occlusionSteps_ = slicing::OcclusionFinder::kDefaultSteps;
     CellPainter cellPainter_;
     slicing::FaceFiller filler_;
-    std::uint64_t object_ = 0;       // the serial number of the object of the last call
+    std::uint64_t object_ = 0;       // the serial number of the object in the last call
     bool objectChanged_ = false;     // whether the object has changed since the last call of compose()
-    double relativeBallRadius_ = 0;  // slicing::relativeBallRadius() of the object of the last call
+    double relativeBallRadius_ = 0;  // slicing::relativeBallRadius() of this object
     slicing::VisibilityBySource visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
     slicing::PlanarContourTracer contourTracer_;
-    std::optional<ContourInput> contourInput_;  // of the contours that the scene has; empty if it has none
+    // the data that determine the contours that the scene has; empty if it has none
+    std::optional<ContourInput> contourInput_;
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
     std::optional<slicing::NamedSection> section_;
-    LayoutInput layoutInput_;           // the input of the next layout; a member to reuse its memory
-    LayoutInput laidOut_;               // the input of the layout that the scene has
-    const Scene* laidOutIn_ = nullptr;  // the scene that has the layout of laidOut_; null before the first layout
+    LayoutInput layoutInput_;           // the data for the next layout; a member so that its memory is reused
+    LayoutInput laidOut_;               // the data that determine the layout that the scene has
+    const Scene* laidOutIn_ = nullptr;  // the scene that has this layout; null before the first layout
     std::optional<slicing::Element> highlight_;
-    slicing::PartsShowingElement highlightSources_;  // the vertices and edges of slices that show highlight_
-    // The index of the cell that has the highlight color in the scene, and the color that the highlight color replaces.
+    slicing::PartsShowingElement highlightSources_;  // the slice vertices and slice edges that show highlight_
+    // The index of the cell that has the highlight color in the scene, and the color that it has otherwise.
     std::optional<std::pair<std::size_t, Color>> replacedColor_;
 
     DensityPlot density_;
     slicing::CoordinateValueHistograms histogram_;
-    std::uint64_t densityObject_ = 0;  // the serial number of the object whose density or histogram was measured last
-    geometry::Rotation densityTurn_;   // the orientation at that measurement
-    std::vector<double> histogramLevels_;  // the levels at that measurement
+    // the serial number of the object whose density plot or histogram was measured last
+    std::uint64_t densityObject_ = 0;
+    geometry::Rotation densityTurn_;       // the orientation of the object at this measurement
+    std::vector<double> histogramLevels_;  // the levels of the field at this measurement
 };
 
 }  // namespace oval4d::scene

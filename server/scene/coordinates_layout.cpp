@@ -11,12 +11,13 @@ namespace oval4d::scene {
 
 namespace {
 
-// Returns the width between the margins, in viewport heights; at least half the viewport's width.
+// Returns the width for the parallel coordinates between the margins, in viewport heights: at least half of the
+// viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
-constexpr double kMaxAxisStep = 0.42;  // the maximum of CoordinatesLayout::lineStep for a strip or histogram
+constexpr double kMaxAxisStep = 0.42;  // the maximum of CoordinatesLayout::lineStep for a density strip or histogram
 constexpr double kPlotAmplitude = 0.056;
-constexpr double kStripNameRoom = 1.1;  // the room for the names of the axes below the plot, in heights of text
+constexpr double kStripNameRoom = 1.1;  // the room below the plot for the names of the axes, in heights of text
 
 void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
     out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kPlotAmplitude};
@@ -27,7 +28,8 @@ void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& 
 }
 
 void layOutHistogram(double aspect, CoordinatesLayout& out) {
-    constexpr double kGap = 0.08;  // the gap between two panels, as a fraction of CoordinatesLayout::lineStep
+    // the gap between two panels of a histogram, as a fraction of CoordinatesLayout::lineStep
+    constexpr double kGap = 0.08;
     out = {.lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
     out.panel = (1 - kGap) * out.lineStep;

@@ -10,11 +10,11 @@ namespace oval4d::scene {
 namespace {
 
 constexpr int kMaxLevel =
-    static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // number of bins per circumradius
+    static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // the number of bins per circumradius
 constexpr int kBins = 2 * kMaxLevel + 1;
 
-// Adding this number to a float rounds the float to an integer, because the last bit of the sum has the value 1. Halves
-// are rounded to the even integer, so opposite values remain opposite.
+// Rounds a float to an integer when it is added to the float, because the last bit of the sum has the value 1. Halves
+// are rounded to the even integer, so opposite numbers remain opposite.
 constexpr float kRounder = 12582912.0F;  // 1.5 · 2²³
 
 std::uint32_t binOf(float level) {
@@ -49,7 +49,7 @@ void DensityPlot::countColumn(int column) {
     const std::size_t count = levels_[gap].size();
 
     // Vertices with neighboring indices often fall into the same bin, and two increments of one counter must wait for
-    // each other. Several tables, used in turn, let the CPU overlap the increments.
+    // each other. With several tables, used in turn, the CPU can make the increments at the same time.
     constexpr std::size_t kTables = 4, kBatch = 256;
     std::array<std::array<std::uint32_t, kBins>, kTables> tables{};
     std::array<std::uint32_t, kBatch> bins;

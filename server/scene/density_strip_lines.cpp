@@ -10,7 +10,7 @@ namespace oval4d::scene {
 
 namespace {
 
-// Finds the line that is nearest to a point, among lines that are given in ascending order of their vertices.
+// Finds the vertex line that is nearest to a point. The lines must be added in ascending order of their vertices.
 class NearestLine {
   public:
     void add(std::size_t vertex, double distance) {
@@ -19,14 +19,16 @@ class NearestLine {
         distance_ = distance;
     }
 
-    // Returns the vertex of the line; an empty optional if its distance is greater than `reach`.
+    // Returns the vertex of the nearest line. Returns an empty optional if the distance of this line is greater than
+    // `reach`.
     std::optional<std::size_t> within(double reach) const {
         return distance_ <= reach ? std::optional(vertex_) : std::nullopt;
     }
 
   private:
-    // Distances that differ by less, in viewport heights, count as equal, so that the page finds the same line:
-    // coordinates are rounded in messages, which changes the distances by less than this.
+    // Distances that differ by less than this, in viewport heights, count as equal. Messages contain rounded
+    // coordinates, which change the distances by less than this. So the page, which has the rounded coordinates, finds
+    // the same line.
     static constexpr double kEqual = 1e-6;
     std::size_t vertex_ = 0;
     double distance_ = std::numeric_limits<double>::infinity();
@@ -36,7 +38,8 @@ class NearestLine {
 
 std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2 at) {
     const CoordinatesLayout& layout = scene.coordinates;
-    const double right = at.x - (layout.left + layout.lineWidth / 2);  // the distance from the middle of the axis x
+    // the distance of the point from the middle of the line of axis x
+    const double right = at.x - (layout.left + layout.lineWidth / 2);
     if (layout.lineStep <= 0 || right < -kLineReach || right > 3 * layout.lineStep + kLineReach) return std::nullopt;
     const double along = std::clamp(right / layout.lineStep, 0.0, 3.0);
     const int axis = std::min(static_cast<int>(along), 2);

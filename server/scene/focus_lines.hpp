@@ -1,5 +1,5 @@
 #pragma once
-// The lines that show the focus point in the focus slice.
+// The lines that show the place of the focus point in the focus slice.
 
 #include <array>
 
@@ -9,11 +9,11 @@
 
 namespace oval4d::scene {
 
-/// The ends of a line, in view coordinates: the eye is at the origin and looks along −z.
+/// The two ends of a line segment, in view coordinates: the eye is at the origin and looks along −z.
 using ViewSegment = std::array<glm::dvec3, 2>;
 
-/// Returns three lines through the focus point, along x, y and z, in the slice at `placement`. The focus point is the
-/// middle of each line.
+/// Returns three line segments through the focus point, along x, y and z, in the slice at `placement`. The focus point
+/// is the middle of each segment.
 std::array<ViewSegment, 3> focusLines(const Scene& scene, const SlicePlacement& placement);
 
 }  // namespace oval4d::scene

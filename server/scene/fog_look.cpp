@@ -21,7 +21,7 @@ void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& ou
         return glm::dvec4(color >> 16 & 255, color >> 8 & 255, color & 255, 255 * point.opacity);
     };
     out.push_back(0);
-    std::size_t next = 1;  // the point at the end of the current segment
+    std::size_t next = 1;  // the index of the control point at the end of the current segment
     for (std::size_t entry = 1; entry < kFogEntries; ++entry) {
         const double value = least + static_cast<double>(entry - 1) / (kFogEntries - 2) * range;
         while (next + 1 < points.size() && points[next].value < value) ++next;
@@ -34,7 +34,7 @@ void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& ou
 
 glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out) {
     const glm::ivec3 blocks = glm::max((fog.size - 1 + kFogBlock - 1) / kFogBlock, 1);
-    // Entry v: how many entries of `table` with an index less than v are not transparent.
+    // Entry v is the number of entries of `table` with an index less than v that are not transparent.
     std::array<std::uint16_t, kFogEntries + 1> visibleBelow{};
     for (std::size_t value = 0; value < kFogEntries; ++value)
         visibleBelow[value + 1] = static_cast<std::uint16_t>(visibleBelow[value] + (table[value] >> 24 != 0 ? 1 : 0));
@@ -42,8 +42,8 @@ glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, st
     for (glm::ivec3 b(0); b.z < blocks.z; ++b.z) {
         for (b.y = 0; b.y < blocks.y; ++b.y) {
             for (b.x = 0; b.x < blocks.x; ++b.x) {
-                // Points without a value, which have the byte 0, are skipped, because FogPainter leaves them out of the
-                // interpolation.
+                // Points without a value, which have the byte 0, are skipped, because FogPainter (draws the fog) leaves
+                // them out of the interpolation.
                 const glm::ivec3 first = b * kFogBlock, last = glm::min(first + kFogBlock, fog.size - 1);
                 std::uint8_t least = 255, greatest = 0;
                 for (int k = first.z; k <= last.z; ++k) {

@@ -1,5 +1,5 @@
 #pragma once
-// How the fog of a field is drawn.
+// Makes the colors and opacities with which the fog of a field is drawn.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@
 
 namespace oval4d::scene {
 
-/// The transfer function of fog as a table: entry v is the color 0xAARRGGBB of the points whose byte in
+/// The transfer function of fog as a table. Entry v is the color 0xAARRGGBB of the lattice points whose byte in
 /// SliceFog::values is v. AA is the opacity, 0 … 255, of a layer of fog that is as thick as the object's circumradius.
 /// Entry 0, for points without a value, is transparent. The table is empty if there is no fog.
 using FogTable = std::vector<std::uint32_t>;
@@ -21,19 +21,19 @@ using FogTable = std::vector<std::uint32_t>;
 /// The number of entries of a FogTable that is not empty.
 inline constexpr std::size_t kFogEntries = 256;
 
-/// Makes the table of the transfer function with these control points. The caller must ensure that `points` is empty
-/// (for no fog), or contains at least two points with strictly ascending values. Entry 1 is for the value of the first
-/// point, entry 255 for the value of the last. A point without a color gets a color of divergingColor(), from blue at
-/// the first point to amber at the last. Between two points, sRGB colors and opacities are interpolated linearly.
-/// Overwrites `out`.
+/// Makes the table of the transfer function with the control points `points`, and writes it to `out`. The caller must
+/// ensure that `points` is empty (for no fog), or contains at least two points with strictly ascending values. Entry 1
+/// is for the value of the first point, entry 255 for the value of the last. A point without a color gets a color of
+/// divergingColor(), from blue at the first point to amber at the last. Between two points, sRGB colors and opacities
+/// are interpolated linearly. Overwrites `out`.
 void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& out, Scheme scheme = Scheme::dark);
 
-/// The number of lattice cubes along each side of the blocks into which findFogBlocks() divides a lattice.
+/// The number of lattice cubes along each side of the blocks into which findFogBlocks() divides a fog lattice.
 inline constexpr int kFogBlock = 4;
 
-/// Finds the blocks of a lattice that contain fog. Overwrites `out` with one byte per block; x varies fastest. The byte
-/// is 255 if `table` gives an opacity above 0 to any value between the least and the greatest value of the block's
-/// points, else 0. Points without a value are ignored. Returns the number of blocks along each axis.
+/// Finds the blocks of a lattice that contain visible fog. Writes one byte per block to `out`; x varies fastest. The
+/// byte is 255 if `table` gives an opacity above 0 to any value between the least and the greatest value of the block's
+/// lattice points, else 0. Lattice points without a value are ignored. Returns the number of blocks along each axis.
 glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out);
 
 }  // namespace oval4d::scene

@@ -13,28 +13,29 @@ namespace oval4d::scene {
 
 namespace {
 
-constexpr double kLabelGap = 0.014;  // the gap between a slice and its label, as a fraction of the viewport's height
+constexpr double kLabelGap = 0.014;  // the gap between a slice and its label, in viewport heights
 
-// The sizes of characters and of the plates behind labels, as fractions of the font size. The widths of characters are
+// The sizes of characters and of the plates behind labels, as multiples of the font size. The widths of characters are
 // those of DejaVu Sans, rounded up.
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
-constexpr double kLetterWidth = 0.62;  // the mean width of the letters of a section's name, rounded up
+// the mean width of the letters of a section's name, rounded up, as a multiple of the font size
+constexpr double kLetterWidth = 0.62;
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;
 
-constexpr double kLeastLabelSize = 0.45;  // the least SlicePlacement::labelSize of labels that shrink
+constexpr double kLeastLabelSize = 0.45;  // the least SlicePlacement::labelSize to which labels shrink
 
 }  // namespace
 
 LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double originW,
                          std::vector<SlicePlacement>& placements)
     : arrangement_(arrangement), space_(arrangement), placements_(placements) {
-    // All labels have room for the longest number, with a sign. So the layout stays the same when the focus moves.
+    // All labels have room for the longest number with a sign. So the layout stays the same when the focus moves.
     double w = 0;
     for (const SlicePlacement& placement : placements) w = std::max(w, std::abs(originW + placement.w));
     const double digits = std::max(std::floor(std::log10(w + 0.5 * std::pow(10, -decimals))), 0.0) + 1 + decimals;
     width_ = kSignWidth + digits * kDigitWidth + kPointWidth;
-    // With an exponent, the number is shorter than with all its decimals. No character of it is wider than a digit.
+    // With an exponent, the number is shorter than with all its decimals. No character in it is wider than a digit.
     if (decimals > kMaxPlainDecimals)
         width_ = kSignWidth + static_cast<double>(labelNumber(w, decimals).size()) * kDigitWidth;
 }
@@ -111,9 +112,9 @@ void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, d
         if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
                         overlapsOtherSlice(i, box, camera, toView, aspect)))
             return false;
-        // The labels of slices nearer to the focus slice have been decided before this label. So has the label of the
-        // other slice at the same distance, if its index is less. This label must not overlap a decided label that is
-        // kept.
+        // The labels of slices nearer to the focus slice have been decided before this label. If the other slice at the
+        // same distance from the focus slice has the smaller index, its label has been decided, too. This label must
+        // not overlap a decided label that is kept.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

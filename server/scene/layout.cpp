@@ -22,7 +22,7 @@ namespace oval4d::scene {
 
 namespace {
 
-constexpr double kBarPerBall = 0.4;  // the radius of bars as a fraction of that of balls
+constexpr double kBarPerBall = 0.4;  // the radius of bars, as a fraction of the radius of balls
 
 // A circle on the plane at distance 1 from the eye.
 struct Circle {
@@ -30,14 +30,14 @@ struct Circle {
     double radius;
 };
 
-// Returns a circle that approximates the outline of a sphere. The approximation is good for spheres that are small and
-// near the optical axis.
+// Returns a circle, on the plane at distance 1 from the eye, that approximates the outline of a sphere. The
+// approximation is good for spheres that are small and near the optical axis.
 Circle circleOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
     const double depth = space.depth(position);
     return {glm::dvec2(position.x, space.up(position)) / depth, radius / depth};
 }
 
-// Returns the circles within which the slices are assumed to lie.
+// Returns circles, on the plane at distance 1 from the eye, within which the slices are assumed to lie.
 std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const Arrangement& arrangement) {
     const InitialViewSpace space(arrangement);
     std::vector<Circle> circles;
@@ -58,12 +58,15 @@ Rect boundsOf(const std::vector<Circle>& circles) {
     return bounds;
 }
 
-// Sets the radii of the object, its balls and its bars, so that the projection with its balls fits into the sphere of
-// `placement`. `relativeBall`: the radius of the balls of slices, as a fraction of the slice radius.
+// Sets in `placement` the radii of the object, its balls and its bars, so that the projection of the object with its
+// balls fits into the sphere of `placement`. `relativeBall` is the radius of the balls of slices, as a fraction of the
+// slice radius.
 void setRadii(const ProjectionSettings& projection, double relativeBall, ProjectionPlacement& placement) {
-    // The projection has many more bars in less room than a slice, so its balls and bars are thinner by this factor.
+    // The projection has many more bars in less room than a slice. So its balls and bars are thinner than those of
+    // slices, by this factor.
     constexpr double kThinner = 0.55;
-    // In perspective, points on the circumscribed sphere appear farther from the center by at most this factor.
+    // In perspective, points on the object's circumscribed sphere appear farther from the center of the projection by
+    // at most this factor.
     const double eye = projection.eye;
     const double magnification = projection.kind == ProjectionKind::perspective ? eye / std::sqrt(eye * eye - 1) : 1;
     const double thinBall = kThinner * relativeBall;
@@ -78,14 +81,14 @@ glm::dvec2 sizeOf(const Rect& rect) { return {rect.right - rect.left, rect.top -
 // Returns the width of a rectangle, divided by its height.
 double aspectOf(const Rect& rect) { return (rect.right - rect.left) / (rect.top - rect.bottom); }
 
-// Returns the greatest magnification at which `bounds` fits into `room`.
+// Returns the greatest magnification at which the rectangle `bounds` fits into the rectangle `room`.
 double scaleFor(const Rect& bounds, const Rect& room) {
     return std::min((room.right - room.left) / (bounds.right - bounds.left),
                     (room.top - room.bottom) / (bounds.top - bounds.bottom));
 }
 
-// Sets the camera's field of view and shift so that `bounds` fits into `room` and is centered in it. `zoom` then
-// magnifies the picture about the view axis.
+// Sets the camera's field of view and shift so that `bounds` fits into `room` and is centered in it. Then magnifies the
+// picture about the view axis by the factor `zoom`.
 void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
     const double scale = scaleFor(bounds, room);
     camera.fieldOfView = 2 * std::atan(0.5 / (scale * zoom));
@@ -115,9 +118,10 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
     }
 }
 
-// Points the camera at the focus slice from the direction that `orbit` specifies, and sets its clipping planes.
+// Points the camera at the focus slice from the direction that `orbit` specifies, and sets the camera's clipping
+// planes.
 void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camera) {
-    constexpr double kMaxPitch = 1.55;  // less than π/2, where the up vector would be undefined
+    constexpr double kMaxPitch = 1.55;  // a pitch less than π/2; at π/2, the up vector would be undefined
     const double pitch = std::clamp(arrangement.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);
     const glm::dvec3 away{std::sin(orbit.azimuth) * std::cos(pitch), std::sin(pitch),
                           std::cos(orbit.azimuth) * std::cos(pitch)};
@@ -128,7 +132,7 @@ void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camer
     camera.far = arrangement.distance + 2 * arrangement.maxDistanceFromFocus() + 10;
 }
 
-// Returns a box that contains the axes symbol and the names of the axes, in whatever direction the axes point.
+// Returns a box that contains the symbol of the axes with their names, whatever the directions of the axes are.
 Box boxOf(const AxesSymbolLayout& axes) {
     constexpr double kNameRoom = 0.02;
     return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
@@ -139,8 +143,8 @@ Box boxOf(const AxesSymbolLayout& axes) {
 Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels) {
     const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
     Rect inside = room;
-    // How far labels extend beyond the slices depends on the scale, which depends on the room that the labels leave. A
-    // few steps of this iteration suffice.
+    // How far labels extend beyond the slices depends on the scale of the slices. The scale depends on the room that
+    // the labels leave. A few steps of this iteration suffice.
     for (int step = 0; step < 4; ++step) {
         const Rect overhang = labels.overhang(bounds, scaleFor(bounds, inside));
         // Labels that are only to the right of the slices may take half of the width.
@@ -151,8 +155,8 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
     return inside;
 }
 
-// Returns the part of `room` to the right of the axes symbol, and the part below it. The first part has at least half
-// the width of `room`, the second at least half its height. `axes`: the box of the symbol.
+// Returns two parts of `room`: the part to the right of the axes symbol, and the part below it. The first part has at
+// least half the width of `room`, the second at least half its height. `axes` is the box of the symbol.
 std::array<Rect, 2> partsBeside(const Box& axes, const Rect& room) {
     Rect right = room, below = room;
     right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);
@@ -160,10 +164,10 @@ std::array<Rect, 2> partsBeside(const Box& axes, const Rect& room) {
     return {right, below};
 }
 
-// Like roomInside(), but leaves the axes symbol free. `axes`: the box of the symbol. `circles`: the outlines of the
-// slices and of the projection. If a circle would overlap the symbol, uses only the part of `room` to the right of
-// the symbol or the part below it, whichever lets the slices be larger. Uses the part to the right only if labels
-// beside the slices take at most half of its width.
+// Returns the part of `room` in which the slices must be placed, like roomInside(), but leaves the axes symbol free.
+// `axes` is the box of the symbol. `circles` are the outlines of the slices and of the projection. If a circle would
+// overlap the symbol, uses only the part of `room` to the right of the symbol or the part below it, whichever lets the
+// slices be larger. Uses the part to the right only if labels beside the slices take at most half of its width.
 Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, const std::vector<Circle>& circles,
                  const Box& axes) {
     const Rect inside = roomInside(room, bounds, labels);
@@ -181,9 +185,9 @@ Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels
     return labelsFit && scaleFor(bounds, right) > scaleFor(bounds, below) ? right : below;
 }
 
-// Places the matrix at the right of `room`, or at its lower end if the room is tall, and shrinks the room accordingly.
-// `relativeBall`: LayoutObjectInfo::relativeBallRadius. The matrix has no balls and bars, so it ignores
-// Look::thickness.
+// Places the matrix of planar sections at the right of `room` or, if the room is tall, at its lower end. Takes this
+// part away from `room`. `relativeBall` is LayoutObjectInfo::relativeBallRadius. The matrix has no balls and bars, so
+// it ignores Look::thickness.
 SectionMatrixLayout placeMatrix(Rect& room, double relativeBall) {
     constexpr double kShare = 0.64, kGap = 0.03, kPanelGap = 0.06;
     const double width = room.right - room.left, height = room.top - room.bottom;
@@ -193,7 +197,8 @@ SectionMatrixLayout placeMatrix(Rect& room, double relativeBall) {
     matrix.shown = true;
     matrix.step = side / (4 - kPanelGap);
     matrix.panel = (1 - kPanelGap) * matrix.step;
-    // The sections of an object with many elements have many points, so the points become smaller, as its balls do.
+    // The sections of an object with many elements have many points. So the points become smaller, as the balls of the
+    // object do.
     matrix.pointRadius = std::min(relativeBall * matrix.panel, 0.0042);
     matrix.lineWidth = std::clamp(1.5 * matrix.pointRadius, 0.0022, 0.0042);
     if (wide) {
@@ -226,11 +231,12 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
-    const double side = std::min(kMargin, aspect / 4);  // leaves at least half of the width of a narrow picture
+    // the margin at each side; at least half of the width of a narrow picture remains
+    const double side = std::min(kMargin, aspect / 4);
     Rect room{side, aspect - side, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;
     // The radius of the balls of slices, as a fraction of the slice radius. All radii of balls and bars are
-    // proportional to it.
+    // proportional to this radius.
     const double relativeBall = look.thickness * content.relativeBallRadius;
     const bool projected = look.projection.kind != ProjectionKind::off;
     const auto [right, below] = partsBeside(boxOf(out.axes), room);

@@ -1,5 +1,5 @@
 #pragma once
-// The user's choices of how the object is displayed.
+// The user's choices of how an object is displayed.
 
 #include <algorithm>
 #include <array>
@@ -30,12 +30,13 @@ enum class View : std::uint8_t {
     column = 4,  ///< all slices, at the same size in a straight column
     grid = 5,    ///< all slices, at the same size in rows that are read from left to right and from top to bottom
 };
-/// A row of the table of views. arrangement.cpp says where each view has the slices, the labels and the projection.
+/// A row of the table of views. arrangement.cpp says where each view shows the slices, the labels and the projection.
 struct ViewRow {
-    std::string_view name;  ///< in messages, queries and on the command line
+    std::string_view name;  ///< the name in messages, queries and on the command line
     View value;
-    bool showsAllSlices;                ///< whether the view shows all slices, not only the focus slice
-    bool isExportedInPortrait = false;  ///< whether exported drawings of the view are in portrait format
+    bool showsAllSlices;  ///< whether the view shows all slices, not only the focus slice
+    /// whether exported drawings of the view are in portrait format (taller than wide)
+    bool isExportedInPortrait = false;
 };
 inline constexpr auto kViews = text::completeTable<ViewRow>(
     {{.name = "oval", .value = View::oval, .showsAllSlices = true},
@@ -45,11 +46,11 @@ inline constexpr auto kViews = text::completeTable<ViewRow>(
      {.name = "column", .value = View::column, .showsAllSlices = true, .isExportedInPortrait = true},
      {.name = "grid", .value = View::grid, .showsAllSlices = true}});
 constexpr const auto& choicesOf(View /*type*/) { return kViews; }
-/// Returns ViewRow::showsAllSlices of a view.
+/// Returns whether the view shows all slices, not only the focus slice.
 constexpr bool showsAllSlices(View view) {
     return std::ranges::any_of(kViews, [view](const ViewRow& row) { return row.value == view && row.showsAllSlices; });
 }
-/// Returns ViewRow::isExportedInPortrait of a view.
+/// Returns whether exported drawings of the view are in portrait format (taller than wide).
 constexpr bool isExportedInPortrait(View view) {
     return std::ranges::any_of(kViews,
                                [view](const ViewRow& row) { return row.value == view && row.isExportedInPortrait; });
@@ -61,11 +62,11 @@ constexpr bool isExportedInPortrait(View view) {
 enum class Coloring : std::uint8_t {
     cell = 0,       ///< the cell itself; for fields: the level
     cell_type = 1,  ///< the type of the cell; called "kind" in messages
-    w = 2,          ///< the w of the cell's center after the rotation; for fields: the w of the slice
-    plain = 3,      ///< none: everything has the same color
+    w = 2,          ///< the w of the cell's center after the rotation; for fields: the w of the hyperplane of the slice
+    plain = 3,      ///< no property: everything has the same color
     light = 4,      ///< the angle between the cell's normal and the direction toward a light in four dimensions
-    growth = 5,     ///< for fields: how fast the surface moves outward as w increases
-    value = 6,      ///< for fields: the value of the second function or, without one, of the function itself
+    growth = 5,     ///< for fields: how fast the surface moves outward while w increases
+    value = 6,      ///< for fields: the value of the second function or, if there is none, of the function itself
 };
 inline constexpr auto kColorings = text::completeTable<text::NamedValue<Coloring>>({{"cell", Coloring::cell},
                                                                                     {"kind", Coloring::cell_type},
@@ -76,12 +77,12 @@ inline constexpr auto kColorings = text::completeTable<text::NamedValue<Coloring
                                                                                     {"value", Coloring::value}});
 constexpr const auto& choicesOf(Coloring /*type*/) { return kColorings; }
 
-/// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain; it closes the
+/// How the caps of a field's surfaces are drawn. A cap is a part of the boundary of the field's domain that closes the
 /// body inside a surface where the domain ends. Stored sessions contain the numbers of the enumerators; therefore these
 /// numbers must not change.
 enum class CapStyle : std::uint8_t {
     plain = 0,  ///< in the color of the level or of the slice
-    value = 1,  ///< colored as with Coloring::value
+    value = 1,  ///< in colors that show values, as with Coloring::value
     open = 2,   ///< no caps: the surfaces are open at the domain's boundary
 };
 inline constexpr auto kCapStyles = text::completeTable<text::NamedValue<CapStyle>>(
@@ -106,21 +107,21 @@ struct ProjectionSettings {
     static constexpr geometry::Range kEyeRange{1.05, 1000};  ///< greater than 1, so the eye is outside the object
 
     ProjectionKind kind = ProjectionKind::off;
-    double eye = 3;  ///< perspective: the w coordinate of the 4-D eye, in circumradii; within kEyeRange
+    double eye = 3;  ///< for the perspective: the w coordinate of the 4-D eye, in circumradii; within kEyeRange
     bool operator==(const ProjectionSettings&) const = default;
 };
 
-/// The cell types that are hidden or translucent, as indices into ObjectInfo::cellTypes. Each list is sorted and has no
-/// duplicates; no cell type is in both lists.
+/// The cell types that are hidden, and those that are faded (translucent), as indices into ObjectInfo::cellTypes. Each
+/// list is sorted and has no duplicates. No cell type is in both lists.
 struct CellTypeFilter {
     std::vector<std::uint32_t> hidden, faded;
     bool operator==(const CellTypeFilter&) const = default;
 };
 
-/// The user's changes to the camera: `azimuth` and `elevation` rotate the camera about its target, in radians; positive
+/// The user's changes to the camera. `azimuth` and `elevation` rotate the camera about its target, in radians; positive
 /// values move the camera to the right and up. `zoom` multiplies the magnification. The defaults mean no change.
 struct CameraOrbit {
-    static constexpr geometry::Range kAngleRange{-1000, 1000};  ///< of `azimuth` and `elevation`
+    static constexpr geometry::Range kAngleRange{-1000, 1000};  ///< the range of `azimuth` and `elevation`, in radians
     static constexpr geometry::Range kZoomRange{0.05, 20};
 
     double azimuth = 0, elevation = 0, zoom = 1;
@@ -143,11 +144,11 @@ struct Look {
     Coloring coloring = Coloring::cell;
     CellTypeFilter cellTypes = {};
     ProjectionSettings projection = {};
-    std::optional<slicing::Element> highlight = {};  ///< the element that is drawn in another color
-    /// The x, y and z of the focus point, in the object's units, after the rotation; its w is that of the focus slice.
-    /// The planes of the matrix view pass through this point.
+    std::optional<slicing::Element> highlight = {};  ///< the element of the object that is drawn in the highlight color
+    /// The x, y and z of the focus point, in the object's units, after the rotation; the w of the focus point is that
+    /// of the focus slice. The planes of the matrix view pass through this point.
     glm::dvec3 focusPoint{0};
-    slicing::FieldSettings field = {};  ///< for a field: the surfaces and the fog that are shown
+    slicing::FieldSettings field = {};  ///< for a field: the levels whose surfaces are shown, and the fog
     CapStyle caps = CapStyle::plain;
     Background background = Background::automatic;
     double thickness = 1;  ///< multiplies the radii of all balls and bars; within kThicknessRange

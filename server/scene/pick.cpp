@@ -20,17 +20,18 @@ using slicing::SliceSet;
 using slicing::Visibility;
 
 // Returns the element of the object from which an element of a slice was cut. `source` is the source number of the
-// latter (see SliceSet): a number less than `count` is the index of an element of the kind `cut` that the hyperplane
-// cuts; any other number is `count` plus the index of an element of the kind `contained` that lies in the hyperplane.
+// slice element (see SliceSet). A number less than `count` is the index of an element of the kind `cut` that the
+// hyperplane cuts. Any other number is `count` plus the index of an element of the kind `contained` that lies in the
+// hyperplane.
 Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
     if (source < count) return {cut, source};
     return {contained, source - count};
 }
 
-// Returns the number of pixels per unit of the object in the panels of the matrix.
+// Returns the length of one unit of the object in the panels of the matrix, in pixels.
 double pixelsPerUnitOf(const Scene& scene) { return scene.matrix.scale(scene.circumradius) * scene.viewport.height; }
 
-// Finds the element nearest to the viewer at one pixel.
+// Finds the element that is nearest to the viewer at one pixel.
 class Picker {
   public:
     Picker(const Scene& scene, const slicing::Object& object, glm::dvec2 point)
@@ -50,7 +51,7 @@ class Picker {
         const ShownParts& parts = scene_.look.parts;
         for (std::size_t i = 0; i < scene_.placements.size(); ++i) {
             if (!scene_.placements[i].drawn) continue;
-            // If balls are hidden, the points of a cloud are still found, but not the balls that join bars.
+            // If balls are hidden, the points of a cloud can still be picked, but the balls that join bars cannot.
             const bool points = parts.balls || !scene_.slices->ballScale.empty();
             pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
                  {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, drawsFaces_},
@@ -129,18 +130,19 @@ class Picker {
 
   private:
     struct Sizes {
-        double ball, bar;  // radii in world units; 0 if balls or bars are not drawn
+        double ball, bar;  // the radii of balls and bars in world units; 0 if they are not drawn
         bool faces;
     };
 
-    // Returns the element from which a point of a planar section was cut, by its source number (see PlanarSection).
+    // Returns the element of the object from which a point of a planar section was cut. `source` is the source number
+    // of the point (see PlanarSection).
     Element elementOfPoint(std::uint32_t source) const {
         if (source < counts_[2]) return {ElementKind::face, source};
         return elementOf(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
                          ElementKind::vertex);
     }
 
-    // Returns the distance, in pixels, of the pixel from a line segment in the picture.
+    // Returns the distance of the picked pixel from a line segment in the picture, in pixels.
     double distanceFromLine(const glm::dvec2& from, const glm::dvec2& to) const {
         const glm::dvec2 along = to - from;
         const double length = glm::dot(along, along);
@@ -148,9 +150,9 @@ class Picker {
         return glm::distance(from + t * along, pixel_);
     }
 
-    // Finds the element at the pixel in slice i of `set`, or in part i of the projection; keeps it in picked_ if it is
-    // nearer than the element that picked_ has. `position` and `scale` map the units of the object to world space.
-    // `where`: the members `in` and `slice` to report.
+    // Finds the element at the pixel in slice i of `set`, or in part i of the projection. Keeps the element in picked_
+    // if it is nearer than the element in picked_. `position` and `scale` map the units of the object to world space.
+    // `where` has the members `in` and `slice` to report.
     void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
               const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
@@ -187,7 +189,7 @@ class Picker {
             if (isWithin(glm::distance(from + t * along, pixel_), sizes.bar, depth))
                 add(depth - sizes.bar, elementOf(set.edgeSource[e], ElementKind::face, counts_[2], ElementKind::edge));
         }
-        // The loops that were cut from one cell are a single face; see FilledFaces.
+        // The loops that were cut from one cell form a single face (see FilledFaces).
         for (std::uint32_t f = set.faceBegin[i], end = f; sizes.faces && f < set.faceBegin[i + 1]; f = end) {
             while (end < set.faceBegin[i + 1] && set.faceSource[end] == set.faceSource[f]) ++end;
             if (isHidden(scene_.visibilities.face(set.faceSource[f]))) continue;
@@ -196,8 +198,8 @@ class Picker {
         }
     }
 
-    // Returns whether a ball or bar with this radius (in world units) and depth is hit at a distance of `pixels` pixels
-    // from its center or axis.
+    // Returns whether a ball or bar is hit at a distance of `pixels` pixels from its center or axis. `radius` is its
+    // radius, in world units, and `depth` its distance from the eye along the view axis.
     bool isWithin(double pixels, double radius, double depth) const {
         return depth > 0 && pixels <= std::max(radius * focalLength_ / depth, kHitRadius);
     }
@@ -209,7 +211,7 @@ class Picker {
 
     // Returns the depth at which the ray through the pixel meets the face with the loops firstLoop … endLoop − 1.
     // Returns an empty optional if the ray misses the face, or if a corner is behind the eye. A point is inside the
-    // face if the sum of the winding numbers of the loops is not 0.
+    // face if the sum of the winding numbers of the loops around the point is not 0.
     std::optional<double> depthOfFace(const SliceSet& set, std::uint32_t firstLoop, std::uint32_t endLoop) const {
         int winding = 0;
         glm::dvec3 area(0);
@@ -233,17 +235,18 @@ class Picker {
 
     const Scene& scene_;
     const std::array<std::size_t, 4> counts_;
-    const bool drawsFaces_;  // whether faces of slices are drawn; always false for a field
+    const bool drawsFaces_;  // whether the faces of slices are drawn; always false for a field
     const glm::dmat4 view_;
     glm::dmat4 projection_;
-    glm::dvec2 size_, pixel_;  // pixels are measured from the lower left corner
+    // the size of the picture and the place of the pixel, in pixels from the lower left corner
+    glm::dvec2 size_, pixel_;
     double focalLength_ = 0;
     glm::dvec3 ray_;
-    // Per vertex of the slice or part that pick() looks at: its view coordinates and its pixel. The pixel is
-    // meaningless for a vertex that is not in front of the eye.
+    // Per vertex of the slice or part in which pick() searches: its view coordinates (points_) and its pixel (pixels_).
+    // The pixel has no meaning for a vertex that is not in front of the eye.
     std::vector<glm::dvec3> points_;
     std::vector<glm::dvec2> pixels_;
-    double nearest_ = std::numeric_limits<double>::max();  // the depth of picked_
+    double nearest_ = std::numeric_limits<double>::max();  // the depth of the element in picked_
     std::optional<PickedElement> picked_;
 };
 
@@ -253,13 +256,13 @@ std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Obje
     Picker picker(scene, object, point);
     picker.pickCoordinates();
     if (picker.picked()) return picker.picked();
-    if (matrixPointAt(scene, point)) {  // panels cover the slices behind them
+    if (matrixPointAt(scene, point)) {  // panels cover the slices behind them, so slices are not searched
         picker.pickMatrix();
         return picker.picked();
     }
     if (isClearedOfSlices(scene, point)) return std::nullopt;
     picker.pickSlices();
-    if (!picker.picked()) picker.pickProjection();  // slices are drawn over the projection
+    if (!picker.picked()) picker.pickProjection();  // slices are drawn over the projection, so they come first
     return picker.picked();
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Finds the element or the point of the object that a picture shows at a pixel.
+// Finds the element of the object, or the point in space, that a picture shows at a pixel.
 
 #include <cstdint>
 #include <optional>
@@ -12,7 +12,8 @@
 
 namespace oval4d::scene {
 
-/// What is drawn where something is picked: a slice, the projection, the parallel coordinates or the matrix.
+/// The part of the picture in which something is picked: a slice, the projection, the parallel coordinates or the
+/// matrix.
 enum class PickedIn : std::uint8_t { slice, projection, coordinates, matrix };
 inline constexpr auto kPickedIn =
     text::completeTable<text::NamedValue<PickedIn>>({{"slice", PickedIn::slice},
@@ -20,37 +21,42 @@ inline constexpr auto kPickedIn =
                                                      {"coordinates", PickedIn::coordinates},
                                                      {"matrix", PickedIn::matrix}});
 
-/// An element of the object that a picture shows at a pixel.
+/// The element of the object that a picture shows at a pixel.
 struct PickedElement {
     slicing::Element element;
     PickedIn in = PickedIn::slice;
-    std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet; else without meaning
-    double depth = 0;       ///< in slices and in the projection: the distance from the eye along the camera's axis
+    std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet; otherwise without meaning
+    /// in slices and in the projection: the distance from the eye along the camera's axis, in world units
+    double depth = 0;
 };
 
-/// Returns the element of `object` that the picture shows at the point (x, y), in pixels from the upper left corner; an
-/// empty optional if there is none. In slices, the result is the element whose ball, bar or face is nearest to the
-/// viewer; where there is none, the nearest one in the projection, over which the slices are drawn; in the parallel
-/// coordinates, the vertex whose lines are drawn there (see CoordinatesLayout::hasLines()), or the one that
-/// vertexInDensityStripAt() finds; in a panel of the matrix, the element from which the point or edge of the section
-/// was cut. Balls, bars, points and edges are found up to 3 pixels from their centers, or farther where they are drawn
-/// thicker. Takes time linear in the size of the slices and in the number of vertices.
+/// Returns the element of `object` that the picture shows at the point (x, y), in pixels from the upper left corner.
+/// Returns an empty optional if there is none.
+/// - In slices, the result is the element whose ball, bar or face is nearest to the viewer.
+/// - Where the slices show no element, the result is the nearest element in the projection, over which the slices are
+///   drawn.
+/// - In the parallel coordinates, the result is the vertex whose lines are drawn there (see
+///   CoordinatesLayout::hasLines()), or the vertex that vertexInDensityStripAt() finds.
+/// - In a panel of the matrix, the result is the element from which the point or edge of the section was cut.
+///
+/// Balls, bars, points and edges are found up to 3 pixels from their centers, or farther where they are drawn thicker.
+/// Takes time linear in the size of the slices and in the number of vertices.
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point);
 
-/// Returns the 4-D point that a panel of the matrix shows at the point (x, y), in pixels from the upper left corner; an
-/// empty optional outside the panels, on the diagonal, and if the scene shows no matrix. The result is in the object's
-/// units and in the coordinates after the rotation, like SectionMatrix::point.
+/// Returns the 4-D point that a panel of the matrix shows at the point (x, y), in pixels from the upper left corner.
+/// Returns an empty optional outside the panels, on the diagonal, and if the scene shows no matrix. The result is in
+/// the object's units and in the coordinates after the rotation, like SectionMatrix::point.
 std::optional<glm::dvec4> matrixPointAt(const Scene& scene, glm::dvec2 point);
 
 /// The least distance, in pixels, within which balls, bars, points, edges and contours are found.
 inline constexpr double kHitRadius = 3;
 
 /// Returns the direction, in view coordinates, of the ray from the eye through the point (x, y), in pixels from the
-/// upper left corner. Its z is −1.
+/// upper left corner. The z of the direction is −1.
 glm::dvec3 viewRayThrough(const Scene& scene, glm::dvec2 point);
 
-/// Returns whether no slices are drawn at the point (x, y), in pixels from the upper left corner, because it is in the
-/// part of the picture that belongs to the parallel coordinates (see Scene::clearsCoordinatesArea()).
+/// Returns whether slices are hidden at the point (x, y), in pixels from the upper left corner, because the point is in
+/// the part of the picture that belongs to the parallel coordinates (see Scene::clearsCoordinatesArea()).
 bool isClearedOfSlices(const Scene& scene, glm::dvec2 point);
 
 }  // namespace oval4d::scene

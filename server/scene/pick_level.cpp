@@ -20,17 +20,17 @@ namespace oval4d::scene {
 
 namespace {
 
-// The points of a slice, in its own place or in the projection, on the ray through a pixel: start + depth · direction,
-// in the units of the object.
+// The part of the ray through a pixel that lies in one slice, shown at its own place or in the projection. The points
+// of the ray are start + depth · direction, in the units of the object.
 struct SliceRay {
     PickedIn in = PickedIn::slice;
     std::size_t slice = 0;
     glm::dvec3 start{0}, direction{0};
-    double entry = 0, exit = 0;  // the depths between which the ray is in the box
-    bool beginsAtWall = false;   // whether the ray enters the box at `entry`, so that the eye is outside
+    double entry = 0, exit = 0;  // the depths between which the ray is in the box of the field
+    bool beginsAtWall = false;   // whether the ray enters the box at `entry`; if false, the eye is inside the box
 };
 
-// Casts the ray through a pixel.
+// Finds the surface at a pixel by casting the ray through this pixel.
 class RayCaster {
   public:
     RayCaster(const Scene& scene, const fields::Field& field, const geometry::Rotation& orientation, glm::dvec2 point)
@@ -38,8 +38,8 @@ class RayCaster {
         direction_ = glm::transpose(glm::dmat3(scene.camera.view())) * viewRayThrough(scene, point);
     }
 
-    // Finds the nearest point of a surface in the slices or, if there is none, in the projection, that is not hidden by
-    // `element`.
+    // Finds the nearest point of a surface that `element` does not hide. Searches the slices first and then, if they
+    // show no such point, the projection.
     std::optional<PickedLevel> nearestBefore(const std::optional<PickedElement>& element) {
         constexpr double kInf = std::numeric_limits<double>::infinity();
         const bool isElementInProjection = element && element->in == PickedIn::projection;
@@ -65,14 +65,14 @@ class RayCaster {
     }
 
   private:
-    // A point of a ray at which the body of a level begins or ends.
+    // A point of a ray at which the ray enters or leaves the body of a level.
     struct Crossing {
         double depth;
         bool cap;
     };
 
-    // Finds the nearest point of a surface on the rays, which are sorted by where they enter the box, whose depth is
-    // less than `depth`.
+    // Finds the nearest point of a surface on the rays, at a depth less than `depth`. The rays are sorted by the depth
+    // at which they enter the box of the field.
     void castAll(const std::vector<SliceRay>& rays, double depth) {
         nearest_ = depth;
         for (const SliceRay& ray : rays) {
@@ -86,8 +86,8 @@ class RayCaster {
         slicing::placeSection(field_, toFunction_, scene_.placements[slice].w, section_);
     }
 
-    // Returns the ray in a slice, whose section must have been placed; an empty optional if it misses the box.
-    // `position` and `scale` map the units of the object to world space.
+    // Returns the part of the ray in a slice whose section has been placed. Returns an empty optional if the ray misses
+    // the box of the field. `position` and `scale` map the units of the object to world space.
     std::optional<SliceRay> rayThrough(PickedIn in, std::size_t slice, const glm::dvec3& position, double scale) const {
         SliceRay ray;
         ray.in = in;
@@ -116,9 +116,9 @@ class RayCaster {
         return v.x * section_.axes[0] + v.y * section_.axes[1] + v.z * section_.axes[2];
     }
 
-    // Finds the first point of a surface on the ray; keeps it if it is nearer than nearest_.
+    // Finds the first point of a surface on the ray. Keeps the point if it is nearer than nearest_.
     void cast(const SliceRay& ray) {
-        constexpr double kTime = 1.5e8;  // nanoseconds for the rays through all slices
+        constexpr double kTime = 1.5e8;  // the time for the rays through all slices together, in nanoseconds
         const double affordable =
             kTime / (static_cast<double>(scene_.placements.size()) * std::max(field_.function->cost().value, 1.0));
         const double perDiameter = std::clamp(affordable, kMinRaySamples, kRaySamples);
@@ -126,7 +126,7 @@ class RayCaster {
         const auto steps = static_cast<std::size_t>(
             std::clamp(std::ceil(perDiameter * length / (2 * scene_.circumradius)), 2.0, perDiameter));
         evaluate(ray, ray.entry, ray.exit, steps);
-        const std::vector<float> values = values_;  // evaluate() overwrites values_
+        const std::vector<float> values = values_;  // a copy, because evaluate() overwrites values_
         const auto depthAt = [&](std::size_t k) {
             return std::lerp(ray.entry, ray.exit, static_cast<double>(k) / static_cast<double>(steps));
         };
@@ -142,8 +142,8 @@ class RayCaster {
         }
     }
 
-    // Finds the first place between two depths at which the ray enters or leaves the body of a level. It does so at one
-    // of them.
+    // Finds the first place between the depths `from` and `to` at which the ray enters or leaves the body of a level.
+    // There must be such a place.
     Crossing refine(const SliceRay& ray, const SurfaceLook::LevelLook& level, double from, double to) {
         constexpr std::size_t kSteps = 32, kRounds = 5;
         bool cap = false, entering = false;
@@ -158,7 +158,7 @@ class RayCaster {
             from = begin + static_cast<double>(k) * step;
             to = begin + static_cast<double>(k + 1) * step;
         }
-        // A point of a cap is where the function has a value: inside the body.
+        // A point of a cap is placed inside the body, where the function has a value.
         return {cap ? (entering ? to : from) : (from + to) / 2, cap};
     }
 
@@ -174,7 +174,7 @@ class RayCaster {
         return scene_.look.field.inside == fields::Inside::below ? value < level : value > level;
     }
 
-    // Sets values_ to those of the function at steps + 1 points between two depths of the ray.
+    // Sets values_ to the values of the function at steps + 1 points of the ray between the depths `from` and `to`.
     void evaluate(const SliceRay& ray, double from, double to, std::size_t steps) {
         points_.clear();
         for (std::size_t k = 0; k <= steps; ++k) {
@@ -187,22 +187,23 @@ class RayCaster {
     const Scene& scene_;
     const fields::Field& field_;
     const glm::dmat4 toFunction_;
-    glm::dvec3 direction_{0};        // in world space, of the ray from the eye; one unit is a depth of 1
-    slicing::FieldSection section_;  // without walls and bounds
+    // the direction of the ray from the eye, in world space; its length corresponds to a depth of 1
+    glm::dvec3 direction_{0};
+    slicing::FieldSection section_;  // has neither walls nor bounds
     std::vector<glm::dvec3> points_;
     std::vector<float> values_;
-    double nearest_ = 0;  // the depth of found_
+    double nearest_ = 0;  // the depth of the point in found_
     std::optional<PickedLevel> found_;
 };
 
-// Returns the point of a line segment that is nearest to the origin.
+// Returns the point of the line segment from `from` to `to` that is nearest to the origin.
 glm::dvec2 nearestToOrigin(const glm::dvec2& from, const glm::dvec2& to) {
     const glm::dvec2 along = to - from;
     const double length = glm::dot(along, along);
     return from + (length > 0 ? std::clamp(-glm::dot(from, along) / length, 0.0, 1.0) : 0.0) * along;
 }
 
-// Finds the contour at a pixel of a panel of the matrix. `shown` is the point that the panel shows there.
+// Finds the contour at a pixel of a panel of the matrix. `shown` is the 4-D point that the panel shows at this pixel.
 std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, const glm::dvec4& shown) {
     const double height = scene.viewport.height;
     const auto [row, column] = *scene.matrix.panelAt({point.x / height, 1 - point.y / height});
@@ -210,7 +211,8 @@ std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, con
     const auto plane = std::ranges::find(slicing::kPlaneAxes, axes) - slicing::kPlaneAxes.begin();
     const slicing::PlanarContours& contours = scene.sectionMatrix.contours.at(static_cast<std::size_t>(plane));
     const glm::dvec2 at(shown[axes[0]], shown[axes[1]]);
-    const double pixels = scene.matrix.scale(scene.circumradius) * height;  // per unit of the object
+    // the length of one unit of the object in the panel, in pixels
+    const double pixels = scene.matrix.scale(scene.circumradius) * height;
     double nearest = std::max(scene.matrix.lineWidth / 2 * height, kHitRadius) / pixels;
     std::optional<PickedLevel> found;
     for (std::size_t i = 0; i < contours.lineCount(); ++i) {

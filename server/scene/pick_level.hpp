@@ -1,5 +1,5 @@
 #pragma once
-// Finds the point of a field's surfaces that a picture shows at a pixel.
+// Finds the point of a field's surfaces or contours that a picture shows at a pixel.
 
 #include <cstddef>
 #include <optional>
@@ -14,32 +14,33 @@
 
 namespace oval4d::scene {
 
-/// A point of a level set of a field that a picture shows: a point of a surface in a slice, of the surface of the focus
-/// slice in the projection, or of a contour in the matrix.
+/// A point of a level set of a field that a picture shows. It is a point of a surface in a slice, of the surface of the
+/// focus slice in the projection, or of a contour in the matrix.
 struct PickedLevel {
     std::size_t level = 0;  ///< the index of the level in slicing::FieldSettings::levels
     bool cap = false;       ///< whether the point is on a cap (see slicing::SliceSurface), inside the body of the level
-    PickedIn in = PickedIn::slice;  ///< slice, projection or matrix
-    std::size_t slice = 0;          ///< but for PickedIn::matrix: the index of the slice in the SliceSet
+    PickedIn in = PickedIn::slice;  ///< where the point is: in a slice, the projection or the matrix
+    std::size_t slice = 0;          ///< the index of the slice in the SliceSet; without meaning for PickedIn::matrix
     glm::dvec4 point{0};            ///< in the units of the object, after the rotation
 };
 
-/// Returns what the picture shows of the levels of `field`, rotated by `orientation`, at the point (x, y), in pixels
-/// from the upper left corner; an empty optional if it shows none, or if `element`, the result of pickElement() for
-/// this point, is nearer to the viewer. The surface nearest to the viewer is found, also if it is translucent. What
-/// slices show counts as nearer than the projection, over which they are drawn. `scene` must have the look of the
-/// surfaces and the contours, but needs no slices.
+/// Returns the point of a surface or contour of `field`, rotated by `orientation`, that the picture shows at the point
+/// (x, y), in pixels from the upper left corner. Returns an empty optional if there is none, or if `element`, the
+/// result of pickElement() for this point, is nearer to the viewer. Finds the surface nearest to the viewer, even if
+/// this surface is translucent. What slices show counts as nearer than the projection, over which they are drawn.
+/// `scene` must have the look of the surfaces and the contours, but needs no slices.
 ///
-/// In slices and in the projection, the level is found on the ray through the pixel from the values of the function: at
-/// up to kRaySamples points in the box, or fewer in slices that are smaller than the box or if the function takes long
-/// to evaluate, and then ever more exactly where the ray enters or leaves the body of a level. Bodies that are thinner
-/// along the ray than the distance of these points may be missed. Contours are found up to 3 pixels from their lines.
-/// Throws std::runtime_error if the samples of the field are in a file that can no longer be read.
+/// In slices and in the projection, the search follows the ray through the pixel. It first evaluates the function at up
+/// to kRaySamples points of the ray in the box. There are fewer points in slices that are smaller than the box, and if
+/// the function takes long to evaluate. Then it finds more and more exactly where the ray enters or leaves the body of
+/// a level. It may miss bodies that are thinner along the ray than the distance of these points. Contours are found up
+/// to 3 pixels from their lines. Throws std::runtime_error if the samples of the field are in a file that can no longer
+/// be read.
 std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& field,
                                      const geometry::Rotation& orientation, glm::dvec2 point,
                                      const std::optional<PickedElement>& element);
 
-/// The greatest and the least number of points across the diameter of a field at which pickLevel() evaluates the
+/// The greatest and the least number of points, across the diameter of a field, at which pickLevel() evaluates the
 /// function on a ray through one slice.
 inline constexpr double kRaySamples = 1000, kMinRaySamples = 200;
 

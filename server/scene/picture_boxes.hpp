@@ -1,5 +1,5 @@
 #pragma once
-// Rectangles in a picture. The unit is the viewport's height.
+// Rectangles in a picture. The unit of length is the viewport's height.
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -8,15 +8,15 @@
 
 namespace oval4d::scene {
 
-/// The width of the margin along the edges of the picture.
+/// The width of the margin along the edges of the picture, in viewport heights.
 inline constexpr double kMargin = 0.02;
 
-/// A rectangle, by its sides.
+/// A rectangle, given by its sides.
 struct Rect {
     double left, right, bottom, top;
 };
 
-/// A rectangle, by its center and half its size.
+/// A rectangle, given by its center and half its size.
 struct Box {
     glm::dvec2 center, half;
 };
@@ -26,7 +26,7 @@ inline bool overlap(const Box& a, const Box& b) {
     return glm::all(glm::lessThan(glm::abs(a.center - b.center), a.half + b.half));
 }
 
-/// Returns whether a box and a disk overlap.
+/// Returns whether a box overlaps the disk with this center and this radius.
 inline bool overlap(const Box& box, const glm::dvec2& center, double radius) {
     return glm::length(glm::max(glm::abs(center - box.center) - box.half, glm::dvec2(0))) < radius;
 }

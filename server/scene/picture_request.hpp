@@ -10,11 +10,11 @@
 
 namespace oval4d::scene {
 
-/// What a picture shows, and how: all that affects its pixels, and nothing else.
+/// A request for a picture: all data that affect the pixels of the picture, and no other data.
 struct PictureRequest {
     slicing::Object source;  ///< the object as it was built or loaded
     geometry::ReferenceFrame referenceFrame;
-    slicing::Object object;  ///< `source` in `referenceFrame` (see slicing::transformedTo())
+    slicing::Object object;  ///< `source` in the coordinates of `referenceFrame` (see slicing::transformedTo())
     geometry::Rotation orientation;
     geometry::Hyperplanes planes;  ///< evenly spaced: Hyperplanes::listed is empty
     int focus = 0;                 ///< the index n of the focus slice (see SlicePlacement::index)

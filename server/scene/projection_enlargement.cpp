@@ -13,7 +13,7 @@ namespace oval4d::scene {
 namespace {
 
 // Returns the radius of a sphere about the origin that contains the vertices `first` … `end` − 1 of `set` with their
-// balls. `scale`: world units per unit of the object. `ballRadius` and the result are in world units.
+// balls. `scale` is the number of world units per unit of the object. `ballRadius` and the result are in world units.
 double reachOf(const slicing::SliceSet& set, std::size_t first, std::size_t end, double scale, double ballRadius) {
     double reach = 0;
     for (std::size_t v = first; v < end; ++v) {
@@ -23,7 +23,8 @@ double reachOf(const slicing::SliceSet& set, std::size_t first, std::size_t end,
     return reach;
 }
 
-// Returns half the angle that a sphere fills in the view from this distance; π from inside.
+// Returns half the angle that a sphere fills in the view from the distance `distance` from its center. Returns π if the
+// eye is inside the sphere.
 double halfAngleOf(double radius, double distance) {
     return radius < distance ? std::asin(radius / distance) : std::numbers::pi;
 }

@@ -10,26 +10,29 @@
 
 namespace oval4d::scene {
 
-/// Whether each part of a picture is shown.
+/// Which parts of a picture are shown.
 struct ShownParts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
-    /// In the projection of the whole object: the 2-faces, which bound the projected cells or form the surface.
+    /// whether the projection of the whole object shows the 2-faces: those that bound the projected cells, or those of
+    /// a surface
     bool projectionFaces = false;
     bool back =
-        true;  ///< in the projection: what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled)
-    bool allSections = false;  ///< in the projection: the sections of all slices, not only of the focus slice
+        /// whether the projection shows what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled)
+        true;
+    bool allSections = false;  ///< whether the projection shows the sections of all slices, not only of the focus slice
     bool operator==(const ShownParts&) const = default;
 };
 
-/// A part of the picture and its name, which is used in messages, queries and on the page's command line. The action of
-/// the key that shows or hides the part (protocol/keymap.json) has the same name.
+/// A part of the picture and its name. The name is used in messages, queries and on the page's command line. The key
+/// that shows or hides the part has an action with the same name (protocol/keymap.json).
 struct NamedPart {
     std::string_view name;
-    bool ShownParts::* flag;
-    std::size_t number;  ///< of the flag in stored sessions; it must not change: see serialization/stored_members.hpp
+    bool ShownParts::*flag;
+    /// the number of `flag` in stored sessions; it must not change (see serialization/stored_members.hpp)
+    std::size_t number;
 };
 
-/// All parts.
+/// All parts of a picture that can be shown or hidden.
 inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &ShownParts::faces, 0},
                                                          {"bars", &ShownParts::bars, 1},
                                                          {"balls", &ShownParts::balls, 2},

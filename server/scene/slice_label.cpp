@@ -12,7 +12,7 @@ namespace oval4d::scene {
 
 namespace {
 
-// Returns the distance between neighboring hyperplanes; if these distances differ, the least of them.
+// Returns the distance between neighboring hyperplanes. If these distances differ, returns the least of them.
 double leastDistance(const geometry::Hyperplanes& planes) {
     if (planes.listed.size() < 2) return planes.spacing;
     std::vector<double> sorted = planes.listed;
@@ -28,8 +28,8 @@ std::string fixed(double number, int decimals) {
     return digits.data();
 }
 
-// Returns a positive number as labelNumber() writes it if `decimals` is greater than kMaxPlainDecimals. formatW() in
-// web_client/src/format.ts returns the same text.
+// Returns the text that labelNumber() writes for a positive number if `decimals` is greater than kMaxPlainDecimals. The
+// function formatW() of the page (web_client/src/format.ts) must return the same text.
 std::string withExponentIfSmall(double number, int decimals) {
     constexpr int kMostDigits = 17;  // the significant digits of a double
     constexpr double kLeastWithoutExponent = 1e-4;

@@ -1,5 +1,5 @@
 #pragma once
-// The numbers in the labels of slices.
+// Writes the numbers in the labels of slices.
 
 #include <string>
 
@@ -7,15 +7,15 @@
 
 namespace oval4d::scene {
 
-/// If labels have more decimals than this, labelNumber() writes small numbers with an exponent.
+/// If the labels have more decimals than this, labelNumber() writes small numbers with an exponent.
 inline constexpr int kMaxPlainDecimals = 9;
 
-/// Returns the number of decimals, at least 2, at which the values of w of neighboring hyperplanes differ.
+/// Returns the least number of decimals, at least 2, with which the values of w of neighboring hyperplanes differ.
 int labelDecimals(const geometry::Hyperplanes& planes);
 
-/// Returns w, rounded to this number of decimals, with a minus sign (U+2212) if it is negative; "0" if all digits are
-/// 0. If `decimals` is greater than kMaxPlainDecimals, a number below 0.0001 has an exponent ("5.0e-11"), and no number
-/// has more than 17 significant digits, those of a double.
+/// Returns w as text, rounded to `decimals` decimals, with a minus sign (U+2212) if it is negative; "0" if all digits
+/// are 0. If `decimals` is greater than kMaxPlainDecimals, a number below 0.0001 has an exponent ("5.0e-11"), and no
+/// number has more than 17 significant digits, the precision of a double.
 std::string labelNumber(double w, int decimals);
 
 }  // namespace oval4d::scene

@@ -38,7 +38,7 @@ Style styleOnLight(Color background, double opacity) {
     style.zeroLine = 0x7a8596;
     style.axes = {0xc62828, 0x1e7a34, 0x1f5fd0, 0x8a6100};
     style.highlight = 0xc2187f;
-    style.faceOpacity = 0.55;  // translucent colors are paler on a light ground
+    style.faceOpacity = 0.55;  // translucent colors are paler on a light background
     return style;
 }
 

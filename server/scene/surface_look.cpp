@@ -17,8 +17,8 @@ Color ValueScale::color(double value) const {
 }
 
 ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme) {
-    // 0 divides the range into two parts. On a diverging scale, the shorter part is at least this fraction of the
-    // longer one.
+    // 0 divides the range of values into two parts. The scale is diverging only if the shorter part is at least this
+    // fraction of the longer part.
     constexpr double kLeastSide = 1.0 / 9;
     const auto& [least, greatest] = range;
     const double reach = std::max(-least, greatest);

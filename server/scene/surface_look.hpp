@@ -1,5 +1,5 @@
 #pragma once
-// How the surfaces of a field are drawn.
+// Chooses how the surfaces of a field are drawn: their colors and opacities.
 
 #include <algorithm>
 #include <cstddef>
@@ -14,47 +14,47 @@
 
 namespace oval4d::scene {
 
-/// A color scale for values: diverging, with gray in the middle (see divergingColor()), or sequential (see
-/// sequentialColor()).
+/// A color scale for values. The scale is either diverging, with gray in the middle (see divergingColor()), or
+/// sequential (see sequentialColor()).
 struct ValueScale {
-    double least = 0, greatest = 1;  ///< the values at the ends
+    double least = 0, greatest = 1;  ///< the values at the two ends of the scale
     bool diverging = false;
     Scheme scheme = Scheme::dark;
 
-    /// Returns the color of a value; for NaN, noValueColor().
+    /// Returns the color of a value. For NaN, returns noValueColor().
     Color color(double value) const;
     bool operator==(const ValueScale&) const = default;
 };
 
-/// Returns the scale for values in this range. If 0 lies in the middle four fifths of the range, the scale is
-/// diverging, with gray at 0 and ends at equal distances from 0; otherwise it is sequential, from the least to the
-/// greatest value.
+/// Returns the color scale for values in `range`. If 0 lies in the middle four fifths of the range, the scale is
+/// diverging, with gray at 0 and ends at equal distances from 0. Otherwise the scale is sequential, from the least to
+/// the greatest value.
 ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme = Scheme::dark);
 
-/// Returns whether the colors of surfaces or caps show values: those of the second function if the field has one, else
-/// those of the field's function.
+/// Returns whether the colors of surfaces or caps show values. The values are those of the field's second function or,
+/// if there is none, of its function.
 inline bool colorsByValue(const Look& look) { return look.coloring == Coloring::value || look.caps == CapStyle::value; }
 
-/// How the surfaces of a field are drawn.
+/// How the surfaces of a field are drawn: which levels are shown, in which colors and with which opacities.
 struct SurfaceLook {
-    /// The property that determines the color of each point. With `none`, all points have the color of their level or,
-    /// if SurfaceLook::sliceColors is not empty, of their slice.
+    /// The property that determines the color of each point of a surface. With `none`, all points have the color of
+    /// their level or, if SurfaceLook::sliceColors is not empty, the color of their slice.
     enum class PointColoring : std::uint8_t { none, growth, value };
 
-    /// The surface of one level.
+    /// How the surface of one level is drawn.
     struct LevelLook {
-        std::size_t index = 0;  ///< the index in FieldSettings::levels, which SliceSurface::levelIndex() also returns
+        std::size_t index = 0;  ///< the index of the level in FieldSettings::levels
         Color color = 0;
         double opacity = 1;  ///< 0 … 1
-        bool caps = false;   ///< whether its caps are drawn
+        bool caps = false;   ///< whether the caps of the surface are drawn
     };
-    std::vector<LevelLook> levels;   ///< from the innermost to the outermost; empty if no surfaces are shown
-    std::vector<Color> sliceColors;  ///< with Coloring::w: per slice, a color that replaces those of the levels; else
-                                     ///< empty
-    PointColoring pointColoring = PointColoring::none;  ///< for the points of level sets
-    PointColoring capColoring = PointColoring::none;    ///< for the points of caps: none or value
-    ValueScale scale;              ///< valid if one of the two members above is PointColoring::value
-    Scheme scheme = Scheme::dark;  ///< of all colors
+    std::vector<LevelLook> levels;  ///< from the innermost to the outermost; empty if no surfaces are shown
+    /// with Coloring::w: per slice, a color that replaces the colors of the levels; otherwise empty
+    std::vector<Color> sliceColors;
+    PointColoring pointColoring = PointColoring::none;  ///< the coloring of the points of level sets
+    PointColoring capColoring = PointColoring::none;    ///< the coloring of the points of caps: none or value
+    ValueScale scale;              ///< valid if pointColoring or capColoring is PointColoring::value
+    Scheme scheme = Scheme::dark;  ///< the scheme of all these colors
 
     /// Removes all levels, so that no surfaces are shown.
     void clear() {
@@ -66,8 +66,8 @@ struct SurfaceLook {
     Color color(const LevelLook& level, std::size_t slice) const {
         return sliceColors.empty() ? level.color : sliceColors[slice];
     }
-    /// Returns the color of the contours of a level in the matrix, where w varies in most planes, so that `sliceColors`
-    /// do not apply. `index`: LevelLook::index of one of `levels`.
+    /// Returns the color of the contours of a level in the matrix. `index` is LevelLook::index of one of `levels`. In
+    /// most planes of the matrix, w varies, so `sliceColors` are not used.
     Color contourColor(std::size_t index) const { return std::ranges::find(levels, index, &LevelLook::index)->color; }
     bool colorsPoints() const { return pointColoring != PointColoring::none; }
     bool colorsCapPoints() const { return capColoring != PointColoring::none; }
@@ -77,17 +77,18 @@ struct SurfaceLook {
     Color capPointColor(const slicing::SliceSurface& surface, std::size_t point) const;
 };
 
-/// Returns the color of a point where the surface moves outward at the speed `growth` as w increases (see
+/// Returns the color of a point where the surface moves outward at the speed `growth` while w increases (see
 /// SliceSurface::growth): amber where the body grows, blue where it shrinks, gray where it does not change.
 Color growthColor(float growth, Scheme scheme = Scheme::dark);
 
-/// Returns the color of level i of `count` levels on the background of `look`: levelColor() with Coloring::cell, else
-/// plainColor(). Ignores colors that depend on the slice or the point.
+/// Returns the color of level i of `count` levels on the background of `look`: levelColor() with Coloring::cell,
+/// otherwise plainColor(). Ignores colors that depend on the slice or the point.
 Color surfaceColor(std::size_t i, std::size_t count, const Look& look);
 
-/// Chooses how the surfaces of a field are drawn in the slices by `planes`. The innermost level is opaque; the other
-/// levels are translucent, so that inner levels are visible through them. Only the outermost level has caps, because
-/// these cover the caps of the other levels; with CapStyle::open, no level has caps. Overwrites `out`.
+/// Chooses how the surfaces of `field` are drawn in the slices by `planes`, and writes the result to `out`. The
+/// innermost level is opaque. The other levels are translucent, so that inner levels are visible through them. Only the
+/// outermost level has caps, because its caps cover those of the other levels; with CapStyle::open, no level has caps.
+/// Overwrites `out`.
 void chooseSurfaceLook(const fields::Field& field, const Look& look, const geometry::Hyperplanes& planes,
                        SurfaceLook& out);
 
