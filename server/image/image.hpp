@@ -1,5 +1,5 @@
 #pragma once
-// Images as arrays of pixels.
+// Images as arrays of pixels in memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace oval4d::image {
 
-/// An RGBA image with 8 bits per channel: 4 · width · height bytes. The bottom row comes first, as in OpenGL. Rows have
-/// no padding. The colors are multiplied by alpha; most images are opaque.
+/// An RGBA image with 8 bits per channel: `pixels` has 4 · width · height bytes. The bottom row comes first, as in
+/// OpenGL. Rows have no padding. The colors are multiplied by alpha. Most images are opaque.
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint8_t> pixels;
@@ -20,11 +20,11 @@ constexpr std::size_t byteCount(int width, int height) {
     return 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-/// A reference to an image with the layout of Image. Does not own the pixels.
+/// A reference to an image with the layout of Image. The view does not own the pixels.
 struct ImageView {
     int width = 0, height = 0;
     std::span<const std::uint8_t> pixels;
-    bool hasAlpha = false;  ///< whether files of this image have an alpha channel; if not, alpha is ignored
+    bool hasAlpha = false;  ///< whether files of this image have an alpha channel; if false, alpha is ignored
 };
 
 }  // namespace oval4d::image

@@ -16,13 +16,15 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::uint8_t kSignature[] = {137, 'P', 'N', 'G', '\r', '\n', 26, '\n'};
-// The start of the data of an iTXt chunk: the keyword and a zero, no compression, compression method 0, then an empty
-// language tag and an empty translated keyword, each with a terminating zero.
+// The start of the data of an iTXt chunk (PNG specification, section 11.3.3.4): the keyword and a zero, no compression,
+// compression method 0, then an empty language tag and an empty translated keyword, each with a terminating zero.
 constexpr char kStateHeader[] = "oval4d\0\0\0\0";
-constexpr std::uint8_t kZlibHeader[] = {0x78, 1};  // RFC 1950: deflate, window of 32 KiB, fastest level
+// RFC 1950: the method deflate, a window of 32 KiB, and the fastest level
+constexpr std::uint8_t kZlibHeader[] = {0x78, 1};
 constexpr int kLevel = 1;
 constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
-constexpr std::size_t kLarge = 1'000'000;  // in bytes before compression; for less data, one core is as fast as two
+// In bytes before compression; for less data, two cores are not faster than one.
+constexpr std::size_t kLarge = 1'000'000;
 
 void store32(std::uint8_t* at, std::uint32_t value) {
     for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
@@ -34,7 +36,7 @@ void append(Bytes& out, const void* data, std::size_t size) {
     std::memcpy(out.data() + out.size() - size, data, size);
 }
 
-/// Begins a chunk at the end of `out`, and returns the index in `out` at which the chunk starts. endChunk() later
+/// Begins a PNG chunk at the end of `out`, and returns the index in `out` at which the chunk starts. endChunk() later
 /// writes the length and the CRC of the chunk.
 std::size_t beginChunk(Bytes& out, const char* type) {
     const std::size_t start = out.size();
@@ -51,8 +53,8 @@ void endChunk(Bytes& out, std::size_t start) {
     store32(out.data() + out.size() - 4, crc);
 }
 
-/// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last` says that no other piece
-/// follows. `levelBuffer` is working memory.
+/// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last` says whether this piece is
+/// the last one of the stream. `levelBuffer` is working memory.
 void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
     isal_zstream stream;
     isal_deflate_init(&stream);
@@ -81,7 +83,7 @@ void deflate(Bytes& in, bool last, Bytes& levelBuffer, Bytes& out) {
 /// the two strings, and `size` is the size of the second string in bytes.
 std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::size_t size) {
     constexpr std::uint64_t kBase = 65521;
-    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // each checksum starts at 1, which must count only once
+    const std::uint64_t a = (first & 0xffffU) + kBase - 1;  // both checksums start at 1, which must count only once
     const std::uint64_t low = a + (second & 0xffffU);
     const std::uint64_t high = (first >> 16U) + (second >> 16U) + size % kBase * a;
     return static_cast<std::uint32_t>(((high % kBase) << 16U) | (low % kBase));
@@ -129,7 +131,7 @@ void PngEncoder::encode(const ImageView& image, std::string_view state, std::vec
     endChunk(out, chunk);
 
     chunk = beginChunk(out, "iTXt");
-    append(out, kStateHeader, sizeof kStateHeader);  // with the final zero, which ends the translated keyword
+    append(out, kStateHeader, sizeof kStateHeader);  // includes the final zero, which ends the translated keyword
     append(out, state.data(), state.size());
     endChunk(out, chunk);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Encodes PNG files.
+// Encodes images as PNG files.
 
 #include <array>
 #include <cstdint>
@@ -14,26 +14,27 @@ namespace oval4d::image {
 /// Encodes images as PNG files with 8 bits per channel. Only one thread at a time may use an encoder.
 class PngEncoder {
   public:
-    /// If `forkJoin` is not null, encodes large images on two cores. `forkJoin` must outlive this object.
+    /// If `forkJoin` is not null, the encoder uses it to encode large images on two cores. `forkJoin` must outlive this
+    /// object.
     explicit PngEncoder(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin) {}
 
-    /// Encodes `image` as an RGB file or, with ImageView::hasAlpha, an RGBA file. Overwrites `out` and reuses its
-    /// memory. Before the image data, the file contains the UTF-8 text `state` in an uncompressed iTXt chunk with the
-    /// keyword "oval4d". Throws std::invalid_argument if the image is empty, if the size of `pixels` is not 4 · width ·
-    /// height bytes, or if the uncompressed data exceed 2 GiB; throws std::runtime_error if compression fails.
+    /// Encodes `image` as an RGB file or, if ImageView::hasAlpha is true, as an RGBA file. Overwrites `out` and reuses
+    /// its memory. Before the image data, the file contains the UTF-8 text `state` in an uncompressed iTXt chunk with
+    /// the keyword "oval4d". Throws std::invalid_argument if the image is empty, if the size of `pixels` is not 4 ·
+    /// width · height bytes, or if the uncompressed data exceed 2 GiB. Throws std::runtime_error if compression fails.
     void encode(const ImageView& image, std::string_view state, std::vector<std::uint8_t>& out);
     void encode(const Image& image, std::string_view state, std::vector<std::uint8_t>& out) {
         encode(ImageView{image.width, image.height, image.pixels}, state, out);
     }
 
   private:
-    // The upper or the lower part of an image, or a whole small image: its filtered rows, a work buffer of the
-    // compressor, and the IDAT chunk that encodes the rows.
+    // The upper or the lower part of an image, or a whole small image. `filtered` has its filtered rows, `levelBuffer`
+    // is a work buffer of the compressor, and `chunk` is the IDAT chunk that encodes the rows.
     struct Band {
         std::vector<std::uint8_t> filtered, levelBuffer, chunk;
-        std::uint32_t checksum = 0;  // Adler-32 of `filtered`
+        std::uint32_t checksum = 0;  // the Adler-32 checksum of `filtered`
     };
-    // Encodes the rows `from` … `to` − 1, counted from the top of the image.
+    // Encodes the rows `from` … `to` − 1 of `image` in `band`. Rows are counted from the top of the image.
     static void encode(const ImageView& image, int from, int to, Band& band);
 
     parallel::ForkJoin* forkJoin_;

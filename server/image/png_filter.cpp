@@ -5,8 +5,9 @@
 #include <cstring>
 #include <utility>
 
-// All rows except the first have the same filter. Choosing the best filter for each row, as libpng does, would take
-// longer than deflate and would not make the files of these pictures smaller.
+// How rows are filtered: all rows except the first have the same filter. Choosing the best filter for each row, as
+// libpng does, would take longer than deflate (the compression), and would not make the files of these pictures
+// smaller.
 
 namespace oval4d::image {
 
@@ -22,7 +23,8 @@ int paeth(int left, int above, int upperLeft) {
 }
 
 /// Subtracts the Paeth prediction from `count` RGBA pixels, which begin at `row`, and writes the differences as RGB to
-/// `out`. `above` is the pixel above the first one. Also reads the pixels to the left of `row` and of `above`.
+/// `out`. `above` is the pixel above the first of these pixels. Also reads the pixels to the left of `row` and of
+/// `above`.
 void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std::uint8_t* out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < 3; ++c) {
@@ -37,11 +39,13 @@ void subtractPaethScalar(const std::uint8_t* row, const std::uint8_t* above, std
 
 using EightPixels = std::uint8_t __attribute__((vector_size(32)));
 
-// Like subtractPaethScalar(), but processes eight pixels at a time, in 8-bit arithmetic. x is the pixel, and a, b and c
-// are its left, upper and upper-left neighbors. The prediction of x is that of a, b and c which is nearest to
-// a + b − c. If a and b are both greater or both less than c, then c is the farthest from a + b − c, so its exact
-// distance, which may not fit into a byte, does not matter. Each store writes eight bytes too many, which the next
-// store overwrites; the scalar loop processes the last pixels of a row, so that nothing is written past its end.
+// Does the same as subtractPaethScalar(), but processes eight pixels at a time, in 8-bit arithmetic. Let x be the
+// pixel, and a, b and c its left, upper and upper-left neighbors. The prediction of x is the one of a, b and c that is
+// nearest to a + b − c. If a and b are both greater or both less than c, then c is the farthest from a + b − c. So the
+// exact distance of c, which may not fit into a byte, does not matter.
+//
+// Each store writes eight bytes too many, which the next store overwrites. The scalar loop processes the last pixels of
+// a row, so that no byte is written past the end of the row.
 __attribute__((target("avx2"))) void subtractPaethAvx2(const std::uint8_t* row, const std::uint8_t* above,
                                                        std::uint8_t* out, std::size_t count) {
     std::size_t i = 0;
@@ -79,14 +83,13 @@ void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint
 
 #endif
 
-/// Returns the RGBA pixels of row y of an image; row 0 is the top of the image.
+/// Returns the RGBA pixels of row y of an image, where row 0 is the top of the image.
 const std::uint8_t* rowOf(const image::ImageView& image, int y) {
     return image.pixels.data() +
            static_cast<std::size_t>(image.height - 1 - y) * static_cast<std::size_t>(image.width) * 4;
 }
 
-/// Writes the RGBA pixels of a row to `out`, with their colors divided by their alpha. `out` must have the size of the
-/// row.
+/// Writes the RGBA pixels of a row to `out`, with the colors divided by alpha. `out` must have the size of the row.
 void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
     for (std::size_t i = 0; i < out.size(); i += 4) {
         const unsigned alpha = row[i + 3];
@@ -98,8 +101,8 @@ void divideByAlpha(const std::uint8_t* row, std::vector<std::uint8_t>& out) {
     }
 }
 
-/// Does the work of makeFilteredRows() for an image with alpha. Such images need not be encoded as fast as the pictures
-/// of a live view, so this function processes one byte at a time.
+/// Writes the filtered rows of an image with alpha, as makeFilteredRows() specifies. Such images need not be encoded as
+/// fast as the pictures of a live view. So this function processes one byte at a time.
 void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std::vector<std::uint8_t>& out) {
     const std::size_t bytes = 4 * static_cast<std::size_t>(image.width);
     out.resize((bytes + 1) * static_cast<std::size_t>(to - from));
@@ -110,7 +113,8 @@ void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std:
         divideByAlpha(rowOf(image, y), row);
         *at++ = y == 0 ? kSub : kPaeth;
         for (std::size_t i = 0; i < bytes; ++i) {
-            // The row above row 0 counts as zeros, so that Paeth predicts the left neighbor in row 0, as Sub does.
+            // In row 0, the row above counts as zeros. Then the filter Paeth predicts the left neighbor, as the filter
+            // Sub does.
             const int left = i < 4 ? 0 : row[i - 4], upperLeft = i < 4 ? 0 : above[i - 4];
             *at++ = static_cast<std::uint8_t>(row[i] - paeth(left, above[i], upperLeft));
         }
@@ -132,7 +136,8 @@ void makeFilteredRows(const image::ImageView& image, int from, int to, std::vect
         const std::uint8_t* row = rowOf(image, y);
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
-        for (std::size_t c = 0; c < 3; ++c) {  // the first pixel has no left neighbor: Paeth predicts the upper one
+        // The first pixel has no left neighbor, so Paeth predicts the upper neighbor.
+        for (std::size_t c = 0; c < 3; ++c) {
             at[1 + c] = static_cast<std::uint8_t>(row[c] - (y == 0 ? 0 : above[c]));
         }
         if (y == 0) {

@@ -8,8 +8,8 @@ namespace oval4d::image {
 namespace {
 
 constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
-// The start of the data of the iTXt chunk: the keyword, a zero that ends it, and the compression flag 0 for "not
-// compressed". The compression method, a language tag and a translated keyword follow.
+// The start of the data of the iTXt chunk: the keyword, a zero that ends the keyword, and the compression flag 0 for
+// "not compressed". The compression method, a language tag and a translated keyword follow.
 constexpr std::string_view kKeyword("oval4d\0\0", 8);
 
 std::uint32_t load32(std::string_view bytes) {
@@ -25,7 +25,8 @@ bool isPng(std::string_view file) { return file.starts_with(kPngStart); }
 std::optional<std::string_view> stateTextIn(std::string_view file) {
     if (!isPng(file)) return {};
     file.remove_prefix(kPngStart.size());
-    constexpr std::size_t kAround = 12;  // the bytes of a chunk that are not data: its length, type and checksum
+    // The number of bytes of a chunk that are not data: its length, type and checksum.
+    constexpr std::size_t kAround = 12;
     while (file.size() >= kAround) {
         const std::size_t length = load32(file);
         if (length > file.size() - kAround) return {};

@@ -2,8 +2,8 @@
 
 namespace oval4d::parallel {
 
-/// Thrown by a job that ends early because a stop was requested (see WorkerPool::stop()). Not derived from
-/// std::exception, so that handlers that report errors do not catch it.
+/// An exception that a job throws to end early, because a stop was requested (see WorkerPool::stop()). It is not
+/// derived from std::exception, so that handlers that report errors do not catch it.
 struct Canceled {};
 
 }  // namespace oval4d::parallel

@@ -8,14 +8,15 @@ namespace {
 
 using Seconds = FairQueue::Seconds;
 
-constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job: no job is free
+constexpr Seconds kMinCost{1e-4};  // the minimum cost of a job, so that no job is free
 
-constexpr double kDecay = 0.75;  // each new measurement multiplies the weights of earlier ones by this factor
-// EstimateCorrection::correctionFactor() gives the prior `general` as much weight as measured jobs whose estimated
-// times add up to kPriorWeight.
+// Each new measurement multiplies the weights of the earlier measurements by this factor.
+constexpr double kDecay = 0.75;
+// The weight of the prior `general` in EstimateCorrection::correctionFactor(): as much as that of measured jobs whose
+// estimated times add up to kPriorWeight.
 constexpr Seconds kPriorWeight{0.02};
-// Other programs sometimes delay a job. Therefore, before a correction is learned from the measured time of a job, the
-// measured time is reduced to at most kMaxOverrun times the job's cost.
+// Other programs sometimes delay a job. Therefore the measured time of a job is first reduced to at most kMaxOverrun
+// times the job's cost. Then a correction is learned from it.
 constexpr double kMaxOverrun = 2;
 constexpr double kMaxCorrection = 8;  // a correction multiplies or divides an estimate by at most this factor
 
@@ -39,8 +40,8 @@ Seconds FairQueue::correctedCost(const JobQueue& jobQueue, Seconds estimate) con
     return std::max(kMinCost, jobQueue.correction_.correctionFactor(ofClient) * estimate);
 }
 
-/// Returns the cost of a job for `scheduler_`, whose flows are the two classes (all short jobs, and all long ones):
-/// `cost` divided by the weight of `jobClass`. The weight of a class is its number of active clients.
+/// Returns `cost` divided by the weight of `jobClass`: the cost of a job for `scheduler_`. The flows of `scheduler_`
+/// are the two classes (all short jobs, and all long jobs). The weight of a class is the number of its active clients.
 Seconds FairQueue::costChargedToClass(JobClass jobClass, Seconds cost) const {
     return cost / std::max<std::size_t>(1, classes_[jobClass].clients.activeFlows());
 }
@@ -103,9 +104,9 @@ Seconds FairQueue::nextCost(const ClientFlow& client, JobClass jobClass) {
     return client.jobQueues_[jobClass].next()->jobs_.front().cost;
 }
 
-/// Updates the position of a job queue among the job queues of its client, for the class of its first job. Then
-/// updates the positions of the client and of this class: see updateClientEntry(). Must be called when the
-/// job queue's first job or virtual finish time has changed. The job queue must not be empty.
+/// Updates the position of a job queue among the job queues of its client, for the class of its first job. Then updates
+/// the positions of the client and of this class (see updateClientEntry()). Must be called when the first job of the
+/// job queue, or its virtual finish time, has changed. The job queue must not be empty.
 void FairQueue::updateJobQueueEntry(const JobQueuePtr& jobQueue) {
     const QueuedJob& first = jobQueue->jobs_.front();
     jobQueue->client_->jobQueues_[first.jobClass].enqueueOrUpdateFlow(jobQueue->states_[first.jobClass], jobQueue,
@@ -113,10 +114,10 @@ void FairQueue::updateJobQueueEntry(const JobQueuePtr& jobQueue) {
     updateClientEntry(jobQueue->client_, first.jobClass);
 }
 
-/// Updates the position of a client among the clients of `jobClass` (all short jobs, or all long ones); removes
-/// the client from them if it has no waiting job of this class. Then updates the position of the class in `scheduler_`
-/// in the same way. Must be called when the client's next job of this class, or the client's virtual finish time, has
-/// changed.
+/// Updates the position of a client among the clients of the class `jobClass` (all short jobs, or all long jobs).
+/// Removes the client from them if the client has no waiting job of this class. Then updates the position of the class
+/// in `scheduler_` in the same way. Must be called when the client's next job of this class, or the client's virtual
+/// finish time, has changed.
 void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobClass jobClass) {
     ClassScheduler& ofClass = classes_[jobClass];
     if (client->jobQueues_[jobClass].empty()) {
@@ -132,10 +133,10 @@ void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobClass jobClass
     }
 }
 
-/// Records that a job of this class is queued in `jobQueue`. Puts the job queue at the end of `recentShortJobQueues_`,
-/// unless a long job was queued in it within the last kActivePeriod. While `recentShortJobQueues_` is not empty, no
-/// long job starts on a reserved thread, so that these threads stay free for the short jobs of the job queues in
-/// `recentShortJobQueues_`.
+/// Records that a job of the class `jobClass` is queued in `jobQueue`. If the job is short, puts the job queue at the
+/// end of `recentShortJobQueues_`, unless a long job was queued in it within the last kActivePeriod. While
+/// `recentShortJobQueues_` is not empty, no long job starts on a reserved thread. So these threads stay free for the
+/// short jobs of the job queues in `recentShortJobQueues_`.
 void FairQueue::updateRecentShortQueues(const JobQueuePtr& jobQueue, JobClass jobClass, Clock::time_point now) {
     pruneRecentShortJobQueues(now);
     if (jobClass == long_job) jobQueue->lastLong_ = now;
@@ -155,8 +156,8 @@ void FairQueue::pruneRecentShortJobQueues(Clock::time_point now) {
     }
 }
 
-/// Returns whether long jobs must wait: long jobs run on all threads that are not reserved, and the next long job may
-/// not start on a reserved one.
+/// Returns whether long jobs must wait. They must wait if long jobs run on all threads that are not reserved, and the
+/// next long job may not start on a reserved thread.
 bool FairQueue::longJobsMustWait(Clock::time_point now) {
     if (longRunning_ < maxLongRunning_) return false;
     pruneRecentShortJobQueues(now);

@@ -9,14 +9,14 @@
 
 namespace oval4d::parallel {
 
-/// Runs two independent jobs in parallel: the calling thread runs the first one, and a helper thread runs the second.
+/// Runs two independent jobs in parallel. The calling thread runs the first job, and a helper thread runs the second.
 /// If the helper thread is in use, or all processors are busy, the calling thread runs both jobs, because the total
 /// throughput is then higher. Waking the helper thread takes about 10 µs. Thread-safe.
 class ForkJoin {
   public:
     using Job = std::function<void()>;
 
-    /// Counts one processor as busy, for ForkJoin::invoke(), as long as this object exists.
+    /// Makes ForkJoin::invoke() count one more processor as busy, as long as this object exists.
     class BusyProcessorGuard {
       public:
         explicit BusyProcessorGuard(ForkJoin& forkJoin) : busy_(forkJoin.busyProcessors_) { ++busy_; }
@@ -34,8 +34,8 @@ class ForkJoin {
     ForkJoin(const ForkJoin&) = delete;
     ForkJoin& operator=(const ForkJoin&) = delete;
 
-    /// Runs both jobs and returns when both are done. Rethrows the exception of a job; if both jobs throw, rethrows
-    /// that of the first. If the first job throws, the second may not have run.
+    /// Runs both jobs, and returns when both have ended. If a job throws an exception, rethrows this exception; if both
+    /// jobs throw, rethrows the exception of the first job. If the first job throws, the second job may not have run.
     void invoke(const Job& first, const Job& second);
 
   private:
@@ -46,14 +46,14 @@ class ForkJoin {
     std::atomic_flag taken_;  // set while the helper thread serves a caller
     std::mutex mutex_;
     std::condition_variable changed_;
-    // The next three members are guarded by mutex_.
+    // The mutex mutex_ guards the next three members.
     const Job* job_ = nullptr;   // the job for the helper thread; null if there is none
-    std::exception_ptr thrown_;  // what the helper thread's last job threw; null if it threw nothing
+    std::exception_ptr thrown_;  // the exception of the helper thread's last job; null if it threw none
     bool ending_ = false;
-    std::thread thread_;  // the helper thread; assigned only by the constructor, so reading it needs no lock
+    std::thread thread_;  // the helper thread; only the constructor assigns it, so reading it needs no lock
 };
 
-/// Runs both jobs, with `forkJoin` if it is not null, else one after the other on the calling thread.
+/// Runs both jobs with `forkJoin`. If `forkJoin` is null, runs one job after the other on the calling thread.
 void invoke(ForkJoin* forkJoin, const ForkJoin::Job& first, const ForkJoin::Job& second);
 
 }  // namespace oval4d::parallel

@@ -1,6 +1,6 @@
 #pragma once
-// Assertions that an object is used only by the threads that may use it. The assertions do nothing in builds with
-// NDEBUG (release builds).
+// Assertions that only the allowed threads use an object. In builds with NDEBUG (release builds), the assertions do
+// nothing.
 
 #include <atomic>
 #include <cassert>
@@ -8,7 +8,7 @@
 
 namespace oval4d::parallel {
 
-/// Checks that an object is used only by the thread that constructed it. Use as a member or base of that object.
+/// Checks that only the thread that constructed an object uses it. Use as a member or a base of this object.
 class ThreadOwnerAssertion {
   public:
 #ifdef NDEBUG
@@ -24,8 +24,8 @@ class ThreadOwnerAssertion {
 #endif
 };
 
-/// Checks that an object is used by at most one thread at a time, which may be any thread. Use as a member of that
-/// object. A copy of the object starts as not in use.
+/// Checks that at most one thread at a time uses an object; this may be any thread. Use as a member of the object. A
+/// copy of the object starts as not in use.
 class ExclusiveUseAssertion {
   public:
     /// Marks the object as in use as long as this ScopedUse exists. The constructor asserts that the object has no

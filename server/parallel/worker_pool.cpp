@@ -12,13 +12,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-// The interval at which a free thread checks whether a queued long job may start.
+// The interval at which a free thread checks whether a queued long job may start now.
 constexpr auto kRecheckInterval = 1s;
 
 void runJob(const WorkerPool::Job& job, std::size_t worker) {
     try {
         job(worker);
-    } catch (const Canceled&) {  // a stop was requested: nobody needs the result
+    } catch (const Canceled&) {  // a stop was requested, so nobody needs the result of the job
     }
 }
 
@@ -50,7 +50,7 @@ void WorkerPool::cleanUpWhenIdle() {
 
 void WorkerPool::stop() {
     stopSource_.request_stop();
-    std::deque<Job> dropped;  // destroyed without holding the lock, because a job may own much memory
+    std::deque<Job> dropped;  // destroyed after the lock is released, because a job may own much memory
     {
         const std::lock_guard lock(mutex_);
         stopping_ = true;
@@ -94,18 +94,18 @@ void WorkerPool::run(std::size_t worker) {
             if (options_.forkJoin != nullptr) work.emplace(*options_.forkJoin);
             runJob(next->job, worker);
         }
-        next->job = nullptr;  // destroys what the job owns while the mutex is not locked
+        next->job = nullptr;  // destroys what the job owns, while the mutex is not locked
         const Seconds took = options_.now() - start;
         lock.lock();
         busyTime_ += took;
         queue_.recordJobEnd(*next, took);
-        if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may start now
+        if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may be allowed to start now
     }
 }
 
-/// Waits until a job may be ready to start. Meanwhile, if no job is queued within kIdleDelay, runs `whenIdle` and sets
-/// `used` and cleanUp_ to false; does so only if one of them is true. `used`: whether the worker has run a job since it
-/// last ran `whenIdle`; true if it has never run `whenIdle`.
+/// Waits until a job may be ready to start. If `used` or cleanUp_ is true and no job is queued within kIdleDelay, runs
+/// `whenIdle` and sets both to false. `used` says whether the worker has run a job since it last ran `whenIdle`; it is
+/// true if the worker has never run `whenIdle`.
 void WorkerPool::waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
     if (queue_.waiting() > 0) {
         wake_.wait_for(lock, kRecheckInterval);

@@ -15,18 +15,19 @@
 
 namespace oval4d::parallel {
 
-/// Thrown by functions that call WorkerPool::post(), to report that the pool rejected a job because its queue is full.
+/// An exception that callers of WorkerPool::post() throw, to report that the pool has rejected a job because its queue
+/// is full.
 class QueueFull : public std::runtime_error {
   public:
     QueueFull() : std::runtime_error("too many jobs are queued") {}
 };
 
-/// A pool of worker threads that run jobs in the order of a FairQueue. Each job receives the index of its worker, from
-/// 0 to PoolOptions::threads − 1, so that it can use data that belongs to the worker. Thread-safe. However, while
-/// stop() runs, neither size() nor stop() may be called.
+/// A pool of worker threads that run jobs in the order of a FairQueue (divides their time fairly among clients). Each
+/// job receives the index of its worker, from 0 to PoolOptions::threads − 1, so that it can use data that belong to the
+/// worker. Thread-safe. However, while stop() runs, neither size() nor stop() may be called.
 class WorkerPool {
   public:
-    using JobArgument = std::size_t;  ///< the type of a job's argument: the index of the worker
+    using JobArgument = std::size_t;  ///< the type of the argument of a job: the index of the worker
     using Job = FairQueue::Job;       ///< called with the index of the worker
     using Seconds = FairQueue::Seconds;
     using ClientFlow = FairQueue::ClientFlow;
@@ -36,13 +37,13 @@ class WorkerPool {
     using Limits = FairQueue::Limits;
 
     struct PoolOptions {
-        std::size_t threads = 1;                 ///< number of worker threads
-        Limits limits = {};                      ///< limits on the numbers of waiting jobs
-        Job onThreadStart = [](std::size_t) {};  ///< called once by each worker before its other jobs
-        /// Called by a worker that has been idle for kIdleDelay since its last job, to free cached memory.
+        std::size_t threads = 1;                 ///< the number of worker threads
+        Limits limits = {};                      ///< the maximum numbers of waiting jobs
+        Job onThreadStart = [](std::size_t) {};  ///< each worker calls this function once, before its other jobs
+        /// A worker calls this function when it has been idle for kIdleDelay since its last job, to free cached memory.
         std::function<void(std::size_t worker)> whenIdle = [](std::size_t) {};
-        ForkJoin* forkJoin = nullptr;  ///< if not null, is told that one processor is busy during each job
-        /// Returns the current time, by which jobs are scheduled and measured. Tests pass a function that returns a
+        ForkJoin* forkJoin = nullptr;  ///< if not null, it counts one more processor as busy during each job
+        /// Returns the current time, with which jobs are scheduled and measured. Tests pass a function that returns a
         /// virtual time.
         std::function<FairQueue::Clock::time_point()> now = FairQueue::Clock::now;
     };
@@ -52,19 +53,20 @@ class WorkerPool {
     ~WorkerPool();
 
     /// Queues `job` in `jobQueue`. `cost` is the estimated running time of the job. If `jobQueue` is null, queues the
-    /// job in one job queue that all such jobs share. A job must not throw, except Canceled after stop(). Returns
-    /// false, and drops the job, if a limit on the number of waiting jobs is reached (see PoolOptions::limits). After
-    /// stop(), drops the job and returns true, because no such limit is the cause.
+    /// job in a common job queue for all such jobs. A job must not throw, except Canceled after stop(). Returns false,
+    /// and drops the job, if a limit on the number of waiting jobs is reached (see PoolOptions::limits). After stop(),
+    /// drops the job and returns true, because no limit is reached.
     [[nodiscard]] bool post(Job job, JobQueuePtr jobQueue, Seconds cost);
 
-    /// Makes one worker call PoolOptions::whenIdle after the worker has been idle for kIdleDelay, even if it has run no
-    /// job since its last call of `whenIdle`.
+    /// Makes one worker call PoolOptions::whenIdle after it has been idle for kIdleDelay, even if it has run no job
+    /// since its last call of `whenIdle`.
     void cleanUpWhenIdle();
 
     /// Drops the waiting jobs, requests the running jobs to stop, and waits until all threads have ended.
     void stop();
 
-    /// Returns the token through which stop() requests a stop. Long jobs should check it and end early.
+    /// Returns the token through which stop() requests a stop. Long jobs should check this token, and end early if a
+    /// stop is requested.
     std::stop_token stopToken() const { return stopSource_.get_token(); }
 
     /// Returns the number of threads; 0 after stop().
@@ -73,7 +75,7 @@ class WorkerPool {
     std::size_t waiting() const;
     /// Returns whether a waiting job could start if one more thread were free.
     bool hasStartableJob();
-    /// Returns the total running time of all jobs that have ended.
+    /// Returns the total running time, in seconds, of all jobs that have ended.
     Seconds busyTime() const;
 
   private:
@@ -81,14 +83,15 @@ class WorkerPool {
     void waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const PoolOptions options_;
-    const JobQueuePtr common_ = std::make_shared<JobQueue>(std::make_shared<ClientFlow>());  // for all jobs without one
+    // The job queue for all jobs that are posted without a job queue.
+    const JobQueuePtr common_ = std::make_shared<JobQueue>(std::make_shared<ClientFlow>());
     std::stop_source stopSource_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
-    // The next four members are guarded by mutex_, and so are the contents of job queues and clients.
+    // The mutex mutex_ guards the next four members, and the contents of job queues and clients.
     FairQueue queue_;
     Seconds busyTime_{0};
-    bool cleanUp_ = false;  // whether cleanUpWhenIdle() has been called, and no worker has called `whenIdle` since
+    bool cleanUp_ = false;  // whether a worker must still call `whenIdle` because cleanUpWhenIdle() was called
     bool stopping_ = false;
     std::vector<std::thread> threads_;  // changed only by the constructor and stop()
 };

@@ -21,20 +21,20 @@ double elementTotal(const slicing::Object& object) {
 }
 
 /// Returns approximately how many elements a hyperplane cuts in a polytope that has n elements (vertices, edges, faces
-/// and cells). The elements form a three-dimensional boundary, which the hyperplane cuts in a two-dimensional surface:
-/// hence the exponent 2/3.
+/// and cells). The elements form a three-dimensional boundary, and the hyperplane cuts this boundary in a
+/// two-dimensional surface. Hence the exponent 2/3.
 double elementsCut(double n) { return std::pow(n, 2.0 / 3); }
 
-/// Returns the estimated time, in seconds, to extract the surfaces of a field, and to draw or write them; 0 for other
-/// objects, and if faces are hidden. `slices`: number of slices. `cubes`: number of lattice cubes across the field's
-/// diameter.
+/// Returns the estimated time, in seconds, to extract the surfaces of a field and to draw or write them. Returns 0 for
+/// other objects, and if faces are hidden. `slices` is the number of slices, and `cubes` the number of lattice cubes
+/// across the diameter of the field.
 double surfaceSeconds(const scene::PictureRequest& picture, double slices, double cubes, slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(picture.object);
     if (field == nullptr || !picture.look.parts.faces) return 0;
     const slicing::SurfaceLimits limits = slicing::surfaceLimits(quality);
     const fields::EvaluationCost cost = field->function->cost();
-    // Assumes that a surface crosses 1.5 times as many lattice cubes as a plane through the field, and has one point in
-    // each of these cubes. About three lattice points are sampled for each point of the surface.
+    // A surface is assumed to cross 1.5 times as many lattice cubes as a plane through the field, and to have one point
+    // in each of these cubes. About three lattice points are sampled for each point of the surface.
     const double points = 1.5 * slices * cubes * cubes * static_cast<double>(picture.look.field.levels.size());
     const bool isColored = field->second != nullptr && scene::colorsByValue(picture.look);
     const double coloring = isColored ? field->second->function->cost().value : 0;
@@ -42,45 +42,46 @@ double surfaceSeconds(const scene::PictureRequest& picture, double slices, doubl
     return 1e-9 * std::min(limits.time, extraction) + 1.5e-7 * std::min(points, static_cast<double>(limits.points));
 }
 
-/// Returns the estimated time, in seconds, to make exact surfaces of a field and to write them; 0 for other objects.
+/// Returns the estimated time, in seconds, to make exact surfaces of a field and to write them. Returns 0 for other
+/// objects.
 double exactSurfaceSeconds(const scene::PictureRequest& picture, double slices) {
     const fields::Field* field = slicing::fieldIn(picture.object);
     if (field == nullptr) return 0;
-    double cells = slicing::ClosedSurfaceSlicer::kFormulaCells;  // along an axis
+    double cells = slicing::ClosedSurfaceSlicer::kFormulaCells;  // the number of lattice cells along an axis
     if (field->array != nullptr) {
         const double samples = static_cast<double>(fields::sampleCount(field->array->shape()));
         cells = std::pow(samples, 0.25);
     }
-    constexpr double kSecondsPerCell = 5e-5;  // of a lattice cell that the surface crosses
+    constexpr double kSecondsPerCell = 5e-5;  // for each lattice cell that the surface crosses
     return kSecondsPerCell * cells * cells * slices * static_cast<double>(picture.look.field.levels.size());
 }
 
-/// Returns the estimated time, in seconds, to sample the fog of a field, and to draw it in this many pixels or to write
-/// it; 0 if the field shows no fog. `slices`: number of slices. `cubes`: number of lattice cubes across the field's
-/// diameter.
+/// Returns the estimated time, in seconds, to sample the fog of a field and to draw it in `pixels` pixels or to write
+/// it. Returns 0 if the field shows no fog. `slices` is the number of slices, and `cubes` the number of lattice cubes
+/// across the diameter of the field.
 double fogSeconds(const scene::PictureRequest& picture, double slices, double cubes, double pixels,
                   slicing::Quality quality) {
     const fields::Field* field = slicing::fieldIn(picture.object);
     if (field == nullptr || picture.look.field.fog.empty()) return 0;
-    // The lattice in a slice is assumed to fill a third of the cube around the circumscribed sphere of the field.
+    // The fog lattice in a slice is assumed to fill a third of the cube around the circumscribed sphere of the field.
     const double points = std::min(slices * std::pow(cubes, 3) / 3, static_cast<double>(maxFogSamples(quality)));
     const double sampling = std::min(points * (field->function->cost().value + 3), surfaceLimits(quality).time);
     return 1e-9 * sampling + 5e-9 * points + 5e-9 * pixels * std::min(cubes, std::cbrt(points / slices));
 }
 
-/// Returns the estimated time, in seconds, to slice an object, without the surfaces of a field, and to compose its
-/// scene.
+/// Returns the estimated time, in seconds, to slice an object, without the surfaces of a field, and to compose the
+/// scene of the slices.
 double boxSeconds(const scene::PictureRequest& picture) {
     const double n = elementTotal(picture.object);
     return 1e-4 + 1e-7 * n + 1e-7 * picture.planes.count * elementsCut(n);
 }
 
-/// Returns the estimated time, in seconds, to find the surface of a field at a pixel, or the contours of the matrix; 0
-/// for other objects, and if faces are hidden.
+/// Returns the estimated time, in seconds, to find the surface of a field at a pixel, or the contours of the matrix.
+/// Returns 0 for other objects, and if faces are hidden.
 double raySeconds(const scene::PictureRequest& picture) {
     const fields::Field* field = slicing::fieldIn(picture.object);
     if (field == nullptr || !picture.look.parts.faces) return 0;
-    constexpr double kSlices = 3;  // that the ray through a pixel meets
+    constexpr double kSlices = 3;  // the number of slices that the ray through a pixel meets
     const double cost = field->function->cost().value;
     const double contours = std::min(slicing::maxContourTime(slicing::Quality::full),
                                      6 * slicing::kMaxContourSquares * slicing::kMaxContourSquares * (cost + 3));
@@ -95,14 +96,15 @@ EstimatedSeconds frameCost(const scene::PictureRequest& picture) {
     const double n = elementTotal(picture.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = picture.planes.count * (2e-5 + 1.2e-6 * elementsCut(n));
-    const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // estimated number of faces blended at a pixel
-    // The focus slice takes up to half the picture's height. The other slices of the oval are smaller, and together
-    // have a few times as many pixels as the focus slice. So all slices count as kSlices slices of the size of the
+    const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the estimated number of faces blended at a pixel
+    // The focus slice takes up to half the height of the picture. The other slices of the oval are smaller. Together,
+    // they have a few times as many pixels as the focus slice. So all slices count as kSlices slices of the size of the
     // focus slice.
     constexpr double kSlices = 4;
     const double cubes = picture.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
     // In full quality, the lattice of each slice has at least cubesAcross() cubes across the diameter of the field,
-    // even if the slice is drawn small. Hence the greater of the two times.
+    // even if the slice is drawn small. Therefore the greater of two times counts: the time for the drawn size, and the
+    // time for this minimum.
     const double field =
         std::max(surfaceSeconds(picture, kSlices, cubes, quality),
                  surfaceSeconds(picture, picture.planes.count, slicing::cubesAcross(quality), quality)) +

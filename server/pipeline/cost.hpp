@@ -1,5 +1,5 @@
 #pragma once
-// Estimates of the time that it takes to make a picture or a file.
+// Estimates how long it takes to make a picture or a file.
 
 #include <chrono>
 
@@ -9,27 +9,27 @@
 
 namespace oval4d::pipeline {
 
-/// An estimated time in seconds, correct within a factor of three on one core of a processor of 2020. Depends on the
-/// number of elements of the object (for a field, on the cost of its function), the number of slices, the size of the
-/// picture and the quality.
+/// An estimated time in seconds, correct within a factor of three on one core of a processor of 2020. The estimate
+/// depends on the number of elements of the object (for a field, on the time to evaluate its function), the number of
+/// slices, the size of the picture and the quality.
 using EstimatedSeconds = std::chrono::duration<double>;
 
-/// Returns the estimated time of Pipeline::drawPng().
+/// Returns the estimated time of Pipeline::drawPng() for this picture.
 EstimatedSeconds frameCost(const scene::PictureRequest& picture);
 
-/// Returns the estimated time of Pipeline::slice() and Pipeline::writeSlices() together.
+/// Returns the estimated time of Pipeline::slice() and Pipeline::writeSlices() together for this picture.
 EstimatedSeconds geometryCost(const scene::PictureRequest& picture);
 
-/// Returns the estimated time of Pipeline::describePoint().
+/// Returns the estimated time of Pipeline::describePoint() for this picture.
 EstimatedSeconds pointCost(const scene::PictureRequest& picture);
 
-/// Returns the estimated time of slicing::sampleField() for a field.
+/// Returns the estimated time of slicing::sampleField() if `object` is a field.
 EstimatedSeconds sampleCost(const slicing::Object& object);
 
-/// Returns the estimated time of Pipeline::nameFocusSection().
+/// Returns the estimated time of Pipeline::nameFocusSection() for this object.
 EstimatedSeconds focusSectionCost(const slicing::Object& object);
 
-/// Returns the estimated time of exportFile().
+/// Returns the estimated time of exportFile() for this picture and request.
 EstimatedSeconds exportCost(const scene::PictureRequest& picture, const exports::ExportRequest& request);
 
 }  // namespace oval4d::pipeline

@@ -22,8 +22,8 @@ namespace oval4d::pipeline {
 
 namespace {
 
-// Returns the hyperplanes at the values of w in `at`, which is ExportRequest::chosenW. These values are coordinates in
-// the object's file, as in the labels of slices.
+// Returns the hyperplanes at the values of w in `at` (ExportRequest::chosenW). These values are coordinates in the
+// object's file, as in the labels of slices.
 Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const scene::PictureRequest& picture) {
     const double origin = slicing::infoOf(picture.object).originInFile.w;
     const double reach = geometry::kMaxOffset * slicing::infoOf(picture.object).circumradius;
@@ -43,21 +43,21 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
     return geometry::Hyperplanes{0, static_cast<int>(at.size()), picture.planes.spacing, 0, std::move(own)};
 }
 
-// Divides the object's extent along w into `count` equal intervals, and returns the hyperplanes in the middles of the
-// intervals. If slices are thick, as those of a point cloud, the intervals are slightly longer, because a slice does
-// not contain the points at the upper end of its interval.
+// Divides the extent of the object along w into `count` equal intervals, and returns the hyperplanes in the middles of
+// the intervals. If slices are thick, as those of a point cloud, the intervals are slightly longer, because a slice
+// does not contain the points at the upper end of its interval.
 geometry::Hyperplanes fittingHyperplanes(int count, const scene::PictureRequest& picture) {
     const double larger = slicing::propertiesOf(picture.object).slicesAreThick ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(picture.object, picture.orientation);
     const double shortest = geometry::kMinSpacing * slicing::infoOf(picture.object).circumradius;
-    const double spacing = std::max(larger * (most - least) / count, shortest);  // a flat object may have no extent
+    // At least `shortest`, because a flat object may have no extent.
+    const double spacing = std::max(larger * (most - least) / count, shortest);
     const double middle = (least + most) / 2;
     return {-(count - 1) / 2, count, spacing, count % 2 == 1 ? middle : middle - spacing / 2};
 }
 
-// Returns the hyperplanes of the slices in the file. Errors: `bad_message` if the options contradict each other;
-// `out_of_range` for too many slices, for a number of slices less than 1, or for values of w that are too far away or
-// equal.
+// Returns the hyperplanes of the slices in the exported file. Errors: `bad_message` if the options contradict each
+// other; `out_of_range` if there are too many slices or fewer than 1, or if values of w are too far away or equal.
 Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& request, const scene::PictureRequest& picture,
                                             int maxSlices) {
     const bool all = request.contents == exports::ExportContentsKind::oval;
@@ -81,9 +81,9 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     return hyperplanesAt(request.chosenW, picture);
 }
 
-// Returns a set whose only slice is the projection of the whole object, to be exported instead of `slices`. The
-// projection is orthogonal if the picture shows an orthogonal projection, else perspective. `occlusionSteps`: see
-// slicing::Projector::ProjectionOptions.
+// Returns a set whose only slice is the projection of the whole object. This set is exported instead of `slices`. The
+// projection is orthogonal if the picture shows an orthogonal projection, else perspective. `occlusionSteps` limits the
+// time: see slicing::Projector::ProjectionOptions.
 slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slicing::SliceSet& slices,
                                std::size_t occlusionSteps) {
     const scene::ProjectionSettings& settings = picture.look.projection;
@@ -101,8 +101,8 @@ slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slici
     return projected;
 }
 
-// Returns whether an export of a field with this request needs surfaces in its slices. Exact surfaces are made by
-// exportScene().
+// Returns whether an export of a field with this request needs the surfaces in the slices. Exact surfaces do not count,
+// because exportScene() makes them.
 bool readsFieldSurfaces(const exports::ExportRequest& request) {
     if (request.exact) return false;
     using enum exports::ExportContentsKind;
@@ -126,7 +126,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
                                                   text::outsideBoundsText(least, most, " millimeters", request.size)};
     }
     const bool isField = slicing::fieldIn(picture.object) != nullptr;
-    std::optional<slicing::Element> element;  // the highlighted element, if it is exported alone
+    std::optional<slicing::Element> element;  // the highlighted element, if only this element is exported
     if (request.contents == exports::ExportContentsKind::highlight && request.format->canContain(request.contents)) {
         element = picture.look.highlight;
         if (!element) {
@@ -135,7 +135,8 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
                          "17 on the command line or highlight=cell:17 in a query"};
         }
     }
-    const bool hasOwnLook = drawing || request.format->showsPicture;  // whether the file looks like the user's picture
+    // Whether the file looks like the picture that the user sees.
+    const bool hasOwnLook = drawing || request.format->showsPicture;
     const bool showsSlices = hasOwnLook && (request.contents == exports::ExportContentsKind::oval ||
                                             request.contents == exports::ExportContentsKind::focus);
     slicing::SliceSet slices;
@@ -159,7 +160,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
     scene::Look look;
     if (hasOwnLook) {
         look = picture.look;
-        if (drawing) look.background = scene::Background::white;  // because drawings are printed on white paper
+        if (drawing) look.background = scene::Background::white;  // drawings are printed on white paper
         if (request.contents == exports::ExportContentsKind::matrix) {
             look.view = scene::View::matrix;
         } else if (request.contents != exports::ExportContentsKind::oval) {
@@ -175,24 +176,25 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
         }
     }
     look.coloring = picture.look.coloring;
-    look.parts.coordinates = false;  // export/drawing/ lays out the parallel coordinates itself
+    look.parts.coordinates = false;  // the code in export/drawing/ lays out the parallel coordinates itself
     look.field = picture.look.field;
-    if (!hasOwnLook) look.parts.faces = isField;  // show the surfaces of fields, but do not fill faces
+    // Show the surfaces of fields, but do not fill the faces of other objects.
+    if (!hasOwnLook) look.parts.faces = isField;
     scene::Scene scene;
     scene::Composer composer;
     composer.limitFaceFilling(PictureWorkLimits().fillSteps);
     composer.limitOcclusion(limits.occlusionSteps);
-    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size,
-    // with width and height exchanged for a tall view.
+    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size;
+    // for a tall view, width and height are exchanged.
     const bool isSquare = showsSlices && request.contents == exports::ExportContentsKind::focus;
     scene::Viewport viewport;
     if (isSquare) viewport.width = viewport.height;
     if (isExportedInPortrait(look.view)) std::swap(viewport.width, viewport.height);
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(picture.object, picture.orientation, slices, focus, look, viewport, scene, slicing::Quality::file);
-    if (element) scene.look.highlight = element;  // set only now, because compose() would color the element differently
+    if (element) scene.look.highlight = element;  // set only after compose(), which would color the element differently
     // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
-    // also shows the focus point, as the view `matrix` does.
+    // also shows the focus point, as this view does.
     if (isSquare && picture.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
     auto made = exports::exportScene(scene, picture.object, picture.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {

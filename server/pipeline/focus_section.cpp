@@ -7,7 +7,8 @@ namespace oval4d::pipeline {
 
 bool FocusSectionNamer::isFast(const slicing::Object& object) {
     constexpr std::size_t kFew = 1000;
-    if (!slicing::propertiesOf(object).sectionsHaveNames) return true;  // see SectionNamer::mayHaveName()
+    // The sections have no names, so nothing is cut: see SectionNamer::mayHaveName().
+    if (!slicing::propertiesOf(object).sectionsHaveNames) return true;
     const auto counts = slicing::elementCounts(object);
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0}) <= kFew;
 }

@@ -20,7 +20,7 @@ scene::Viewport usualViewport(const FrameLimits& limits) {
     scene::Viewport out;
     out.height = std::max(limits.minSide, static_cast<int>(height * scale));
     out.width = beside(out.height, width);
-    out.height = beside(out.width, out.height);  // lower than before if minSide has enlarged the width
+    out.height = beside(out.width, out.height);  // less than before if minSide has enlarged the width
     return out;
 }
 

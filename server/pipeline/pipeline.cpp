@@ -86,7 +86,7 @@ const slicing::SliceSet& Pipeline::sliceToPointAt(const scene::PictureRequest& p
     auto& [input, slices] = workspace_.toPointAt;
     SlicesToPointAt::Input wanted{slicing::infoOf(picture.object).serial, picture.orientation, picture.planes};
     if (input != wanted) {
-        input.reset();  // in case of an exception
+        input.reset();  // so that `slices` does not count as valid if one of the next calls throws
         slicing::checkSliceEdges(picture.object, picture.orientation, wanted.planes, limits_.sliceEdges);
         workspace_.slicer.sliceWithoutSurfaces(picture.object, picture.orientation, wanted.planes, slices);
         input = std::move(wanted);

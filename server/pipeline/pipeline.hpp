@@ -22,64 +22,68 @@
 
 namespace oval4d::pipeline {
 
-/// The seconds that each step of a picture took; 0 for a step that was not run. In addition to the steps of
-/// raster::DrawTimes: `write`, to write a `slices` message, and `encode`, to encode a PNG file.
+/// The time that each step of making a picture took, in seconds; 0 for a step that did not run. `write` is the time to
+/// write a `slices` message, and `encode` the time to encode a PNG file. raster::DrawTimes has the times of the other
+/// steps.
 struct PictureTimes : raster::DrawTimes {
     double write = 0, encode = 0;
 };
 
-/// Limits on the time and the memory that a picture takes.
+/// Limits on the time and the memory that making a picture takes.
 struct PictureWorkLimits {
-    std::size_t fillSteps = 20'000'000;  ///< steps to fill self-intersecting faces (see slicing::FaceFiller::fill())
-    std::size_t sliceEdges = 5'000'000;  ///< edges of all slices together (see slicing::checkSliceEdges())
-    /// Steps to find what lies behind other cells (see slicing::OcclusionFinder::find()).
+    /// The maximum number of steps to fill self-intersecting faces (see slicing::FaceFiller::fill()).
+    std::size_t fillSteps = 20'000'000;
+    /// The maximum number of edges of all slices together (see slicing::checkSliceEdges()).
+    std::size_t sliceEdges = 5'000'000;
+    /// The maximum number of steps to find which elements lie behind other cells (see
+    /// slicing::OcclusionFinder::find()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 
-/// Makes of a picture's description what a client displays: a `slices` message (picture → slices → scene → message) or
-/// a PNG file (picture → pixels → file). Used by the server and the command line. Keeps its memory between calls. A
-/// pipeline may be used by one thread at a time.
+/// Makes from the description of a picture what a client displays: a `slices` message (picture → slices → scene →
+/// message) or a PNG file (picture → pixels → file). Used by the server and the command line. Keeps its memory between
+/// calls. Only one thread at a time may use a pipeline.
 class Pipeline {
   public:
-    /// `rasterizer` draws the frames. `forkJoin` lets large objects and pictures be processed on two cores, and must
-    /// outlive this object; if it is null, one core is used. PictureWorkLimits::fillSteps and
-    /// PictureWorkLimits::occlusionSteps limit only messages; the rasterizer has limits of its own.
+    /// `rasterizer` draws the pictures. If `forkJoin` is not null, large objects and pictures are processed on two
+    /// cores; `forkJoin` must outlive this object. PictureWorkLimits::fillSteps and PictureWorkLimits::occlusionSteps
+    /// limit only messages, because the rasterizer has limits of its own.
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              PictureWorkLimits limits = {});
 
     /// Returns the section in the focus slice with its two names, for the `state` message: the name of the slice, such
     /// as "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
-    /// slicing::SectionNamePair). A name that does not exist is empty. `slices`: the result of slice() for this
-    /// picture; null if it has not been sliced, and the focus slice must be cut. If this section was named last,
-    /// returns the same names without finding them again.
+    /// slicing::SectionNamePair). A name is empty if the section has no such name. `slices` is the result of slice()
+    /// for this picture; if it is null, the focus slice is cut. If this section was named last, returns the same names
+    /// without finding them again.
     slicing::NamedSection nameFocusSection(const scene::PictureRequest& picture,
                                            const slicing::SliceSet* slices = nullptr);
-    /// Lets the next calls take these names for this section, instead of finding them.
+    /// Gives the pipeline the names of a section, so that later calls need not find them.
     void keepFocusSection(const slicing::NamedSection& section);
 
-    /// Slices the object. Overwrites `out` and reuses its memory. Throws slicing::TooManySliceEdges if the slices
-    /// exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the samples of a field are in a file that can no
-    /// longer be read.
+    /// Slices the object of the picture, and writes the slices to `out`. Overwrites `out` and reuses its memory. Throws
+    /// slicing::TooManySliceEdges if the slices exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the
+    /// samples of a field are in a file that can no longer be read.
     void slice(const scene::PictureRequest& picture, slicing::SliceSet& out);
 
-    /// Writes the `slices` message of `slices`, the result of slice() for this picture; their looks and viewports may
-    /// differ. `revision` is Session::revision. `id` is the id of the request that the message answers; empty if there
-    /// is none. Overwrites `out`.
+    /// Writes to `out` the `slices` message for this picture. `slices` is the result of slice() for this picture, or
+    /// for a picture that differs only in its look and viewport. `revision` is Session::revision. `id` is the id of the
+    /// request that the message answers; empty if there is none. Overwrites `out`.
     void writeSlices(const scene::PictureRequest& picture, const slicing::SliceSet& slices, std::uint64_t revision,
                      std::optional<double> id, wire::Encoding encoding, std::string& out);
 
     /// Returns the `at` message, which says what the picture shows at `point`, in pixels from the upper left corner
-    /// (see scene::pickElement() and scene::pickLevel()). `revision` and `id`: see writeSlices(). Slices the object,
-    /// unless the last call has cut the same slices; extracts no surfaces of a field, but evaluates its function along
-    /// one ray and, in the matrix, for the contours. Throws slicing::TooManySliceEdges and std::runtime_error as
-    /// slice() does.
+    /// (see scene::pickElement() and scene::pickLevel()). `revision` is Session::revision. `id` is the id of the
+    /// request that the message answers; empty if there is none. Slices the object, unless the last call has cut the
+    /// same slices. Extracts no surfaces of a field; instead, evaluates its function along one ray and, in the matrix,
+    /// for the contours. Throws slicing::TooManySliceEdges and std::runtime_error as slice() does.
     std::string describePoint(const scene::PictureRequest& picture, std::uint64_t revision, std::optional<double> id,
                               glm::dvec2 point);
 
     /// Draws the picture and encodes it as a PNG file, with `stateText`, the `state` message, in a text chunk.
     /// Overwrites `out`. Calls `drawn`, if given, when the picture is drawn but not yet encoded. Throws
-    /// slicing::TooManySliceEdges as slice() does, and std::runtime_error if the picture cannot be drawn, most likely
-    /// because no GL context can be created.
+    /// slicing::TooManySliceEdges as slice() does. Throws std::runtime_error if the picture cannot be drawn; the most
+    /// likely reason is that no GL context can be created.
     void drawPng(const scene::PictureRequest& picture, std::string_view stateText, std::vector<std::uint8_t>& out,
                  const std::function<void()>& drawn = {});
 
@@ -87,19 +91,19 @@ class Pipeline {
     void warmUp() { rasterizer_->warmUp(); }
 
     /// Frees the memory that the pipeline keeps for the next picture, which is as much as the largest picture needed.
-    /// Call this when the pipeline is idle, because allocating the memory again takes a few milliseconds.
+    /// Call this function when the pipeline is idle, because allocating the memory again takes a few milliseconds.
     void freeMemory();
 
-    /// Returns the times of the last calls. slice() and drawPng() first set all times to 0; writeSlices() replaces
-    /// only `compose` and `write`.
+    /// Returns the times of the last calls. slice() and drawPng() first set all times to 0. writeSlices() replaces only
+    /// `compose` and `write`.
     const PictureTimes& times() const { return times_; }
 
   private:
-    // The slices of the last describePoint(), without the surfaces and the fog of a field, and all that determines
-    // them.
+    // The slices of the last call of describePoint(), without the surfaces and the fog of a field, and the data that
+    // determine them.
     struct SlicesToPointAt {
         struct Input {
-            std::uint64_t object = 0;  // the serial number
+            std::uint64_t object = 0;  // the serial number of the object
             geometry::Rotation orientation;
             geometry::Hyperplanes planes;
             bool operator==(const Input&) const = default;
@@ -108,7 +112,7 @@ class Pipeline {
         slicing::SliceSet slices;
     };
 
-    // Memory that the next call reuses.
+    // The objects and the memory that the next call reuses.
     struct Workspace {
         explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
         slicing::Slicer slicer;

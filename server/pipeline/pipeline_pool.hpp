@@ -11,35 +11,36 @@
 
 namespace oval4d::pipeline {
 
-/// A worker pool in which each worker thread has its own Pipeline. A job receives the pipeline of the worker that runs
-/// it. Thread-safe.
+/// A pool of worker threads, each with its own Pipeline (makes messages and pictures). A job receives the pipeline of
+/// the worker that runs the job. Thread-safe.
 class PipelinePool {
   public:
     using JobArgument = Pipeline&;  ///< the type of the parameter of a job
     using Job = std::function<void(Pipeline&)>;
 
     struct PoolOptions {
-        std::size_t threads = 1;                   ///< number of workers
-        parallel::WorkerPool::Limits limits = {};  ///< maximum numbers of waiting jobs
+        std::size_t threads = 1;                   ///< the number of workers
+        parallel::WorkerPool::Limits limits = {};  ///< the maximum numbers of waiting jobs
         PictureWorkLimits pictures = {};
-        /// Called once by each worker, to make the rasterizer of its pipeline. `stop`: see WorkerPool::stopToken().
+        /// Called once by each worker, to make the rasterizer of its pipeline. `stop` is the token through which
+        /// WorkerPool::stop() requests a stop.
         std::function<std::unique_ptr<raster::Rasterizer>(std::stop_token stop)> makeRasterizer;
-        Job onThreadStart = [](Pipeline&) {};  ///< run once by each worker before any other job
+        Job onThreadStart = [](Pipeline&) {};  ///< each worker runs this job once, before any other job
     };
 
-    /// The pipelines use `forkJoin`. Idle workers free the memory of their pipelines, and return it to the operating
-    /// system through `heap`. `forkJoin` and `heap` must outlive the pool.
+    /// Starts the workers. Their pipelines use `forkJoin`. Idle workers free the memory of their pipelines, and return
+    /// it to the operating system through `heap`. `forkJoin` and `heap` must outlive the pool.
     PipelinePool(PoolOptions options, parallel::ForkJoin& forkJoin, process::ProcessHeap& heap);
 
-    /// Queues a job; returns false, and drops the job, if a limit on waiting jobs is reached. See WorkerPool::post().
+    /// Queues a job. Returns false, and drops the job, if a limit on waiting jobs is reached. See WorkerPool::post().
     [[nodiscard]] bool post(Job job, parallel::WorkerPool::JobQueuePtr jobQueue, parallel::WorkerPool::Seconds cost);
 
     const parallel::WorkerPool& workers() const { return workers_; }
     parallel::WorkerPool& workers() { return workers_; }
 
   private:
-    std::vector<std::unique_ptr<Pipeline>> pipelines_;  // one for each worker
-    parallel::WorkerPool workers_;                      // declared last, because its threads use the other members
+    std::vector<std::unique_ptr<Pipeline>> pipelines_;  // one pipeline for each worker
+    parallel::WorkerPool workers_;                      // declared last, because the threads use the other members
 };
 
 }  // namespace oval4d::pipeline

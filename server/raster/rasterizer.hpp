@@ -15,26 +15,28 @@
 
 namespace oval4d::raster {
 
-/// How many seconds each step of drawing a picture took: slicing the object, composing the scene, and rendering the
-/// scene.
+/// The time that each step of drawing a picture took, in seconds: slicing the object, composing the scene, and
+/// rendering the scene.
 struct DrawTimes {
     double slice = 0, compose = 0, draw = 0;
 };
 
-/// Draws pictures, in this process or in another one. Only one thread at a time may use a rasterizer.
+/// The interface of rasterizers, which draw pictures in this process or in another one. Only one thread at a time may
+/// use a rasterizer.
 class Rasterizer {
   public:
     virtual ~Rasterizer() = default;
 
-    /// Prepares for drawing, so that the first picture takes no longer than later ones. Returns when the rasterizer is
-    /// ready to draw. Throws std::runtime_error if pictures cannot be drawn.
+    /// Prepares for drawing, so that the first picture takes no longer than later pictures. Returns when the rasterizer
+    /// is ready to draw. Throws std::runtime_error if pictures cannot be drawn.
     virtual void warmUp() = 0;
 
-    /// Draws a picture and sets `times`. Returns the pixels, with the layout of image::Image, which are valid until the
-    /// next call of draw() or freeMemory(). Throws std::runtime_error if drawing fails.
+    /// Draws a picture, and sets `times` to the times of the steps. Returns the pixels, with the layout of
+    /// image::Image. They are valid until the next call of draw() or freeMemory(). Throws std::runtime_error if drawing
+    /// fails.
     virtual std::span<const std::uint8_t> draw(const scene::PictureRequest& picture, DrawTimes& times) = 0;
 
-    /// Frees the memory that this object keeps between pictures. The next picture takes longer to draw.
+    /// Frees the memory that this object keeps between pictures. The next picture then takes longer to draw.
     virtual void freeMemory() = 0;
 };
 
@@ -42,13 +44,13 @@ class Rasterizer {
 /// only the thread that made this call may use and destroy the rasterizer.
 class LocalRasterizer : public Rasterizer {
   public:
-    /// If `forkJoin` is not null, slicing and drawing use two cores. `forkJoin` must outlive this object.
+    /// If `forkJoin` is not null, the rasterizer slices and draws on two cores. `forkJoin` must outlive this object.
     explicit LocalRasterizer(parallel::ForkJoin* forkJoin = nullptr) : forkJoin_(forkJoin), workspace_(forkJoin) {}
 
     /// Limits the time for filling self-intersecting faces in each picture to `steps` steps (see
     /// slicing::FaceFiller::fill()).
     void limitFaceFilling(std::size_t steps) { fillSteps_ = steps; }
-    /// Limits the time for finding what lies behind other cells in each picture to `steps` steps (see
+    /// Limits the time for finding which elements lie behind other cells in each picture to `steps` steps (see
     /// slicing::OcclusionFinder::find()).
     void limitOcclusion(std::size_t steps) { occlusionSteps_ = steps; }
 
@@ -58,12 +60,12 @@ class LocalRasterizer : public Rasterizer {
     /// GL context.
     void freeMemory() override;
 
-    /// Draws into `pixels`. Throws std::invalid_argument if `pixels` does not have the size of the viewport (see
-    /// image::byteCount()).
+    /// Draws a picture into `pixels`, and sets `times`. Throws std::invalid_argument if `pixels` does not have the size
+    /// of the viewport (see image::byteCount()).
     void draw(const scene::PictureRequest& picture, std::span<std::uint8_t> pixels, DrawTimes& times);
 
   private:
-    // What this object keeps between pictures, so that the next one needs no new memory.
+    // The objects that this rasterizer keeps between pictures, so that the next picture needs no new memory.
     struct Workspace {
         explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin) {}
         slicing::Slicer slicer;
@@ -81,8 +83,8 @@ class LocalRasterizer : public Rasterizer {
     Workspace workspace_;
 };
 
-/// Runs `work` and returns how many seconds it took. A template, because a parameter of the type std::function might
-/// allocate memory.
+/// Runs `work` and returns how long it took, in seconds. This function is a template because a parameter of the type
+/// std::function might allocate memory.
 template <typename Work>
 double measureSeconds(Work&& work) {
     const auto start = std::chrono::steady_clock::now();

@@ -8,8 +8,8 @@ namespace oval4d::raster {
 
 namespace {
 
-// Writes or reads the members of a request, except the objects and the orientation. All members are named, so that this
-// function does not compile without a new member.
+// Writes or reads the members of a request, except the objects and the orientation. All members are named here. So if a
+// member is added to the request, this function does not compile until it handles the member.
 void archiveMembers(auto& picture, auto& archive) {
     auto& [source, frame, object, orientation, planes, focus, look, viewport, quality] = picture;
     archive(frame), archive(planes), archive(focus), archive(look), archive(viewport), archive(quality);

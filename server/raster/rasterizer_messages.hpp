@@ -1,5 +1,5 @@
 #pragma once
-// Messages between the server and its rasterizer processes.
+// Encodes and decodes messages between the server and its rasterizer processes (which draw pictures).
 
 #include <cstddef>
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace oval4d::raster {
 
-/// Limits on the work and memory of a rasterizer process.
+/// Limits on the work and memory of a rasterizer process (draws pictures for the server).
 struct RasterizerLimits {
-    std::size_t fillSteps = 0;    ///< the maximum number of steps in one picture; see slicing::FaceFiller::fill()
-    std::size_t objectBytes = 0;  ///< the maximum size of the cache of objects; the latest object may exceed it
-    /// The maximum number of steps in one picture; see slicing::OcclusionFinder::find().
+    std::size_t fillSteps = 0;  ///< the maximum number of steps in one picture (see slicing::FaceFiller::fill())
+    /// the maximum size of the cache of objects, in bytes; the latest object may exceed it
+    std::size_t objectBytes = 0;
+    /// The maximum number of steps in one picture (see slicing::OcclusionFinder::find()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;
 };
 
-/// The request for one picture.
+/// A request to draw one picture.
 struct DrawRequest {
-    /// The serial number of scene::PictureRequest::source. The object itself is sent in a separate message, and only if
-    /// the rasterizer process does not have this object in its cache.
+    /// The serial number of the object scene::PictureRequest::source. The object itself is sent in a separate message,
+    /// and only if the rasterizer process does not have the object in its cache.
     std::uint64_t source = 0;
     /// The serial number of scene::PictureRequest::object. This object is never sent: the rasterizer process makes it
     /// from the source object and the frame of reference.
@@ -31,10 +32,10 @@ struct DrawRequest {
     RasterizerLimits limits;
 };
 
-/// Encodes a draw request. Overwrites `out`.
+/// Encodes a request to draw `picture` within `limits`. Overwrites `out`.
 void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits& limits, std::string& out);
-/// Decodes a draw request. Overwrites the members of `out` that are sent. Throws std::runtime_error if bytes are
-/// missing or damaged, or if the orientation is not a rotation.
+/// Decodes a draw request from the bytes that encodeRequest() wrote. Overwrites the members of `out` that are sent.
+/// Throws std::runtime_error if bytes are missing or damaged, or if the orientation is not a rotation.
 void decodeRequest(std::string_view bytes, DrawRequest& out);
 
 }  // namespace oval4d::raster

@@ -16,7 +16,8 @@ using process::WaitLimit;
 
 namespace {
 
-// The maximum length of an answer in bytes. The longest answers say why a picture failed.
+// The maximum length of an answer of a rasterizer process, in bytes. The longest answers are messages that say why a
+// picture failed.
 constexpr std::size_t kMaxAnswer = 64U << 10U;
 
 process::ChildOptions childOptions(int threads, const RasterizerOptions& options) {
@@ -34,8 +35,8 @@ process::ChildOptions childOptions(int threads, const RasterizerOptions& options
 RasterizerProcess::RasterizerProcess(int threads, const RasterizerOptions& options)
     : limits_(options.limits), process_(childOptions(threads, options)) {}
 
-/// Receives messages until one of the type `drawn` or `failed` comes, and keeps its type in answer_ and its body in
-/// body_. Sends the object `source` if the process asks for it.
+/// Receives messages until a message of the type `drawn` or `failed` comes. Keeps the type of this message in answer_
+/// and its body in body_. Sends the object `source` if the process asks for it.
 TransferResult RasterizerProcess::receiveAnswerSendingObject(const slicing::Object& source, const Channel& channel,
                                                              const WaitLimit& limit) {
     for (bool sent = false;; sent = true) {
@@ -44,7 +45,7 @@ TransferResult RasterizerProcess::receiveAnswerSendingObject(const slicing::Obje
             return transfer;
         if (answer_ != MessageType::object_missing || sent)
             throw std::runtime_error("a rasterizer process sent an unexpected message");
-        std::string object;  // local, so that its memory is freed: the object is large and rarely sent
+        std::string object;  // a local variable, so that its memory is freed: the object is large and rarely sent
         slicing::MappedFiles files;
         slicing::encodeObject(source, object, files);
         for (const auto& file : files) {

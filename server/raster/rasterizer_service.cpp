@@ -24,12 +24,12 @@ using process::WaitLimit;
 
 namespace {
 
-/// A cache of the most recently drawn objects, the latest first. It keeps two forms of each object: as it was loaded
-/// (`source`), and in the frame of reference in which it was drawn last (`inFrame`).
+/// A cache of the most recently drawn objects, the latest first. The cache keeps two forms of each object: as the
+/// object was loaded (`source`), and in the frame of reference in which the object was drawn last (`inFrame`).
 class RecentObjects {
   public:
-    /// Returns the object of a request, in the frame of reference of the request; null if the source object of the
-    /// request is not in the cache.
+    /// Returns the object of a request, in the frame of reference of the request. Returns null if the source object of
+    /// the request is not in the cache.
     const slicing::Object* find(const DrawRequest& request) {
         const auto found = std::ranges::find(
             kept_, request.source, [](const KeptObject& kept) { return slicing::infoOf(kept.source).serial; });
@@ -44,7 +44,7 @@ class RecentObjects {
         return &found->inFrame;
     }
     /// Adds an object, in the form in which it was loaded, as the latest object. `bytes` is the memory that the object
-    /// takes.
+    /// takes, in bytes.
     void add(const slicing::Object& source, std::size_t bytes) {
         kept_.push_front({source, source, bytes});
         bytes_ += bytes;
@@ -72,14 +72,15 @@ class RasterizerService {
 
     void run(const process::Confinement& confinement) {
         const bool ready = attempt([&] {
-            rasterizer_.warmUp();  // before confine(), because warmUp() reads the font and other files
+            rasterizer_.warmUp();  // called before confine(), because warmUp() reads the font and other files
             process::confine(process::SandboxRole::draw, confinement);
         });
         if (!ready) return;
         channel_.send(MessageType::ready);
         for (MessageType type{}; next(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
-            if (type == MessageType::file_descriptor) continue;  // the object that refers to this file comes later
+            // The object that refers to this file follows in a later message.
+            if (type == MessageType::file_descriptor) continue;
             if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.picture.object = *object;
@@ -91,8 +92,8 @@ class RasterizerService {
     }
 
   private:
-    /// Waits for the next message and receives it. Frees memory if no message comes for WorkerPool::kIdleDelay. Returns
-    /// false when the connection is closed.
+    /// Waits for the next message and receives it. If no message comes for WorkerPool::kIdleDelay, frees memory and
+    /// goes on waiting. Returns false when the connection is closed.
     bool next(MessageType& type) {
         if (!channel_.wait({WaitLimit::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
             rasterizer_.freeMemory();
@@ -102,7 +103,7 @@ class RasterizerService {
         if (channel_.receive(type, body_, &file) != TransferResult::complete) return false;
         if (type == MessageType::file_descriptor) takeFile(file);
         if (type != MessageType::draw) return true;
-        // The descriptor is missing if this process has too many files open, because the kernel then drops it.
+        // If this process has too many files open, the kernel drops the descriptor, so it is missing.
         if (file == Channel::kNoFile)
             throw std::runtime_error("a draw request arrived without the memory to draw into");
         auto pixels = std::make_unique<SharedPixels>(file);
@@ -112,7 +113,8 @@ class RasterizerService {
     }
 
     void takeFile(int descriptor) {
-        const fields::FileHandle file(descriptor);  // closed at the end: a mapping does not need its descriptor
+        // Closed at the end of this function: a mapping does not need its descriptor.
+        const fields::FileHandle file(descriptor);
         auto mapped = fields::MappedFile::map(file.descriptor());
         mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // null if mapping fails
     }
@@ -149,9 +151,10 @@ class RasterizerService {
     process::ProcessHeap& heap_;
     RecentObjects recent_;
     DrawRequest request_;
-    std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;  // by inode; one for each worker of the server
-    std::uint64_t currentFile_ = 0;                                      // the inode of the file to draw into
-    slicing::MappedFiles mapped_;                                        // the files to which the next object refers
+    // By the inode of the file; one for each worker of the server.
+    std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;
+    std::uint64_t currentFile_ = 0;  // the inode of the file into which the next picture is drawn
+    slicing::MappedFiles mapped_;    // the files to which the next object refers
     std::string body_;
 };
 

@@ -11,7 +11,7 @@ namespace oval4d::raster {
 
 namespace {
 
-// resize() shrinks a file whose size is more than this many times the requested size.
+// resize() shrinks the memory file if its size is more than this many times the requested size.
 constexpr std::size_t kWaste = 4;
 
 void check(bool done) {

@@ -1,5 +1,5 @@
 #pragma once
-// The memory of the pixels of a picture, shared by two processes.
+// Memory for the pixels of a picture that two processes share.
 
 #include <cstddef>
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace oval4d::raster {
 
-/// A memory file (memfd_create(2)) and its mapping into this process. Another process can map the same memory if it
-/// gets the file descriptor over a socket.
+/// Memory for pixels that two processes can share: a memory file (memfd_create(2)) and its mapping into this process.
+/// Another process can map the same memory if it gets the file descriptor over a socket.
 class SharedPixels {
   public:
-    /// Creates an empty file. Throws std::system_error if that fails.
+    /// Creates an empty memory file. Throws std::system_error if the file cannot be created.
     SharedPixels();
     /// Takes ownership of `file`, the descriptor of a memory file that another process has created. Throws
     /// std::system_error if the descriptor is invalid.
@@ -20,19 +20,18 @@ class SharedPixels {
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
-    /// Makes the file large enough for `size` bytes. Shrinks the file if it has more than 4 times as many bytes.
     /// Returns the first `size` bytes, which are valid until the next call of resize() or remap(). Throws
     /// std::system_error if the file cannot be resized or mapped.
     std::span<std::uint8_t> resize(std::size_t size);
 
     /// Maps the file again if the other process has resized it. Returns the first `size` bytes, which are valid until
-    /// the next call of resize() or remap(). Throws std::system_error if the file cannot be mapped or is smaller than
-    /// `size`.
+    /// the next call of resize() or remap(). Throws std::system_error if the file cannot be mapped or has fewer than
+    /// `size` bytes.
     std::span<std::uint8_t> remap(std::size_t size);
 
-    /// Returns the file descriptor.
+    /// Returns the descriptor of the memory file, which this object owns.
     int file() const { return file_; }
-    /// Returns the inode number of the file, which is the same in both processes.
+    /// Returns the inode number of the memory file, which is the same in both processes.
     std::uint64_t inode() const { return inode_; }
 
   private:

@@ -11,12 +11,13 @@ namespace {
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
 
-// For this long after two pictures were drawn or queued at the same time, the next pictures are expected to overlap,
-// too.
+// If two pictures were drawn or queued at the same time less than this time ago, the next pictures are expected to
+// overlap in time, too.
 constexpr auto kCrowded = 100ms;
-// The next picture is expected to be large if drawing the last one took more than this number of seconds.
+// If drawing the last picture took more than this number of seconds, the next picture is expected to be large.
 constexpr double kLarge = 0.004;
-constexpr std::size_t kMostThreads = 8;  // more threads of llvmpipe would wait for the thread that gives them work
+// With more threads, llvmpipe's threads would wait for the thread that gives them work.
+constexpr std::size_t kMostThreads = 8;
 
 }  // namespace
 

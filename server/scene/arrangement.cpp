@@ -24,7 +24,7 @@ constexpr double kLineStep = 2.12;
 // The distance of the eye from a row or column is kSingleDistance plus this multiple of half the length of the row or
 // column. From so far away, the projection is nearly parallel.
 constexpr double kLineDistance = 4;
-// how far the label of the focus slice is below the other labels of a row, in heights of text
+// How far the label of the focus slice is below the other labels of a row, in heights of text.
 constexpr double kRowFocusDrop = 1.4;
 // How far the label of the focus slice is to the right of the other labels of a column, in heights of text. The
 // distance is needed because the plate behind this label is wider.
@@ -32,9 +32,9 @@ constexpr double kColumnFocusDrop = 0.8;
 // In a grid, the gap between a slice and the slice below it, as a multiple of the text height. The gap contains the
 // label of the upper slice.
 constexpr double kGridLabelRoom = 2.3;
-// in a grid, by how much the gap below the focus slice is larger than other gaps, as a multiple of the text height
+// In a grid, by how much the gap below the focus slice is larger than other gaps, as a multiple of the text height.
 constexpr double kGridFocusRoom = 2.1;
-// in a grid, the greatest width of labels, except that of the focus slice, as a fraction of the column step
+// In a grid, the greatest width of labels, except that of the focus slice, as a fraction of the column step.
 constexpr double kGridLabelWidth = 0.94;
 // The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
 // farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.
@@ -81,7 +81,7 @@ Arrangement columnOf(int count, double reach) {
     if (count == 1) return focusSliceAlone();
     Arrangement made = rowOf(count, reach);
     std::swap(made.halfWidth, made.halfHeight);
-    // otherwise, the uppermost slices would often cover the symbol of the axes in tall pictures
+    // Otherwise, the uppermost slices would often cover the symbol of the axes in tall pictures.
     made.isClearOfAxes = true;
     made.labelDrop = 0;
     made.focusLabelDrop = kColumnFocusDrop;
@@ -97,7 +97,7 @@ Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
     // kProjectionShare times the width of the room, but at most kProjectionBreadth times the height of the room. Above
     // the grid, width and height are exchanged.
     constexpr double kProjectionShare = 0.3, kProjectionBreadth = 0.9;
-    // if the width of the room divided by its height is at least this, the projection is to the left
+    // If the width of the room divided by its height is at least this, the projection is to the left.
     constexpr double kLeastWideAspect = 1.3;
     if (count == 1) return focusSliceAlone();
     const double text = style().textHeight;
@@ -160,7 +160,7 @@ ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double
 
 // Places the projection of the whole object to the left of a grid or, unless the room is wide, above it.
 ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
-    // the diameter of the projection, as a fraction of the side of the square that contains it
+    // The diameter of the projection, as a fraction of the side of the square that contains it.
     constexpr double kShare = 0.94;
     const double half = grid.projectionSide / 2;
     const glm::dvec3 first = grid.positionOf(0), last = grid.positionOf(grid.count - 1);

@@ -52,9 +52,9 @@ struct SliceGrid {
 /// which only exported files can have. The camera looks at the origin from the distance `distance`, downward by the
 /// angle `pitch` (radians).
 struct Arrangement {
-    /// the x of the last slice; the first slice has −halfWidth. In a grid: the greatest |x| of a slice
+    /// The x of the last slice; the first slice has −halfWidth. In a grid: the greatest |x| of a slice.
     double halfWidth = 0;
-    /// the y of the last slice; the first slice has −halfHeight. In a grid: the greatest |y| of a slice
+    /// The y of the last slice; the first slice has −halfHeight. In a grid: the greatest |y| of a slice.
     double halfHeight = 0;
     double depth = 0;                ///< how far behind the focus slice the first and the last slice stand
     double pitch = 0, distance = 1;  ///< the downward angle of the camera, in radians, and its distance from the origin

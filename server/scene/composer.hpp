@@ -116,7 +116,7 @@ class Composer {
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
     slicing::PlanarContourTracer contourTracer_;
-    // the data that determine the contours that the scene has; empty if it has none
+    // The data that determine the contours that the scene has; empty if it has none.
     std::optional<ContourInput> contourInput_;
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
@@ -131,7 +131,7 @@ class Composer {
 
     DensityPlot density_;
     slicing::CoordinateValueHistograms histogram_;
-    // the serial number of the object whose density plot or histogram was measured last
+    // The serial number of the object whose density plot or histogram was measured last.
     std::uint64_t densityObject_ = 0;
     geometry::Rotation densityTurn_;       // the orientation of the object at this measurement
     std::vector<double> histogramLevels_;  // the levels of the field at this measurement

@@ -28,7 +28,7 @@ void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& 
 }
 
 void layOutHistogram(double aspect, CoordinatesLayout& out) {
-    // the gap between two panels of a histogram, as a fraction of CoordinatesLayout::lineStep
+    // The gap between two panels of a histogram, as a fraction of CoordinatesLayout::lineStep.
     constexpr double kGap = 0.08;
     out = {.lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);

@@ -38,7 +38,7 @@ class NearestLine {
 
 std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2 at) {
     const CoordinatesLayout& layout = scene.coordinates;
-    // the distance of the point from the middle of the line of axis x
+    // The distance of the point from the middle of the line of axis x.
     const double right = at.x - (layout.left + layout.lineWidth / 2);
     if (layout.lineStep <= 0 || right < -kLineReach || right > 3 * layout.lineStep + kLineReach) return std::nullopt;
     const double along = std::clamp(right / layout.lineStep, 0.0, 3.0);

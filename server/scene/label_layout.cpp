@@ -18,7 +18,7 @@ constexpr double kLabelGap = 0.014;  // the gap between a slice and its label, i
 // The sizes of characters and of the plates behind labels, as multiples of the font size. The widths of characters are
 // those of DejaVu Sans, rounded up.
 constexpr double kDigitWidth = 0.64, kSignWidth = 0.84, kPointWidth = 0.32, kFocusPrefixWidth = 2.31;
-// the mean width of the letters of a section's name, rounded up, as a multiple of the font size
+// The mean width of the letters of a section's name, rounded up, as a multiple of the font size.
 constexpr double kLetterWidth = 0.62;
 constexpr double kDigitHeight = 0.73;
 constexpr double kPlateMarginX = 0.19, kPlateMarginY = 0.1, kFocusPlateMarginX = 0.66, kFocusPlateMarginY = 0.44;

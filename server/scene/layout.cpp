@@ -231,7 +231,7 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     const double aspect = static_cast<double>(viewport.width) / viewport.height;
     layOutCoordinates(content, aspect, out.coordinates);
     out.axes = {0.06, 0.075, 0.045};
-    // the margin at each side; at least half of the width of a narrow picture remains
+    // The margin at each side; at least half of the width of a narrow picture remains.
     const double side = std::min(kMargin, aspect / 4);
     Rect room{side, aspect - side, kMargin, 1 - kMargin};
     if (look.parts.coordinates) room.bottom += out.coordinates.zero + out.coordinates.amplitude;

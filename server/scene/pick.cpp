@@ -238,7 +238,7 @@ class Picker {
     const bool drawsFaces_;  // whether the faces of slices are drawn; always false for a field
     const glm::dmat4 view_;
     glm::dmat4 projection_;
-    // the size of the picture and the place of the pixel, in pixels from the lower left corner
+    // The size of the picture and the place of the pixel, in pixels from the lower left corner.
     glm::dvec2 size_, pixel_;
     double focalLength_ = 0;
     glm::dvec3 ray_;

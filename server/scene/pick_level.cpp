@@ -187,7 +187,7 @@ class RayCaster {
     const Scene& scene_;
     const fields::Field& field_;
     const glm::dmat4 toFunction_;
-    // the direction of the ray from the eye, in world space; its length corresponds to a depth of 1
+    // The direction of the ray from the eye, in world space; its length corresponds to a depth of 1.
     glm::dvec3 direction_{0};
     slicing::FieldSection section_;  // has neither walls nor bounds
     std::vector<glm::dvec3> points_;
@@ -211,7 +211,7 @@ std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, con
     const auto plane = std::ranges::find(slicing::kPlaneAxes, axes) - slicing::kPlaneAxes.begin();
     const slicing::PlanarContours& contours = scene.sectionMatrix.contours.at(static_cast<std::size_t>(plane));
     const glm::dvec2 at(shown[axes[0]], shown[axes[1]]);
-    // the length of one unit of the object in the panel, in pixels
+    // The length of one unit of the object in the panel, in pixels.
     const double pixels = scene.matrix.scale(scene.circumradius) * height;
     double nearest = std::max(scene.matrix.lineWidth / 2 * height, kHitRadius) / pixels;
     std::optional<PickedLevel> found;

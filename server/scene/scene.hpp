@@ -37,7 +37,7 @@ struct ProjectionPartLook {
 /// The projection of the whole object from four to three dimensions, together with the projected sections of the object
 /// by hyperplanes.
 struct ObjectProjection {
-    /// the output of slicing::Projector: part 0 is the object, the other parts are its sections
+    /// The output of slicing::Projector: part 0 is the object, the other parts are its sections.
     slicing::SliceSet elements;
     /// For each face of `elements`, the index of its color in Scene::cellColors. The index is the cell that determines
     /// the color. For a surface, it is the index of the 2-face, or 0 if all 2-faces have one color.
@@ -70,7 +70,7 @@ struct ObjectProjection {
 struct SectionMatrix {
     glm::dvec4 point{0};  ///< the focus point, through which all planes pass, in the object's units, after the rotation
     slicing::PlanarSections sections;
-    /// the contours of a field whose surfaces are shown (see Scene::surfaces); otherwise empty
+    /// The contours of a field whose surfaces are shown (see Scene::surfaces); otherwise empty.
     slicing::MatrixContours contours;
     /// The look of the edges and points of a planar section.
     struct SectionStyle {
@@ -124,7 +124,7 @@ struct Scene : PictureLayout {
     /// known in advance. This is so for fields, surfaces and nonconvex polytopes, whose faces may cross each other. If
     /// true, faces are opaque, and the triangles of `fill` are drawn instead of the polygons of the faces.
     bool needsDepthBuffer = false;
-    /// the filled faces of slices; empty for a field, if faces are hidden, and if `needsDepthBuffer` is false
+    /// The filled faces of slices; empty for a field, if faces are hidden, and if `needsDepthBuffer` is false.
     slicing::FilledFaces fill;
     SurfaceLook surfaces;                  ///< how SliceSet::surfaces are drawn; empty if no surfaces are drawn
     FogTable fog;                          ///< how SliceSet::fogs are drawn; empty if no fog is drawn

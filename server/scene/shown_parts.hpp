@@ -13,11 +13,11 @@ namespace oval4d::scene {
 /// Which parts of a picture are shown.
 struct ShownParts {
     bool faces = true, bars = true, balls = true, coordinates = true, labels = true;
-    /// whether the projection of the whole object shows the 2-faces: those that bound the projected cells, or those of
-    /// a surface
+    /// Whether the projection of the whole object shows the 2-faces: those that bound the projected cells, or those of
+    /// a surface.
     bool projectionFaces = false;
     bool back =
-        /// whether the projection shows what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled)
+        /// Whether the projection shows what the 4-D eye cannot see (see slicing::Projector::ProjectionOptions::culled)
         true;
     bool allSections = false;  ///< whether the projection shows the sections of all slices, not only of the focus slice
     bool operator==(const ShownParts&) const = default;
@@ -28,7 +28,7 @@ struct ShownParts {
 struct NamedPart {
     std::string_view name;
     bool ShownParts::*flag;
-    /// the number of `flag` in stored sessions; it must not change (see serialization/stored_members.hpp)
+    /// The number of `flag` in stored sessions; it must not change (see serialization/stored_members.hpp).
     std::size_t number;
 };
 

@@ -72,8 +72,8 @@ class CellComplexSlicer {
     // with this hyperplane (see slotBegin_).
     struct LoopCrossing {
         std::uint32_t slot;
-        // the coordinate of the point along the line in which the hyperplane cuts the plane of the 2-face, in arbitrary
-        // units
+        // The coordinate of the point along the line in which the hyperplane cuts the plane of the 2-face, in arbitrary
+        // units.
         double along;
     };
 
@@ -119,7 +119,7 @@ class CellComplexSlicer {
     void placeLoops(SliceSet& out);
 
     ConvexSlicer convexSlicer_;
-    // the slices in the at most two hyperplanes that touch the polytope from one side
+    // The slices in the at most two hyperplanes that touch the polytope from one side.
     std::array<SliceSet, 2> singles_;
     std::vector<SliceSet*> touching_;               // per hyperplane: the slice of singles_ in this hyperplane, or null
     std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTangentPlanes()
@@ -138,7 +138,7 @@ class CellComplexSlicer {
     std::vector<std::uint32_t> lyingEdges_;  // the edges of the complex that lie in a hyperplane
     // per edge of the complex that lies in a hyperplane: the slice edge that it becomes
     std::vector<std::uint32_t> sliceEdgeOf_;
-    // the crossings of all 2-faces; those of 2-face f begin at faceCrossingBegin_[f]
+    // The crossings of all 2-faces; those of 2-face f begin at faceCrossingBegin_[f].
     std::vector<FaceCrossing> faceCrossings_;
     std::vector<std::uint32_t> faceCrossingBegin_;
     // Per 2-face or cell of the complex: the range of the hyperplanes strictly between its lowest and its highest
@@ -154,21 +154,21 @@ class CellComplexSlicer {
     // The slots that have a next slot in the section of the current cell, each preceded by the index of its hyperplane.
     // The tracing of loops starts at these slots.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
-    // the 2-faces that lie in a hyperplane, where each may be the whole slice
+    // The 2-faces that lie in a hyperplane, where each may be the whole slice.
     std::vector<std::uint32_t> touchingFaces_;
     std::vector<bool> bounded_;  // per hyperplane: whether a 2-face that lies in the hyperplane is a slice face
     std::vector<std::optional<bool>> upward_;  // per cell: the result of hasUpwardNormal(); empty if not yet computed
     std::vector<FaceLoop> loops_;
     // Per corner of a loop: the slice vertex at the corner, and the slice edge that leads to the next corner.
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;
-    // per hyperplane: the index at which the next vertex, edge or face (cursor_) or corner (cornerCursor_) is written
+    // Per hyperplane: the index at which the next vertex, edge or face (cursor_) or corner (cornerCursor_) is written.
     std::vector<std::uint32_t> cursor_, cornerCursor_;
-    // per hyperplane: the slots in which the vertex loop of a convex 2-face rises through it (up_) and descends (down_)
+    // Per hyperplane: the slots in which the vertex loop of a convex 2-face rises through it (up_) and descends (down_)
     std::vector<std::uint32_t> up_, down_;
     // The edges of the current 2-face that lie in the hyperplane of its lowest vertices. Each entry has the slice
     // vertices at the two ends of an edge, in ascending order, and then the index of the edge. The entries are sorted.
     std::vector<std::array<std::uint32_t, 3>> lowestEdges_;
-    // where the vertex loop of a nonconvex 2-face rises through one hyperplane (ups_) and descends through it (downs_)
+    // Where the vertex loop of a nonconvex 2-face rises through one hyperplane (ups_) and descends through it (downs_).
     std::vector<LoopCrossing> ups_, downs_;
 };
 

@@ -44,7 +44,7 @@ void CoordinateValueHistograms::measure(const fields::Field& field, const geomet
 // Evaluates the function of `field` at quasirandom points, and sets fullRange_ and typicalRange_ to the ranges of its
 // values.
 void CoordinateValueHistograms::sample(const fields::Field& field) {
-    // the length of each side of the domain, in steps of ScalarFunction::versionForSteps()
+    // The length of each side of the domain, in steps of ScalarFunction::versionForSteps().
     constexpr double kResolution = 128;
     const glm::dvec4 size = field.box.max - field.box.min;
     std::array<glm::dvec4, 4> steps{};

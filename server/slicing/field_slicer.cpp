@@ -81,8 +81,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
             extractSurfacesAndFog(field, toFunction, settings, detail, task, i, out, worker);
         }
     };
-    parallel::invoke(
-        forkJoin_, [&] { work(0); }, [&] { work(1); });
+    parallel::invoke(forkJoin_, [&] { work(0); }, [&] { work(1); });
     field.requireReadable();
 }
 

@@ -125,9 +125,7 @@ std::array<std::size_t, 4> elementCounts(const Object& object) {
                                         return Counts{complex.vertices.size(), complex.edges.size(),
                                                       complex.faces.size(), complex.cells.size()};
                                     },
-                                    [](const PointCloud& cloud) {
-                                        return Counts{cloud.points.size(), 0, 0, 0};
-                                    }},
+                                    [](const PointCloud& cloud) { return Counts{cloud.points.size(), 0, 0, 0}; }},
                          object);
 }
 

@@ -111,7 +111,7 @@ class PlanarContourTracer {
     // The lattice squares, cut by the domain. cellCorners_ has the indices in points_ of the corners of all cells, and
     // cellBegin_ the index in cellCorners_ of each cell's first corner.
     std::vector<std::uint32_t> cellBegin_, cellCorners_;
-    // where the contour of one level crosses the sides of one cell, in their order around the cell
+    // Where the contour of one level crosses the sides of one cell, in their order around the cell.
     std::vector<glm::dvec2> crossings_;
     std::vector<Segment> segments_;         // the segments of the contours of one level
     std::vector<SegmentEnd> ends_;          // the ends of all segments, sorted by their places

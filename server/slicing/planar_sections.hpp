@@ -28,10 +28,10 @@ namespace oval4d::slicing {
 struct PlanarSection {
     /// The coordinate axes to which the plane is parallel, as indices into x, y, z, w: axes[0] < axes[1].
     std::array<int, 2> axes{};
-    /// the coordinates of each point along axes[0] and axes[1], in the units of the object
+    /// The coordinates of each point along axes[0] and axes[1], in the units of the object.
     std::vector<glm::dvec2> points;
     std::vector<std::uint32_t> pointSource;
-    /// per point: the relative radius and the opacity of its ball, as in SliceSet
+    /// Per point: the relative radius and the opacity of its ball, as in SliceSet.
     std::vector<float> ballScale, ballOpacity;
     std::vector<std::array<std::uint32_t, 2>> edges;  ///< per edge: its two points
     std::vector<std::uint32_t> edgeSource;

@@ -114,9 +114,9 @@ class ProjectedCells {
     // the boundaries of all cells; as seen from outside the cells, the triangles are all counterclockwise or all
     // clockwise
     std::vector<Triangle> triangles_;
-    // per cell: the index of its first triangle; then the number of triangles
+    // Per cell: the index of its first triangle; then the number of triangles.
     std::vector<std::uint32_t> triangleBegin_;
-    // per vertex and per edge: the cells that contain it; some cells are listed several times
+    // Per vertex and per edge: the cells that contain it; some cells are listed several times.
     geometry::JaggedArray cellsOfVertex_, cellsOfEdge_;
 
     std::vector<glm::dvec4> points_;

@@ -98,7 +98,7 @@ class Projector {
 
     bool lacksSteps_ = false;  // the result of the function lacksSteps()
     OcclusionFinder occlusion_;
-    // the data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid
+    // The data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid.
     std::optional<OcclusionInput> occlusionInput_;
     bool occlusionFound_ = false;  // whether the steps were enough to find unhidden_
     DrawnElements unhidden_;       // valid only if occlusionFound_ is true

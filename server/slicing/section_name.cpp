@@ -195,7 +195,7 @@ struct SectionNamer::Family {
         const double radius = side / (2 * std::sin(std::numbers::pi * base.denominator / sides));
         const double turn = kind == Kind::antiprism ? std::numbers::pi / sides : 0;
         const bool hasApex = kind == Kind::pyramid || kind == Kind::bipyramid;
-        // the horizontal extent of a lateral edge
+        // The horizontal extent of a lateral edge.
         const double across = hasApex ? radius : 2 * radius * std::sin(turn / 2);
         const double height = std::sqrt(lateral * lateral - across * across);
         if (!(height > kTolerance)) return {};
@@ -265,10 +265,10 @@ const std::vector<SectionNamer::Family>& SectionNamer::families() {
         for (int n = 3; n <= kMaxSides; ++n) {
             const RegularPolygon polygon{n, 1};
             const std::string adjective = polytopes::adjectiveOf(polygon);
-            // for n = 4, the prism is a cuboid
+            // For n = 4, the prism is a cuboid.
             if (n != 4) families.emplace_back(Kind::prism, polygon, adjective + " prism");
             families.emplace_back(Kind::antiprism, polygon, adjective + " antiprism");
-            // for n = 3, the pyramid is a tetrahedron
+            // For n = 3, the pyramid is a tetrahedron.
             if (n != 3) families.emplace_back(Kind::pyramid, polygon, adjective + " pyramid");
             families.emplace_back(Kind::bipyramid, polygon, adjective + " bipyramid");
             for (int d = 2; 2 * d < n; ++d) {

@@ -88,7 +88,7 @@ class SectionNamer {
     bool edgesAreThoseOf(const Shape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const;
     bool verticesAreThoseOf(const Shape& shape);
 
-    // the vertices of the shape to be named, moved and scaled so that their center is 0 and their circumradius is 1
+    // The vertices of the shape to be named, moved and scaled so that their center is 0 and their circumradius is 1.
     std::vector<glm::dvec3> vertices_;
     std::vector<double> distances_;  // the distances of one vertex from all vertices, in ascending order
     std::vector<double> lengths_;    // the lengths of the slice's edges, in ascending order

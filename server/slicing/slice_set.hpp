@@ -46,7 +46,7 @@ struct SliceSet {
     geometry::Hyperplanes planes;
     std::vector<glm::dvec4> rotatedVertices;  ///< all vertices or points of the object, rotated
 
-    /// per slice: the index of its first vertex, edge or face; then the total number
+    /// Per slice: the index of its first vertex, edge or face; then the total number.
     std::vector<std::uint32_t> vertexBegin, edgeBegin, faceBegin;
     std::vector<glm::dvec3> vertices;  ///< x, y and z of each vertex, in the units of the object
     std::vector<std::uint32_t> vertexSource;

@@ -99,7 +99,7 @@ class Sweep {
     // f + i belongs to the boundary loop of the section of cell faceCells[f][i]. nextEnd_[2 f + i] is the next
     // half-edge of this loop.
     std::vector<std::uint32_t> edgeOfEnd_, nextEnd_;
-    // per active cell: a half-edge on the boundary of its section (see writeFaces())
+    // Per active cell: a half-edge on the boundary of its section (see writeFaces()).
     std::vector<std::uint32_t> firstEnd_;
     DegeneracyCollapse collapse_;
 };

@@ -73,7 +73,7 @@ class ClosedSurfaceSlicer {
     const FieldLattice& lattice() const { return lattice_; }
 
   private:
-    // the number of cells along each side of a brick (a block of the lattice that is sampled at once)
+    // The number of cells along each side of a brick (a block of the lattice that is sampled at once).
     static constexpr int kBrick = 4;
     static constexpr std::size_t kBrickPoints = 625;  // the number of lattice points of a brick: (kBrick + 1)⁴
 
@@ -93,7 +93,7 @@ class ClosedSurfaceSlicer {
     // A pentatope that the hyperplane meets.
     struct CutPentatope {
         const Pentatope* shape;
-        // the lattice cell of which the pentatope is a part
+        // The lattice cell of which the pentatope is a part.
         glm::ivec4 cell;
         std::array<double, 5> heights, values;  // per corner: its height above the hyperplane, and its value
         std::array<std::array<PentatopeEdgeCrossing, 5>, 5>

@@ -18,7 +18,7 @@ namespace oval4d::slicing {
 
 /// A pentatope (4-simplex) of the subdivision of a lattice cell.
 struct Pentatope {
-    /// a chain of corners of the cell, from corner 0 to corner 15, as described at the top of this file
+    /// A chain of corners of the cell, from corner 0 to corner 15, as described at the top of this file.
     std::array<std::uint8_t, 5> corners{};
     bool positive = true;  ///< whether det(c1 − c0, …, c4 − c0) > 0 for the corners c0 … c4
 

@@ -11,7 +11,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-// the offset of the points of a difference quotient, in units of PlacedFunction::radius
+// The offset of the points of a difference quotient, in units of PlacedFunction::radius.
 constexpr double kDifference = 2e-3;
 constexpr double kDamping = 1e-6;  // the damping, relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
 constexpr int kIterations = 30;

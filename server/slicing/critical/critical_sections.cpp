@@ -31,7 +31,7 @@ const Error kCanceled{ErrorCode::canceled,
 // How far searchOnFinerLattices() searches beyond both ends of the interval of w in which whole sections show a change,
 // as a fraction of the range of w.
 constexpr double kLocalReach = 5e-3;
-// the maximum number of changes of all levels together; a noisy field may have more
+// The maximum number of changes of all levels together; a noisy field may have more.
 constexpr std::size_t kMaxChanges = 1000;
 
 /// Cuts one field by one hyperplane at a time.

@@ -71,7 +71,7 @@ class LocalChangeSearch {
     // A change of the number of parts, at a value of w.
     struct LocalEvent {
         double w;
-        // the lattice points in the interior of the window that enter or leave the body; at least one
+        // The lattice points in the interior of the window that enter or leave the body; at least one.
         std::vector<glm::dvec3> points;
     };
     using PointFlags = std::vector<std::uint8_t>;  // per lattice point of a window: whether it is in the body
@@ -90,7 +90,7 @@ class LocalChangeSearch {
     const double level_;
     const fields::Inside inside_;
     const std::function<bool()> mustEnd_;
-    // the result of leastStepAlongW(): bisection stops when the interval of w is at most this long
+    // The result of leastStepAlongW(): bisection stops when the interval of w is at most this long.
     double leastStep_ = 0;
     PartCountChange change_;
     double tolerance_ = 0;

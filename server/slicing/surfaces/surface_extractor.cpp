@@ -90,7 +90,7 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
     out.clear();
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
     sign_ = options.inside == fields::Inside::below ? 1 : -1;
-    // the factor for the step; the number of points of a surface is inversely proportional to the square of the step
+    // The factor for the step; the number of points of a surface is inversely proportional to the square of the step.
     constexpr double kEnlarge = 1.6;
     for (double step = options.step; !tryExtract(step, function, section, options, out); step = kEnlarge * step_)
         out.clear();
@@ -211,11 +211,11 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         const glm::dvec4 reach = unit * (walls == 0 ? half : half + kMostMoved * step_);
         const glm::dvec4 middle =
             section.origin + center.x * section.axes[0] + center.y * section.axes[1] + center.z * section.axes[2];
-        // the added part allows for rounding of positions
+        // The added part allows for rounding of positions.
         const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);
         const fields::ValueBounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
-            // whether the whole cube is in the body
+            // Whether the whole cube is in the body.
             const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;
             return bounds.mayCross(level) || (walls != 0 && full);
         });
@@ -429,7 +429,7 @@ bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level,
     // and in this byte a bit for each level, as in inside_.
     constexpr std::size_t kRows = kBlock + 1;
     struct CornerPairs {
-        // bits: whether at least one (`some`) or both (`all`) of the cube's two corners in this row are inside the body
+        // Bits: whether at least one (`some`) or both (`all`) of the cube's two corners in this row are inside the body
         std::uint32_t some, all;
     };
     const auto rowAt = [&](std::uint32_t at) -> CornerPairs {
@@ -735,7 +735,7 @@ void SurfaceExtractor::addTriangles(std::size_t level, SliceSurface& out) {
                 const glm::vec3 d = out.points[corners[a]] - out.points[corners[b]];
                 return glm::dot(d, d);
             };
-            // the quadrilateral is divided along its shorter diagonal
+            // The quadrilateral is divided along its shorter diagonal.
             const std::size_t turn = length(0, 2) <= length(1, 3) ? 0 : 1;
             for (const std::size_t i : {std::size_t{1}, std::size_t{2}})
                 triangles.push_back({corners[turn], corners[(turn + i) % 4], corners[(turn + i + 1) % 4]});

@@ -164,7 +164,7 @@ class SurfaceExtractor {
     std::unique_ptr<float[]> values_;  // per lattice point of a sampled block: the value of the function
     // per lattice point: a bit for each level, set if the point is inside the level's body
     std::unique_ptr<std::uint8_t[]> inside_;
-    // per lattice point: the index in cubes_ of the cube whose corner 0 is this point
+    // Per lattice point: the index in cubes_ of the cube whose corner 0 is this point.
     std::unique_ptr<std::uint32_t[]> cubeAt_;
     std::vector<LatticeBlock> blocks_;
     std::vector<std::uint32_t> active_;  // the indices of the blocks that may contain a surface
@@ -174,7 +174,7 @@ class SurfaceExtractor {
     std::vector<std::uint32_t> moving_;  // the points of a batch that are now being moved onto the level set
     // The triangles of the caps of the current level. They will follow the other triangles of this level in the result.
     std::vector<std::array<std::uint32_t, 3>> caps_;
-    // per point of the surface of the current level: its constraint mask (see kWalls)
+    // Per point of the surface of the current level: its constraint mask (see kWalls).
     std::vector<std::uint16_t> constraints_;
 };
 

@@ -43,7 +43,7 @@ class ConnectedParts {
 
 struct VolumeAndMoment {
     double volume = 0;
-    // the volume times the centroid, where coordinates are relative to the point that represents the part
+    // The volume times the centroid, where coordinates are relative to the point that represents the part.
     glm::dvec3 moment{0};
 };
 

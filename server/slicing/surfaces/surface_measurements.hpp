@@ -47,7 +47,7 @@ struct SurfaceParts {
         double volume = 0;  ///< in the units of the object; negative for the surface of a cavity
         long euler = 0;     ///< the Euler characteristic of the part
     };
-    /// per point: the index in `parts` of the part to which the point belongs; kNone for points of other levels
+    /// Per point: the index in `parts` of the part to which the point belongs; kNone for points of other levels.
     std::vector<std::uint32_t> ofPoint;
     std::vector<SurfacePart> parts;
 };
