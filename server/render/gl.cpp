@@ -13,7 +13,7 @@ namespace oval4d::render {
 
 namespace {
 
-/// Returns `found`, the result of dlopen() or dlsym(). Throws std::runtime_error if it is null.
+/// Returns `found`, the result of dlopen() or dlsym(). Throws std::runtime_error if `found` is null.
 void* required(void* found) {
     if (found == nullptr) throw std::runtime_error(std::string("OSMesa cannot be loaded: ") + dlerror());
     return found;

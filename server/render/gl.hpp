@@ -1,8 +1,8 @@
 #pragma once
-// The functions of OpenGL and OSMesa that the renderer calls, as pointers. The first OffscreenGlContext loads the
-// OSMesa library and sets the pointers. The program is not linked with this library, because most processes draw
-// nothing, and loading the library takes several times as long as starting the rest of the program: the library also
-// loads LLVM, which compiles shaders.
+// The functions of OpenGL and OSMesa (draws OpenGL into memory) that the renderer calls, as pointers. The first
+// OffscreenGlContext loads the OSMesa library and sets the pointers. The program is not linked with this library,
+// because most processes draw nothing. Loading the library takes several times as long as starting the rest of the
+// program, because the library also loads LLVM, which compiles shaders.
 
 #define GL_GLEXT_PROTOTYPES
 #include <GL/gl.h>
@@ -11,13 +11,14 @@
 
 namespace oval4d::render {
 
-// Within this namespace, each pointer hides the function with the same name that the headers above declare.
+// Declares one pointer. Within this namespace, it hides the function with the same name that the OpenGL headers
+// declare.
 #define OVAL4D_GL(function) extern decltype(&::function) function;  // NOLINT(bugprone-macro-parentheses): a name
 #include "render/gl_functions.inc"
 #undef OVAL4D_GL
 
-/// Loads OSMesa and sets the pointers; does nothing if OSMesa is already loaded. Throws std::runtime_error if OSMesa or
-/// one of the functions cannot be loaded.
+/// Loads OSMesa and sets the pointers to its functions. Does nothing if OSMesa is already loaded. Throws
+/// std::runtime_error if OSMesa or one of the functions cannot be loaded.
 void loadGl();
 
 }  // namespace oval4d::render

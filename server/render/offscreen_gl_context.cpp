@@ -9,7 +9,7 @@ namespace oval4d::render {
 
 struct OffscreenGlContext::Native {
     OSMesaContext context = nullptr;
-    std::uint8_t pixel[4]{};  // the default framebuffer, to which nothing is drawn
+    std::uint8_t pixel[4]{};  // the default framebuffer of the context; nothing is drawn to it
     GLuint framebuffer = 0, color = 0, depth = 0;
 
     // The framebuffer and its buffers are deleted with the context.
@@ -18,7 +18,7 @@ struct OffscreenGlContext::Native {
     }
 };
 
-// Pictures are drawn to a framebuffer object, because OSMesa (of Mesa 22) leaks most of the memory of its default
+// The context draws pictures to a framebuffer object. OSMesa (of Mesa 22) would leak most of the memory of its default
 // framebuffer each time the size changes.
 OffscreenGlContext::OffscreenGlContext() : native_(std::make_unique<Native>()) {
     const int attributes[] = {OSMESA_FORMAT,
@@ -57,7 +57,7 @@ void OffscreenGlContext::resize(int width, int height) {
     glBindTexture(GL_TEXTURE_2D, native_->color);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
     glBindRenderbuffer(GL_RENDERBUFFER, native_->depth);
-    // 16 bits per depth suffice to order a few hundred slices behind one another.
+    // 16 bits per depth suffice to draw a few hundred slices one behind another in the right order.
     glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
 }
 
@@ -69,7 +69,7 @@ void OffscreenGlContext::begin(int width, int height, std::uint8_t* pixels) {
     makeCurrent();
     if (width != width_ || height != height_) resize(width, height);
     if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        width_ = 0;  // not the width of any picture, so that the next begin() allocates the buffers again
+        width_ = 0;  // no picture has this width, so the next begin() allocates the buffers again
         throw std::runtime_error("OSMesa cannot draw a picture of " + std::to_string(width) + " × " +
                                  std::to_string(height) + " pixels");
     }
@@ -83,7 +83,7 @@ void OffscreenGlContext::replacePicture(const std::uint8_t* pixels) {
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
 }
 
-// Creating a fence flushes the commands without waiting.
+// Creates and deletes a fence: creating a fence flushes the commands without waiting.
 void OffscreenGlContext::flush() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
 void OffscreenGlContext::finish() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }

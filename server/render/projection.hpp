@@ -1,5 +1,5 @@
 #pragma once
-// The projection of a scene's camera in single precision.
+// The projection of a scene's camera from view coordinates to pixels, in single precision.
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
@@ -9,13 +9,15 @@
 
 namespace oval4d::render {
 
-/// Projects points from view coordinates to the picture. In view coordinates, the eye is at the origin, and x points to
-/// the right, y up, and z toward the viewer.
+/// Projects points from view coordinates to the picture. In view coordinates, the eye is at the origin, x points to the
+/// right, y up, and z toward the viewer.
 struct Projection {
     float width = 1, height = 1;   ///< the size of the picture in pixels
-    float scaleX = 1, scaleY = 1;  ///< cotangents of half the horizontal and half the vertical field of view
-    float shiftX = 0, shiftY = 0;  ///< where the view axis meets the picture: 0 is its center, ±1 are its edges
+    float scaleX = 1, scaleY = 1;  ///< the cotangents of half the horizontal and half the vertical field of view
+    /// The place where the view axis meets the picture: 0 is the center of the picture, ±1 are its edges.
+    float shiftX = 0, shiftY = 0;
 
+    /// Makes the projection of `camera` for pictures with the size of `viewport`.
     static Projection of(const scene::Camera& camera, scene::Viewport viewport) {
         const auto projection = glm::mat4(camera.projection(static_cast<double>(viewport.width) / viewport.height));
         return {static_cast<float>(viewport.width),
@@ -26,19 +28,20 @@ struct Projection {
                 -projection[2][1]};
     }
 
-    /// Returns the clip coordinates x, y and w of a point v in view coordinates.
+    /// Returns the clip coordinates x, y and w of the point v in view coordinates.
     glm::vec3 clipXyw(const glm::vec3& v) const {
         return {scaleX * v.x - shiftX * v.z, scaleY * v.y - shiftY * v.z, -v.z};
     }
 
-    /// Returns the position in the picture of a point in front of the eye, in pixels from the lower left corner.
+    /// Returns the position in the picture of the point v in view coordinates, in pixels from the lower left corner.
+    /// The point must be in front of the eye.
     glm::vec2 pixel(const glm::vec3& v) const {
         const glm::vec3 c = clipXyw(v);
         return {(c.x / c.z * 0.5f + 0.5f) * width, (c.y / c.z * 0.5f + 0.5f) * height};
     }
 
-    /// Returns the focal length in pixels: a length L perpendicular to the view axis, at distance d from the eye, is
-    /// drawn with L · focalLengthInPixels() / d pixels.
+    /// Returns the focal length in pixels. A length L perpendicular to the view axis, at the distance d from the eye,
+    /// takes L · focalLengthInPixels() / d pixels in the picture.
     float focalLengthInPixels() const { return 0.5f * scaleY * height; }
 };
 

@@ -37,12 +37,12 @@ std::string fontFile() {
 
 namespace {
 
-// With OpenGL, the patches (see shape_batch.hpp) of convex slices are drawn in batches of at least this many. Only the
-// last batch may be smaller. While the threads of the driver rasterize one batch, this thread prepares the next one.
+// The minimum size of a batch of patches (see shape_batch.hpp) when convex slices are drawn with OpenGL. Only the last
+// batch may be smaller. While the threads of the driver rasterize one batch, this thread prepares the next batch.
 constexpr std::size_t kBatchPatches = 2'000;
 
-// A projection with fewer shapes than this is prepared by the thread that prepares the slices: waking another thread
-// would take about as long.
+// If a projection has fewer shapes than this, the thread that prepares the slices also prepares the projection. Waking
+// another thread would take about as long.
 constexpr std::size_t kFewShapes = 500;
 
 /// Returns a lock that every use of Mesa must hold, because all contexts of a process share state. A context that draws
@@ -53,17 +53,17 @@ std::unique_lock<std::mutex> lockDriver() {
     return std::unique_lock(driver);
 }
 
-/// Returns whether a picture may be drawn with several threads. The environment variable LP_NUM_THREADS sets the number
-/// of threads of llvmpipe; the values 0 and 1 also forbid a second thread for drawing without OpenGL.
+/// Returns whether several threads may draw a picture. The environment variable LP_NUM_THREADS sets the number of
+/// threads of llvmpipe. If it is 0 or 1, a second thread for drawing without OpenGL is forbidden, too.
 bool mayUseThreads() {
     const char* threads = std::getenv("LP_NUM_THREADS");
     return threads == nullptr || std::atoi(threads) > 1;
 }
 
-/// Returns whether the slices can be drawn only with OpenGL, because they have fog.
+/// Returns whether the slices have fog, which can be drawn only with OpenGL.
 bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
-/// Sets the color to which OpenGL clears pictures: the background, multiplied by its opacity.
+/// Sets the color with which OpenGL clears pictures: the background color multiplied by the opacity of the background.
 void setClearColor(const scene::Style& style) {
     const auto alpha = static_cast<float>(style.backgroundOpacity);
     const auto channel = [&](int shift) { return alpha * static_cast<float>(style.background >> shift & 255) / 255; };
@@ -71,7 +71,7 @@ void setClearColor(const scene::Style& style) {
 }
 
 /// If the viewer has moved the camera, clears the part of the picture that belongs to the parallel coordinates, because
-/// slices may then extend into it.
+/// slices may extend into this part.
 void clearCoordinatesArea(const scene::Scene& scene) {
     if (!scene.clearsCoordinatesArea()) return;
     glEnable(GL_SCISSOR_TEST);
@@ -82,7 +82,7 @@ void clearCoordinatesArea(const scene::Scene& scene) {
     glDisable(GL_SCISSOR_TEST);
 }
 
-/// Clears a part of the depth buffer of OpenGL.
+/// Clears the part `area` of the depth buffer of OpenGL.
 void clearDepth(const PixelArea& area) {
     glEnable(GL_SCISSOR_TEST);
     glScissor(area.from.x, area.from.y, area.to.x - area.from.x, area.to.y - area.from.y);
@@ -115,13 +115,13 @@ struct Renderer::Impl {
     void drawFogBehindFrame(const scene::Scene& scene);
     void drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths);
 
-    /// Surfaces for drawing without OpenGL.
+    /// The surfaces of some slices, prepared for drawing without OpenGL.
     struct SurfacesInMemory {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
 
         void prepare(const scene::Scene& scene, SurfaceBatch::Selection selection) {
-            DepthRange depths;  // collect() writes it, but only drawing with OpenGL reads it
+            DepthRange depths;  // collect() writes this range, but only drawing with OpenGL reads it
             batch.collect(scene, depths, selection);
             rasterizer.projectAndLight(scene.viewport, scene.style(), batch);
         }
@@ -135,24 +135,25 @@ struct Renderer::Impl {
     };
 
     parallel::ThreadOwnerAssertion owner;
-    OffscreenGlContext context;          // declared before the members that need a current context
-    const bool shapesInMemory;           // whether shapes are drawn without OpenGL where possible
-    parallel::ForkJoin* const forkJoin;  // null if pictures are drawn with one thread
+    OffscreenGlContext context;          // declared first, because the members that follow need a current context
+    const bool shapesInMemory;           // whether shapes are drawn without OpenGL where this is possible
+    parallel::ForkJoin* const forkJoin;  // null if one thread draws pictures
     ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
     SurfaceProgram surfaceProgram;
     CoordinatesPlot coordinatesPlot;
     Overlay overlay;
-    ShapeBatch shapes, strokes;  // `strokes` are drawn without OpenGL over everything else
+    ShapeBatch shapes, strokes;  // `strokes` are drawn over everything else, without OpenGL
     ConvexShapeCollector convexCollector;
     NonconvexShapeCollector nonconvexCollector;
     NonconvexShapeCollector::Layers layers;
     ProjectionShapeCollector projectionCollector;
     ProjectionShapeCollector::Layers projectionLayers;
-    SurfaceBatch surfaces;                          // of the projection and then of all slices, for drawing with OpenGL
-    std::array<SurfacesInMemory, 2> surfaceHalves;  // of the nearer slices; of the farther slices
+    SurfaceBatch surfaces;  // the surfaces of the projection, and later those of all slices, for drawing with OpenGL
+    // The surfaces of the nearer slices, and those of the farther slices.
+    std::array<SurfacesInMemory, 2> surfaceHalves;
     SurfacesInMemory projectionSurfaces;
-    std::optional<FogPainter> fogPainter;  // made for the first picture with fog
+    std::optional<FogPainter> fogPainter;  // created for the first picture with fog
 };
 
 void Renderer::Impl::flushShapes() {
@@ -161,8 +162,8 @@ void Renderer::Impl::flushShapes() {
     shapes.clear();
 }
 
-// Returns a part of the picture that contains the projection of the whole object, which must have been collected. Where
-// it is small, clearing the whole depth buffer would take longer than drawing the projection.
+// Returns a part of the picture that contains the projection of the whole object, which must have been collected. If
+// the projection is small, clearing the whole depth buffer would take longer than drawing the projection.
 PixelArea Renderer::Impl::depthAreaOfProjection(const scene::Scene& scene) const {
     if (scene.projection.focusSurface) return {{0, 0}, {scene.viewport.width, scene.viewport.height}};
     return projectionLayers.pixelArea(scene.viewport);
@@ -174,9 +175,9 @@ void Renderer::Impl::prepareProjection(const scene::Scene& scene) {
     projectionSurfaces.prepare(scene, SurfaceBatch::Selection::projection);
 }
 
-// Adds the projection of the whole object, which must have been prepared, to the rasterizer. So that the projection
-// never hides a slice, what is added later must not be tested against its depths: the caller adds a clearing of the
-// depth buffer first, or uses DepthUse::unused.
+// Adds the projection of the whole object, which must have been prepared, to the rasterizer. The projection must never
+// hide a slice. Therefore shapes that are added later must not be tested against the depths of the projection: the
+// caller must first add a clearing of the depth buffer, or must use DepthUse::unused.
 void Renderer::Impl::addProjection() {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
@@ -189,9 +190,9 @@ void Renderer::Impl::addProjection() {
     shapeRasterizer.add(own.rasterizer, own.translucent(), Blending::alpha);
 }
 
-// Draws the projection of the whole object with OpenGL, if it is shown. Leaves the depths of the projection in the
-// depth buffer. So that the projection never hides a slice, the caller must clear them before it draws slices with the
-// depth test.
+// Draws the projection of the whole object with OpenGL, if the scene shows it. Leaves the depths of the projection in
+// the depth buffer. The projection must never hide a slice. Therefore the caller must clear these depths before it
+// draws slices with the depth test.
 void Renderer::Impl::drawProjection(const scene::Scene& scene) {
     if (!scene.projectionPlacement.shown) return;
     projectionCollector.collect(scene, projectionLayers);
@@ -217,8 +218,8 @@ void Renderer::Impl::drawConvexSlices(const scene::Scene& scene) {
     convexCollector.collect(scene, shapes, painted);
 }
 
-// Prepares convex slices and, if shown, the projection of the whole object for drawing without OpenGL: adds the
-// projection to the rasterizer, and collects the slices in `shapes`, which the caller must add.
+// Prepares convex slices and, if the scene shows it, the projection of the whole object for drawing without OpenGL.
+// Adds the projection to the rasterizer. Collects the slices in `shapes`, which the caller must then add.
 void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     const auto collectSlices = [&] { convexCollector.collect(scene, shapes, [] {}); };
     if (!scene.projectionPlacement.shown) return collectSlices();
@@ -230,8 +231,9 @@ void Renderer::Impl::addConvexSlices(const scene::Scene& scene) {
     addProjection();
 }
 
-// Prepares slices that may be nonconvex, surfaces and, if shown, the projection of the whole object for drawing without
-// OpenGL: adds them to the rasterizer in the order in which drawProjection() and drawLayers() draw them.
+// Prepares slices that may be nonconvex, surfaces and, if the scene shows it, the projection of the whole object for
+// drawing without OpenGL. Adds them to the rasterizer in the order in which drawProjection() and drawLayers() draw
+// them.
 void Renderer::Impl::addLayers(const scene::Scene& scene) {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
@@ -262,7 +264,7 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
     shapeRasterizer.add(layers.faded, DepthUse::tested);
 }
 
-// Uses OpenGL to draw slices that may be nonconvex, surfaces and fog.
+// Draws slices that may be nonconvex, surfaces and fog, with OpenGL.
 void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     nonconvexCollector.collect(scene, layers);
     DepthRange depths = layers.depths;
@@ -287,7 +289,7 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
     glDisable(GL_DEPTH_TEST);
 }
 
-// Draws the opaque ones of `surfaces`. The depth test must be enabled. Leaves blending enabled.
+// Draws the opaque surfaces in `surfaces`. The depth test must be enabled. Leaves blending enabled.
 void Renderer::Impl::drawOpaqueSurfaces(DepthRange depths) {
     glDisable(GL_BLEND);
     surfaceProgram.load(depths, surfaces, surfaces.opaqueIndices());
@@ -299,8 +301,8 @@ void Renderer::Impl::drawOpaqueSurfaces(DepthRange depths) {
     glDepthMask(GL_TRUE);
 }
 
-// Prepares for drawing fog: loads the lattices of the slices, and copies the depths of opaque balls and bars to the fog
-// painter. Leaves the depth buffer cleared.
+// Prepares for drawing fog: loads the fog lattices of the slices, and copies the depths of opaque balls and bars to the
+// fog painter. Leaves the depth buffer cleared.
 void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     if (!fogPainter) fogPainter.emplace();
     fogPainter->begin(scene, depths);
@@ -311,14 +313,15 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     glClear(GL_DEPTH_BUFFER_BIT);
 }
 
-// Draws the fog behind balls and bars. Must be called when the opaque surfaces, but no balls and bars, have been drawn.
+// Draws the fog behind balls and bars. The opaque surfaces must have been drawn before, but no balls and bars.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
     fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
     for (const SurfaceBatch::Place& place : surfaces.placesFarToNear())
         fogPainter->draw(scene, place.slice, FogPainter::FogPart::behind);
 }
 
-// Draws, slice by slice from far to near, first the slice's translucent surfaces and then its fog.
+// Draws the translucent surfaces and the fog of the slices, from the farthest slice to the nearest: in each slice,
+// first the surfaces and then the fog.
 void Renderer::Impl::drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths) {
     surfaceProgram.load(depths, surfaces, surfaces.translucentIndices());
     std::size_t begin = 0;
@@ -335,7 +338,7 @@ Renderer::Renderer(const std::string& font, ShapeBackend drawing, parallel::Fork
         const auto lock = lockDriver();
         impl_ = std::make_unique<Impl>(font, drawing, forkJoin);
     }
-    // Mesa finishes compiling a shader only at its first draw call. Therefore an empty scene is drawn now.
+    // Mesa finishes compiling a shader only when the shader first draws. Therefore an empty scene is drawn now.
     image::Image image;
     scene::Scene scene;
     scene.viewport = {64, 64};
@@ -398,9 +401,10 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
         glClear(GL_COLOR_BUFFER_BIT);
     }
     glEnable(GL_BLEND);
-    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);  // colors are premultiplied by alpha, because blending is then cheaper
-    // The projection is drawn before the slices, and slices are not tested against its depths, so that it never covers
-    // a slice, wherever the viewer moves the camera.
+    // Colors are multiplied by alpha beforehand, because blending is then cheaper.
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    // The projection of the whole object must never cover a slice, wherever the viewer moves the camera. So it is drawn
+    // before the slices, and slices are not tested against its depths.
     if (!inMemory) {
         impl_->drawProjection(scene);
         if (scene.needsDepthBuffer) {
@@ -430,7 +434,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     if (strokes.patches().empty()) return;
     impl_->shapeRasterizer.beginOver(scene.viewport, scene.style(), pixels);
     impl_->shapeRasterizer.add(strokes, ShapeRasterizer::DepthUse::unused);
-    impl_->shapeRasterizer.finish(nullptr);  // waking another thread would take longer
+    impl_->shapeRasterizer.finish(nullptr);  // a second thread is not used, because waking it would take longer
 }
 
 }  // namespace oval4d::render

@@ -1,5 +1,5 @@
 #pragma once
-// A shader program, and the buffers for the triangles that it draws.
+// A shader program with buffers for the triangles that it draws.
 
 #include <cstddef>
 #include <cstdint>
@@ -10,39 +10,40 @@
 
 namespace oval4d::render {
 
-/// A vertex attribute; see glVertexAttribPointer(3G). Components of the type GL_UNSIGNED_BYTE are color channels: 0 …
-/// 255 becomes 0 … 1 in the shader.
+/// A vertex attribute (see glVertexAttribPointer(3G)). Components of the type GL_UNSIGNED_BYTE are color channels: 0 …
+/// 255 in the buffer becomes 0 … 1 in the shader.
 struct Attribute {
     int components;      ///< the number of components: 1 … 4
     GLenum type;         ///< GL_FLOAT or GL_UNSIGNED_BYTE
-    std::size_t offset;  ///< in the vertex structure, in bytes
+    std::size_t offset;  ///< the offset of the attribute in the vertex structure, in bytes
 };
 
-/// A linked program with its own vertex buffer and index buffer, which grow as needed. Requires a current GL context
-/// throughout its lifetime.
+/// A linked shader program with its own vertex buffer and index buffer, which grow as needed. Requires a current GL
+/// context throughout its lifetime.
 class ShaderProgram {
   public:
-    /// Compiles and links the program. The sources must not contain a #version line, because the constructor adds one.
-    /// `vertexSize` is in bytes. Attribute i has location i in the vertex shader. Throws std::runtime_error if a shader
-    /// does not compile (with the message of the compiler) or the program does not link.
+    /// Compiles and links the program. The sources must not contain a #version line, because the constructor adds this
+    /// line. `vertexSize` is the size of a vertex in bytes. Attribute i has location i in the vertex shader. Throws
+    /// std::runtime_error if a shader does not compile (with the message of the compiler) or the program does not link.
     ShaderProgram(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
                   std::span<const Attribute> attributes);
     ~ShaderProgram();
     ShaderProgram(const ShaderProgram&) = delete;
     ShaderProgram& operator=(const ShaderProgram&) = delete;
 
-    /// Returns the location of a uniform variable, or −1 if there is none with this name.
+    /// Returns the location of the uniform variable `name`, or −1 if there is no such variable.
     GLint uniformLocation(const char* name) const { return glGetUniformLocation(program_, name); }
     void use() const { glUseProgram(program_); }
 
-    /// Draws triangles in order. Three successive entries of `indices` are the indices of the vertices of a triangle.
-    /// `vertices` points to `vertexCount` vertices of the size given to the constructor. The arguments are copied.
+    /// Draws triangles in the order of `indices`. Three successive entries of `indices` are the indices of the corners
+    /// of a triangle. `vertices` points to `vertexCount` vertices of the size that was passed to the constructor. The
+    /// arguments are copied.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 
-    /// Copies vertices and indices, as for draw(), for later calls of drawPart().
+    /// Copies vertices and indices of triangles for later calls of drawPart(). The arguments are those of draw().
     void load(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
-    /// Draws the triangles given by the entries `begin` … `end` − 1 of the indices that were loaded last. Both numbers
-    /// must be multiples of 3.
+    /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that were loaded last. Both
+    /// numbers must be multiples of 3.
     void drawPart(std::size_t begin, std::size_t end);
 
   private:

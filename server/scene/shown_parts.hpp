@@ -27,7 +27,7 @@ struct ShownParts {
 /// that shows or hides the part has an action with the same name (protocol/keymap.json).
 struct NamedPart {
     std::string_view name;
-    bool ShownParts::*flag;
+    bool ShownParts::* flag;
     /// The number of `flag` in stored sessions; it must not change (see serialization/stored_members.hpp).
     std::size_t number;
 };

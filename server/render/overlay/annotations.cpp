@@ -22,12 +22,13 @@ namespace oval4d::render {
 
 namespace {
 
-// The opacity of the bands behind the parallel coordinates of highlighted vertices.
+// The opacity of the bands behind the parallel coordinates of the highlighted element's vertices.
 constexpr float kHighlightOpacity = 0.35F;
 constexpr float kLevelOpacity = 0.8F;  // the opacity of the lines of levels in the histogram of a field
-constexpr double kFocusReach = 0.009;  // half the width of the focus mark, as a fraction of the picture's height
+// Half the width of the mark of the focus slice, as a fraction of the picture's height.
+constexpr double kFocusReach = 0.009;
 
-/// Returns this fraction of the picture's height, rounded to whole pixels; at least 1.
+/// Returns the fraction `fraction` of the picture's height in pixels, rounded to whole pixels, and at least 1.
 int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
 }
@@ -42,7 +43,7 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
     const auto width = static_cast<float>(overlay.font().width(size, placement.label));
     const float x = std::round(pixel.x), baseline = std::round(pixel.y - digits);
-    // A background plate keeps the label legible over other slices.
+    // A plate in the background color keeps the label legible where it lies over other slices.
     const float marginX = std::round((placement.focus ? 0.9f : 0.25f) * digits);
     const float marginY = std::round((placement.focus ? 0.6f : 0.13f) * digits),
                 half = std::round(0.5f * width) + marginX;
@@ -54,7 +55,8 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
 }
 
 /// Adds the text HistogramAxes::quantity, which says what the values of a field measure, in the upper left corner of
-/// the histogram, on a plate that keeps it legible. Does nothing if the text is wider than the histogram.
+/// the histogram. The text has a plate behind it that keeps it legible. Does nothing if the text is wider than the
+/// histogram.
 void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::Style& style,
                  Overlay& overlay) {
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
@@ -67,8 +69,8 @@ void addQuantity(const std::string& quantity, const PixelRect& histogram, int si
     overlay.text(histogram.left + margin + width / 2, baseline, size, quantity, style.text);
 }
 
-/// Adds the labeled axes of the histogram of a field, what its values measure, the levels, and a mark for the focus
-/// slice in the panel of w.
+/// Adds to the histogram of a field: the axes with their names, the text that says what the values measure, the lines
+/// of the levels, and a mark for the focus slice in the panel of w.
 void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
@@ -107,8 +109,9 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     addQuantity(scene.histogram.quantity, {leftOf(0), bottom, leftOf(3) + width, top}, size, style, overlay);
 }
 
-/// Adds what is drawn over the density strip: its labeled axes, the lines of the vertices of the highlighted element,
-/// and a mark for the focus slice on the w axis. `above`: see StrokeTargets.
+/// Adds what is drawn over the density strip: the axes with their names, the lines of the vertices of the highlighted
+/// element, and a mark for the focus slice on the w axis. The lines, and the mark over them, are added to `above` (see
+/// StrokeTargets).
 void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatch* above) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
@@ -128,11 +131,12 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatc
         overlay.text(left + thickness / 2, levelOf(-1) - 1.4F * digits, size, std::string_view("xyzw").substr(k, 1),
                      color);
     }
-    if (scene.highlight.empty()) above = nullptr;  // the mark belongs to `above` only if it is over lines
+    if (scene.highlight.empty()) above = nullptr;  // without lines, the mark is added to the overlay
     const auto lineWidth = static_cast<float>(std::max(1.0, layout.lineWidth * height));
     const auto addLine = [&](const glm::vec2& from, const glm::vec2& to) {
         if (above == nullptr) return overlay.line(from, to, lineWidth, style.highlight);
-        // Beyond an end, a flat end of this length covers as much as a round one.
+        // The overlay's lines have round ends. A flat end covers as much as a round end if it extends beyond the end
+        // point by this length.
         const float beyond = std::numbers::pi_v<float> / 8 * lineWidth;
         const glm::vec2 more = beyond * glm::normalize(to - from);
         above->addStroke(from - more, to + more, lineWidth, style.highlight);
@@ -159,8 +163,8 @@ void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatc
 }  // namespace
 
 void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
-    // The axes have their own projection. Its view axis meets the axes' origin, and its eye is so far away that the
-    // projection is nearly parallel. The unit of the following lengths is the length of an axis.
+    // The symbol of the axes has its own projection. Its view axis meets the origin of the axes. Its eye is so far away
+    // that the projection is nearly parallel. The unit of the following lengths is the length of an axis.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
     const scene::Style& style = scene.style();
     const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
@@ -183,7 +187,8 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     };
     std::array axes{TriadAxis{turn[0], style.axes[0], 'x'}, TriadAxis{turn[1], style.axes[1], 'y'},
                     TriadAxis{turn[2], style.axes[2], 'z'}};
-    // Sorts the axes from far to near. Ties are broken by name, because std::stable_sort would allocate memory.
+    // Sorts the axes from far to near. Axes at the same distance are sorted by name: std::stable_sort would keep their
+    // order, too, but allocates memory.
     std::sort(axes.begin(), axes.end(), [](const TriadAxis& a, const TriadAxis& b) {
         return a.direction.z != b.direction.z ? a.direction.z < b.direction.z : a.name < b.name;
     });
@@ -205,7 +210,7 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
             shapes.addBall(origin + axis.direction, kTip, axis.color);
             shapes.addBarFromFarEnd(origin + axis.direction, origin + axis.direction * kBall, kBar, axis.color);
         }
-        // The name of an axis that points toward or away from the viewer is drawn beside the axis.
+        // If an axis points toward or away from the viewer, its name is drawn beside the axis.
         glm::vec2 name = glm::vec2(axis.direction) * kName;
         if (glm::length(name) < 0.3f) name = {0.3f, -0.3f};
         const glm::vec2 at = center + name * length;
@@ -244,7 +249,8 @@ void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTar
     const auto lineThickness = snap(lineWidth);
     const auto zeroOf = [&](int row) { return std::round((layout.zero - row * layout.rowStep) * height); };
 
-    // The lines of zero are behind the bands of highlighted vertices, so both are drawn in the same way.
+    // The lines of zero lie behind the bands of highlighted vertices. So if the bands are strokes, the lines of zero
+    // must be strokes, too.
     ShapeBatch* const bands = scene.highlight.empty() ? nullptr : strokes.below;
     const auto addBand = [&](float left, float right, float middle, float width, scene::Color color, float opacity) {
         if (bands != nullptr) return bands->addStroke({left, middle}, {right, middle}, width, color, opacity);

@@ -1,6 +1,6 @@
 #pragma once
-// The annotations of a picture: axes, labels and parallel coordinates. The functions add shapes, boxes and texts to
-// lists; the caller draws the lists.
+// Adds the annotations of a picture: axes, labels and parallel coordinates. The functions add shapes, boxes and texts
+// to lists; the caller draws the lists.
 
 #include "render/overlay/overlay.hpp"
 #include "render/slices/shape_batch.hpp"
@@ -8,26 +8,28 @@
 
 namespace oval4d::render {
 
-/// Adds the x, y and z axes, as the camera sees them, to `shapes`, and their names to `overlay`, at the place that
-/// Scene::axes specifies.
+/// Adds the symbol of the x, y and z axes, as the camera sees them, to `shapes`, and the names of the axes to
+/// `overlay`. The place of the symbol is Scene::axes.
 void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Adds the labels of the slices, which show the values of w. The label of the focus slice is highlighted, and is added
-/// after the others.
+/// Adds the labels of the slices, which show the values of w, to `overlay`. The label of the focus slice is
+/// highlighted, and is added after the others.
 void addLabels(const scene::Scene& scene, Overlay& overlay);
 
-/// Where addCoordinates() adds strokes, which can be drawn without OpenGL: long lines and large areas then need a
-/// fraction of the time. If a pointer is null, the overlay gets boxes and lines instead.
+/// The lists to which addCoordinates() adds strokes. Strokes can be drawn without OpenGL, so long lines and large areas
+/// need only a fraction of the time. If a pointer is null, the overlay gets boxes and lines instead of strokes.
 struct StrokeTargets {
-    ShapeBatch* below = nullptr;  ///< drawn before the overlay
-    ShapeBatch* above = nullptr;  ///< drawn when everything else is drawn
+    ShapeBatch* below = nullptr;  ///< the strokes that are drawn before the overlay
+    ShapeBatch* above = nullptr;  ///< the strokes that are drawn after everything else
 };
 
-/// Adds the parallel coordinates of the rotated vertices along the bottom. If a density strip or the histogram of a
-/// field is shown instead, adds only its axes and marks, and over a density strip the lines of the highlighted element;
-/// CoordinatesPlot draws the rest. Does nothing if none of these is shown. Adds to `strokes` what marks the vertices of
-/// the highlighted element: the bands behind their parallel coordinates, and the lines of zero behind the bands; or the
-/// lines over a density strip, and the mark over these lines.
+/// Adds the parallel coordinates of the rotated vertices along the lower edge of the picture. If a density strip or the
+/// histogram of a field is shown instead, CoordinatesPlot draws it; this function then adds only its axes and marks
+/// and, over a density strip, the lines of the highlighted element. Does nothing if none of these is shown.
+///
+/// Adds to `strokes` what marks the vertices of the highlighted element. For parallel coordinates, these are the bands
+/// behind the lines of the vertices, and the lines of zero behind the bands. Over a density strip, these are the lines
+/// of the vertices, and the mark over these lines.
 void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes);
 
 }  // namespace oval4d::render

@@ -86,9 +86,8 @@ void CoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int co
     }
 }
 
-// Adds the lower and the upper end of a vertical edge at x (in viewport heights from the left). The edge shows the
-// center of column `column` of the texture: the lower end shows the center of the last row, the upper end that of the
-// first row.
+// Adds the two ends of a vertical side of a quadrilateral, at x (in viewport heights from the left). The side shows the
+// center of column `column` of the texture: from the last row at the lower end to the first row at the upper end.
 void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
     for (const bool above : {false, true}) {
@@ -98,7 +97,7 @@ void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, doubl
     }
 }
 
-// Adds the quadrilateral between the last two edges that addVerticalSide() added.
+// Adds the quadrilateral between the last two sides that addVerticalSide() has added.
 void CoordinatesPlot::addQuadBetweenLastSides() {
     const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
     for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);

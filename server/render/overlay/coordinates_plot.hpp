@@ -1,6 +1,6 @@
 #pragma once
-// Draws density strips and histograms, which replace the lines of parallel coordinates: a density strip if an object
-// has many vertices, a histogram of the values if it is a field.
+// Draws density strips and histograms, which replace the lines of parallel coordinates. An object with many vertices
+// has a density strip; a field has a histogram of its values.
 
 #include <cstdint>
 #include <vector>
@@ -12,9 +12,9 @@
 
 namespace oval4d::render {
 
-/// Draws the density strip of a scene, or the histogram of a field. The colors of the strip are interpolated between
-/// the axes; each panel of the histogram has the color of its axis. Both are drawn as textures. Requires a current GL
-/// context throughout its lifetime.
+/// Draws the density strip or the histogram of a scene, as textures. The colors of a strip are interpolated between the
+/// colors of the axes. Each panel of a histogram has the color of its axis. Requires a current GL context throughout
+/// its lifetime.
 class CoordinatesPlot {
   public:
     CoordinatesPlot();
@@ -22,13 +22,13 @@ class CoordinatesPlot {
     CoordinatesPlot(const CoordinatesPlot&) = delete;
     CoordinatesPlot& operator=(const CoordinatesPlot&) = delete;
 
-    /// Draws the strip or the histogram. Does nothing if the scene shows neither.
+    /// Draws the density strip or the histogram. Does nothing if the scene shows neither.
     void draw(const scene::Scene& scene);
 
   private:
     struct PlotVertex {
-        glm::vec2 at{0};     // clip coordinates, −1 … 1
-        glm::vec2 texel{0};  // texture coordinates, 0 … 1 from the upper left corner
+        glm::vec2 at{0};     // the clip coordinates of the vertex, −1 … 1
+        glm::vec2 texel{0};  // the texture coordinates of the vertex, 0 … 1 from the upper left corner
         std::uint32_t color = 0;
     };
 

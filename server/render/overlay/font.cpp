@@ -88,8 +88,8 @@ Glyph Font::draw(int size, char32_t character) {
     return glyph;
 }
 
-/// Allocates a rectangle in the texture by shelf packing. Returns its upper left texel, or y = −1 if the texture is
-/// full.
+/// Reserves a rectangle in the texture by shelf packing (row by row). Returns the upper left texel of the rectangle, or
+/// y = −1 if the texture is full.
 std::pair<int, int> Font::reserveInAtlas(int width, int height) {
     if (shelfX_ + width > kWidth) {
         shelfY_ += shelfHeight_ + 1;
@@ -112,8 +112,8 @@ int Font::width(int size, std::string_view text) {
     return width;
 }
 
-/// Removes and returns the first character of UTF-8 text. Does not check continuation bytes. The first byte of a
-/// truncated sequence, or a continuation byte without a first byte, is returned as a character of its own.
+/// Removes the first character from a UTF-8 text, and returns it. Does not check continuation bytes. Returns as a
+/// character of its own the first byte of a truncated sequence, and a continuation byte without a first byte.
 char32_t Font::takeCharacter(std::string_view& text) {
     const auto lead = static_cast<unsigned char>(text[0]);
     const std::size_t length = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : lead >= 0xc0 ? 2 : 1;

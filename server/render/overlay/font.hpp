@@ -1,5 +1,5 @@
 #pragma once
-// A glyph atlas: a texture that caches the rendered glyphs of a font.
+// A font, and a texture that caches its rendered glyphs (a glyph atlas).
 
 #include <cstdint>
 #include <map>
@@ -13,27 +13,29 @@
 
 namespace oval4d::render {
 
-/// The bitmap of a glyph in the texture, in texels, and its metrics in pixels.
+/// A glyph in the atlas: the place of its bitmap in the texture, in texels, and its metrics, in pixels.
 struct Glyph {
     int x = 0, y = 0, width = 0, height = 0;
-    int left = 0, top = 0;  ///< how far the left edge of the bitmap is to the right of the pen position, and how far
-                            ///< the top edge is above the baseline
-    int advance = 0;        ///< the distance to the pen position of the next glyph
+    /// How far the left edge of the bitmap is to the right of the pen position, and how far the top edge is above the
+    /// baseline.
+    int left = 0, top = 0;
+    int advance = 0;  ///< the distance to the pen position of the next glyph
 };
 
-/// A font and its glyph atlas, which grows on demand. The texture has one channel, the coverage. Texel (0, 0) has full
-/// coverage; it is for shapes that are not glyphs. Requires a current GL context throughout its lifetime.
+/// A font and its glyph atlas, which grows on demand. The texture of the atlas has one channel: the coverage. Texel (0,
+/// 0) has full coverage, and is for shapes that are not glyphs. Requires a current GL context throughout its lifetime.
 class Font {
   public:
-    /// Throws std::runtime_error if `file` is not a readable font.
+    /// Opens the font file `file`. Throws std::runtime_error if `file` is not a readable font.
     explicit Font(const std::string& file);
     ~Font();
     Font(const Font&) = delete;
     Font& operator=(const Font&) = delete;
 
-    /// Returns a glyph; renders it on first use. `size` is the height of the em square in pixels, clamped to 1 … 512. A
-    /// character that the font lacks gives the font's replacement glyph. If the texture is full, the bitmap is empty.
-    /// The reference is valid until clearIfLarge() removes the glyphs.
+    /// Returns the glyph of a character. Renders the glyph on first use. `size` is the height of the em square in
+    /// pixels, clamped to 1 … 512. If the font lacks the character, returns the font's replacement glyph. If the
+    /// texture is full, the bitmap of the glyph is empty. The reference is valid until clearIfLarge() removes the
+    /// glyphs.
     const Glyph& glyph(int size, char32_t character);
 
     /// Returns the width of a line of UTF-8 text in pixels.
@@ -42,15 +44,15 @@ class Font {
     /// Returns the height of a digit above the baseline in pixels.
     int digitHeight(int size) { return glyph(size, U'0').top; }
 
-    /// Removes all glyphs if the texture has become large, because many of them may have sizes that are no longer used.
-    /// Must not be called while a picture uses glyphs.
+    /// Removes all glyphs if the texture has become large: many glyphs may have sizes that are no longer used. Must not
+    /// be called while a picture uses glyphs.
     void clearIfLarge();
 
-    /// Binds the texture to the active texture unit. Uploads it if there are new glyphs.
+    /// Binds the texture to the active texture unit. Uploads the texture if there are new glyphs.
     void bind();
 
-    /// Calls `each(glyph, pen)` for every character of the UTF-8 `text`; `pen` is the x position, in pixels from the
-    /// start of the line.
+    /// Calls `each(glyph, pen)` for every character of the UTF-8 text `text`. `pen` is the x position of the character,
+    /// in pixels from the start of the line.
     template <class Each>
     void forEachGlyph(int size, std::string_view text, Each&& each) {
         int pen = 0;
@@ -71,9 +73,10 @@ class Font {
     std::unique_ptr<Face> face_;
     std::map<std::pair<int, char32_t>, Glyph> glyphs_;
     std::vector<std::uint8_t> texels_;
-    // The height of the texture; for the last row of glyphs: the x of the next glyph, the row's top, and its height.
+    // The height of the texture, and data about the last row of glyphs in it: the x of the next glyph, the top of the
+    // row, and the height of the row.
     int height_ = 0, shelfX_ = 0, shelfY_ = 0, shelfHeight_ = 0;
-    bool changed_ = true;  // whether `texels_` has glyphs to upload
+    bool changed_ = true;  // whether texels_ has glyphs that must be uploaded to the texture
     GLuint texture_ = 0;
 };
 

@@ -19,13 +19,13 @@ using scene::Color;
 using slicing::PlanarSection;
 
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
-// The font sizes of the name of an axis and of its unit, as fractions of the side of a panel.
+// The font sizes of the name and of the unit of an axis, as fractions of the side of a panel.
 constexpr double kNameHeight = 0.3, kUnitHeight = 0.1;
-// The width of the lines of the focus point in the focus slice, as a fraction of the picture's height.
+// The width of the lines through the focus point in the focus slice, as a fraction of the picture's height.
 constexpr double kFocusWidth = 0.0028;
 
-// Draws the panels of sections. Each section has two panels: one with the section's first axis to the right, and one
-// with its second axis to the right.
+// Draws the panels that show sections. Each section has two panels: one with the section's first axis to the right, and
+// one with its second axis to the right.
 class SectionPainter {
   public:
     SectionPainter(const scene::Scene& scene, Overlay& overlay)
@@ -62,8 +62,8 @@ class SectionPainter {
     }
 
   private:
-    // Draws the unit of an axis below the name of the axis, unless the unit is unknown or wider than a panel. `name`:
-    // the middle of the baseline of the name, in pixels.
+    // Draws the unit of an axis below the name of the axis. Does nothing if the unit is unknown, or if its text is
+    // wider than a panel. `name` is the middle of the baseline of the axis name, in pixels.
     void paintUnit(const std::string& unit, const glm::vec2& name, Color color) const {
         const int size = static_cast<int>(std::lround(kUnitHeight * scene_.matrix.panel * height_));
         if (unit.empty() || size < 1) return;
@@ -72,7 +72,7 @@ class SectionPainter {
         overlay_.text(name.x, name.y - 1.8F * digits, size, unit, color);
     }
 
-    // Returns the pixel that shows a point of a section in the current panel. `p` has the coordinates of the point
+    // Returns the pixel at which the current panel shows a point of a section. `p` has the coordinates of the point
     // along the first and the second axis of the section, in the units of the object.
     glm::vec2 pixelOf(const glm::dvec2& p) const {
         return center_ + pixelsPerUnit_ * (transposed_ ? glm::dvec2(p.y, p.x) : p);
@@ -86,10 +86,11 @@ class SectionPainter {
                 static_cast<float>(std::round(center_.x + half)), static_cast<float>(std::round(center_.y + half))};
     }
 
-    // Draws the two lines through the focus point, each with the color of the axis to which it is parallel; leaves out
-    // a line outside the panel. The planes of all panels contain the focus point. The planes of the panels in one row
-    // are all parallel to the axis of the row, so they meet in the line through the focus point along this axis: the
-    // vertical line of the panel. The horizontal line is likewise common to the planes of the panels in one column.
+    // Draws the two lines through the focus point in a panel, each in the color of the axis to which it is parallel.
+    // Leaves out a line outside the panel. The planes of all panels contain the focus point. The planes of the panels
+    // in one row are all parallel to the axis of the row. So these planes meet in the line through the focus point
+    // along this axis: the vertical line of the panel. In the same way, the planes of the panels in one column meet in
+    // the horizontal line.
     void paintFocusLines(int row, int column) const {
         const glm::dvec4& point = scene_.sectionMatrix.point;
         const glm::vec2 at = center_ + pixelsPerUnit_ * glm::dvec2(point[column], point[row]);
@@ -155,8 +156,8 @@ class SectionPainter {
     std::vector<glm::vec2> points_, polygon_;
 };
 
-// Marks the focus point in the focus slice by the lines through it along the axes x, y and z. Leaves out a line with an
-// end behind the eye.
+// Marks the focus point in the focus slice by lines through the point along the axes x, y and z. Leaves out a line that
+// has an end behind the eye.
 void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));

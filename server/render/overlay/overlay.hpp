@@ -1,5 +1,5 @@
 #pragma once
-// Draws boxes and text over the picture, in pixel coordinates.
+// Draws boxes, lines, polygons and text over the picture, in pixel coordinates.
 
 #include <cstdint>
 #include <span>
@@ -15,14 +15,14 @@
 
 namespace oval4d::render {
 
-/// A corner of a box, line, polygon or glyph. The opacity of a pixel is the opacity of the color, times the fraction of
-/// the pixel that a box with rounded corners covers, times the coverage that the glyph texture contains.
+/// A corner of a box, line, polygon or glyph. The opacity of a pixel is a product of three factors: the opacity of the
+/// color, the fraction of the pixel that a box with rounded corners covers, and the coverage in the glyph texture.
 struct OverlayVertex {
-    glm::vec2 at{0};          ///< clip coordinates, −1 … 1
-    glm::vec2 fromCenter{0};  ///< the position relative to the center of the box, in pixels
-    glm::vec3 box{0};         ///< half width, half height and corner radius, in pixels
-    glm::vec2 texel{0.5f};    ///< the position in the glyph texture, in texels; the default has full coverage
-    std::uint32_t color = 0;  ///< as returned by rgba()
+    glm::vec2 at{0};          ///< the clip coordinates of the corner, −1 … 1
+    glm::vec2 fromCenter{0};  ///< the position of the corner relative to the center of the box, in pixels
+    glm::vec3 box{0};         ///< half the width, half the height and the corner radius of the box, in pixels
+    glm::vec2 texel{0.5f};    ///< the position in the glyph texture, in texels; the default position has full coverage
+    std::uint32_t color = 0;  ///< the color, as returned by rgba()
 };
 
 /// A rectangle in pixel coordinates.
@@ -30,18 +30,19 @@ struct PixelRect {
     float left, bottom, right, top;
 };
 
-/// Collects boxes, lines, polygons and text, and draws them; later ones cover earlier ones. Pixel coordinates are
-/// counted from the lower left corner. Requires a current GL context throughout its lifetime.
+/// Collects boxes, lines, polygons and text, and draws them in the order in which they were added. Pixel coordinates
+/// are counted from the lower left corner of the picture. Requires a current GL context throughout its lifetime.
 class Overlay {
   public:
-    /// `font` is the path of a font file. Throws std::runtime_error if it cannot be read, or if a shader does not
+    /// `font` is the path of a font file. Throws std::runtime_error if the font cannot be read, or if a shader does not
     /// compile.
     explicit Overlay(const std::string& font);
 
-    /// Removes everything that was added, and starts a picture of this size.
+    /// Removes everything that was added, and starts a picture with the size of `viewport`.
     void begin(scene::Viewport viewport);
 
-    /// Adds a box. `cornerRadius` is in pixels. The edges are antialiased unless they lie on pixel boundaries.
+    /// Adds a box with rounded corners of the radius `cornerRadius`, in pixels. The edges are antialiased unless they
+    /// lie on pixel boundaries.
     void box(const PixelRect& box, scene::Color color, float opacity = 1, float cornerRadius = 0);
 
     /// Adds a straight line with round ends, `width` pixels wide.
@@ -50,8 +51,8 @@ class Overlay {
     /// Adds a convex polygon. Its edges are not antialiased; lines over the edges hide this.
     void polygon(std::span<const glm::vec2> corners, scene::Color color, float opacity = 1);
 
-    /// Adds a line of UTF-8 text, centered at x, with its baseline at y. `size` is the height of the em square in
-    /// pixels. The text is moved to whole pixels, where it is sharpest.
+    /// Adds a line of UTF-8 text. The text is centered at x, with its baseline at y. `size` is the height of the em
+    /// square in pixels. The text is moved to whole pixels, where it is sharpest.
     void text(float x, float y, int size, std::string_view text, scene::Color color, float opacity = 1);
 
     Font& font() { return font_; }

@@ -1,5 +1,5 @@
 #pragma once
-// Operations on eight numbers or pixels at a time, for processors with AVX2 and FMA.
+// Operations on eight numbers or eight pixels at a time, for processors with AVX2 and FMA.
 
 #if defined(__x86_64__)
 
@@ -7,14 +7,14 @@
 
 #include <cstddef>
 
-/// Marks a function that is compiled for processors with AVX2 and FMA, and must only be called on these.
+/// Marks a function that is compiled for processors with AVX2 and FMA. It must be called only on such processors.
 #define OVAL4D_AVX2 __attribute__((target("avx2,fma")))
 
 namespace oval4d::render {
 
-/// Returns base^exponent. `exponent` must be at least 1.
+/// Returns base^exponent for eight bases. `exponent` must be at least 1.
 OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
-    if (exponent == 32) {  // that of the default style, without a loop
+    if (exponent == 32) {  // the exponent of the default style is computed without a loop
         base = _mm256_mul_ps(base, base);
         base = _mm256_mul_ps(base, base);
         base = _mm256_mul_ps(base, base);
@@ -29,13 +29,13 @@ OVAL4D_AVX2 inline __m256 power(__m256 base, unsigned exponent) {
     return _mm256_mul_ps(result, base);
 }
 
-/// Returns one channel (0 … 3: R, G, B, A) of eight pixels, as numbers from 0 to 255.
+/// Returns one channel of eight RGBA pixels, as numbers from 0 to 255. `channel` is 0 … 3 for R, G, B, A.
 template <int channel>
 OVAL4D_AVX2 inline __m256 channelOf(__m256i pixels) {
     return _mm256_cvtepi32_ps(_mm256_and_si256(_mm256_srli_epi32(pixels, 8 * channel), _mm256_set1_epi32(255)));
 }
 
-/// Transposes a matrix of 8 × 8 numbers.
+/// Transposes a matrix of 8 × 8 numbers in place.
 OVAL4D_AVX2 inline void transpose(__m256 (&rows)[8]) {
     __m256 a[8], b[8];
     for (std::size_t i = 0; i < 8; i += 2) {

@@ -47,8 +47,7 @@ void ConvexShapeCollector::transformVertices(const SliceRef& slice) {
         points_[i] = transform(slice.set.vertices[slice.firstVertex() + i]);
 }
 
-/// Determines which faces are turned toward the eye, and which edges and vertices belong to at least one of these
-/// faces.
+/// Finds which faces are turned toward the eye, and which edges and vertices belong to at least one of these faces.
 void ConvexShapeCollector::classifyFrontAndBack(const SliceRef& slice) {
     vertexSide_.assign(slice.vertices(), Side::away);
     edgeSide_.assign(slice.edges(), Side::away);
@@ -87,8 +86,8 @@ void ConvexShapeCollector::sortVerticesAndEdgesByDepth(const SliceRef& slice) {
     const auto farther = [&](std::size_t e) { return std::min(rank_[slice.edge(e)[0]], rank_[slice.edge(e)[1]]); };
     for (std::size_t e = 0; e < slice.edges(); ++e) ++edgeBegin_[farther(e)];
     std::partial_sum(edgeBegin_.begin(), edgeBegin_.end(), edgeBegin_.begin());
-    // Entry i of edgeBegin_ is now the end, in edgeOrder_, of the edges whose farther vertex has rank i. Filling
-    // edgeOrder_ backward turns the entry into the beginning of these edges.
+    // Entry i of edgeBegin_ is now the end, in edgeOrder_, of the edges whose farther vertex has rank i. The loop fills
+    // edgeOrder_ backward, and so turns the entry into the beginning of these edges.
     for (std::size_t e = slice.edges(); e-- > 0;) edgeOrder_[--edgeBegin_[farther(e)]] = static_cast<std::uint32_t>(e);
 }
 

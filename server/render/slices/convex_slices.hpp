@@ -1,5 +1,5 @@
 #pragma once
-// Prepares convex slices for drawing with the painter's algorithm.
+// Prepares convex slices for drawing with the painter's algorithm (farther shapes first).
 
 #include <cstdint>
 #include <functional>
@@ -14,17 +14,21 @@
 
 namespace oval4d::render {
 
-/// Adds the shapes of convex slices to a batch, from back to front: the slices from far to near, and in each slice
-/// first the faces that are turned away from the eye, then the bars and balls that belong only to such faces, then the
-/// faces that are turned toward the eye, then the bars and balls that belong to at least one of these. This order is
-/// correct if slices do not overlap in space. Reuses its memory for the next picture.
+/// Adds the shapes of convex slices to a batch, from back to front. The slices are added from far to near. In each
+/// slice, this is the order:
+/// - the faces that are turned away from the eye;
+/// - the bars and balls that belong only to such faces;
+/// - the faces that are turned toward the eye;
+/// - the bars and balls that belong to at least one of the latter faces.
+/// This order is correct if slices do not overlap in space. Reuses its memory for the next picture.
 class ConvexShapeCollector {
   public:
-    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice; this
-    /// function may draw the shapes in `out` and clear `out`.
+    /// Adds all visible slices to `out`, as the camera of the scene sees them. Calls `painted` after each slice. The
+    /// function `painted` may draw the shapes in `out` and clear `out`.
     void collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted);
 
   private:
+    /// The side of a face, edge or vertex: turned away from the eye, or toward it.
     enum class Side : std::uint8_t { away, toward };
 
     void paintSlice(const SliceRef& slice, ShapeBatch& out);
@@ -34,11 +38,12 @@ class ConvexShapeCollector {
     void paintFaces(const SliceRef& slice, Side side, ShapeBatch& out);
     void paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out);
 
-    std::vector<std::uint32_t> placementOrder_;          // visible slices from far to near
+    std::vector<std::uint32_t> placementOrder_;          // the indices of the visible slices, from far to near
     std::vector<glm::vec3> points_, corners_, normals_;  // in view coordinates
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;
-    std::vector<std::uint32_t> order_, rank_;  // the vertices from far to near; per vertex, its index in order_
-    std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // edges grouped by the rank of their farther vertex
+    // order_: the vertices from far to near. rank_: per vertex, its index in order_.
+    std::vector<std::uint32_t> order_, rank_;
+    std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // the edges, grouped by the rank of their farther vertex
 };
 
 }  // namespace oval4d::render

@@ -1,5 +1,5 @@
 #pragma once
-// Sorts shapes by their depths, in time proportional to their number.
+// Sorts shapes by their depths, in time proportional to the number of shapes.
 
 #include <array>
 #include <bit>
@@ -11,17 +11,18 @@
 
 namespace oval4d::render {
 
-/// Sorts shapes from far to near by a radix sort. Reuses its memory.
+/// Sorts shapes from far to near with a radix sort. Reuses its memory.
 class DepthOrder {
   public:
-    /// A shape of the list, with the key by which it is sorted.
+    /// A shape of a list, with the key by which it is sorted.
     struct KeyedShape {
-        std::uint32_t key;    ///< ascends as the depth descends
-        std::uint32_t index;  ///< of the shape in the list
+        std::uint32_t key;    ///< the key increases as the depth of the shape decreases
+        std::uint32_t index;  ///< the index of the shape in the list
     };
 
-    /// Returns the order of `shapes`, a random-access range, by their member `depth`, a float: from the greatest depth
-    /// to the least; shapes at the same depth in the order of the list. The result is valid until the next call.
+    /// Returns the order of `shapes` from the greatest depth to the least. `shapes` is a random-access range; the depth
+    /// of a shape is its member `depth`, a float. Shapes at the same depth keep the order of the list. The result is
+    /// valid until the next call.
     template <typename Shapes>
     std::span<const KeyedShape> farToNear(const Shapes& shapes) {
         entries_.clear();
@@ -37,15 +38,16 @@ class DepthOrder {
         return key >> (kDigitBits * digit) & ((1U << kDigitBits) - 1);
     }
 
-    // The bits of floats with the same sign are ordered as their absolute values. 0 is added because −0 and 0 are
-    // equal.
+    // Returns a number that increases as `depth` decreases. The bits of floats with the same sign are ordered as their
+    // absolute values. 0 is added so that −0 becomes 0, which it equals.
     static std::uint32_t keyOf(float depth) {
         constexpr std::uint32_t kSign = 1U << 31;
         const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0F);
         return (bits & kSign) != 0 ? bits : ~(bits | kSign);
     }
 
-    // Sorts by one digit of the keys after the other, from the lowest on; each pass keeps the order of equal digits.
+    // Sorts by one digit of the keys after another, from the lowest digit on. Each pass keeps the order of entries with
+    // equal digits.
     void sort() {
         if (entries_.empty()) return;
         std::array<std::array<std::uint32_t, std::size_t{1} << kDigitBits>, kDigits> counts{};
@@ -54,7 +56,8 @@ class DepthOrder {
         sorted_.resize(entries_.size());
         for (std::size_t digit = 0; digit < kDigits; ++digit) {
             auto& places = counts[digit];
-            if (places[digitOf(entries_.front().key, digit)] == entries_.size()) continue;  // all are equal
+            // All keys have the same digit.
+            if (places[digitOf(entries_.front().key, digit)] == entries_.size()) continue;
             std::uint32_t next = 0;
             for (std::uint32_t& place : places) next += std::exchange(place, next);
             for (const KeyedShape& entry : entries_) sorted_[places[digitOf(entry.key, digit)]++] = entry;

@@ -109,8 +109,8 @@ void makeTexture(GLenum target, GLint filter, GLuint& out) {
         glTexParameteri(target, name, GL_CLAMP_TO_EDGE);
 }
 
-/// The triangles of a box, counterclockwise seen from outside. The corner (x, y, z), for x, y, z in {0, 1}, has the
-/// index x + 2y + 4z.
+/// The triangles of a box, as indices of corners, counterclockwise seen from outside. The corner (x, y, z), for x, y, z
+/// in {0, 1}, has the index x + 2y + 4z.
 constexpr std::array<std::uint32_t, 36> kBoxTriangles{0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                                                       2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
 
@@ -182,7 +182,7 @@ void FogPainter::copyDepths(scene::Viewport viewport, FogOccluders occluders) {
     glActiveTexture(GL_TEXTURE0);
 }
 
-// Writes the values of a lattice to the 3-D texture that is bound.
+// Writes the values of a fog lattice to the 3-D texture that is bound.
 void FogPainter::uploadLattice(const slicing::SliceFog& fog) {
     texels_.clear();
     texels_.reserve(2 * fog.values.size());
@@ -194,7 +194,8 @@ void FogPainter::uploadLattice(const slicing::SliceFog& fog) {
                  texels_.data());
 }
 
-// Writes to the 3-D texture that is bound one byte for each block of a lattice: 255 if the block contains fog, else 0.
+// Writes one byte for each block of a fog lattice to the 3-D texture that is bound: 255 if the block contains fog, else
+// 0.
 void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table) {
     const glm::ivec3 size = scene::findFogBlocks(fog, table, blockTexels_);
     glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, size.x, size.y, size.z, 0, GL_RED, GL_UNSIGNED_BYTE, blockTexels_.data());

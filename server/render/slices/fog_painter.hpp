@@ -1,5 +1,5 @@
 #pragma once
-// Draws the fog of fields by ray casting.
+// Draws the fog of fields by ray casting, with OpenGL.
 
 #include <cstdint>
 #include <vector>
@@ -15,14 +15,15 @@
 
 namespace oval4d::render {
 
-/// Draws the fog of slices. For each pixel, follows the ray from the eye through the lattice of a slice to the nearest
-/// solid shape, and sums emission and absorption (N. Max, "Optical models for direct volume rendering", 1995). Let a be
-/// the opacity of a layer of fog that is as thick as the circumradius. Then a segment of the ray with the length s, in
-/// circumradii, absorbs the fraction 1 − (1 − a)^s of the light. The maximum of a is 1 − kMinTransmittance. Rays skip
-/// blocks of the lattice in which there is no fog. Requires a current GL context throughout its lifetime.
+/// Draws the fog of slices. For each pixel, follows the ray from the eye through the fog lattice of a slice to the
+/// nearest solid shape, and sums emission and absorption (N. Max, "Optical models for direct volume rendering", 1995).
+/// Let a be the opacity of a layer of fog that is as thick as the object's circumradius. Then a segment of the ray with
+/// the length s, in circumradii, absorbs the fraction 1 − (1 − a)^s of the light. The maximum of a is 1 −
+/// kMinTransmittance. Rays skip blocks of the lattice that contain no fog. Requires a current GL context throughout its
+/// lifetime.
 class FogPainter {
   public:
-    /// The minimum fraction of light that passes through a layer of fog as thick as the circumradius.
+    /// The minimum fraction of light that passes through a layer of fog as thick as the object's circumradius.
     static constexpr double kMinTransmittance = 1e-4;
 
     FogPainter();
@@ -30,24 +31,23 @@ class FogPainter {
     FogPainter(const FogPainter&) = delete;
     FogPainter& operator=(const FogPainter&) = delete;
 
-    /// Prepares for drawing the fog of a scene: loads the lattices of the visible slices into textures. `range` is the
-    /// range of distances that the depth buffer covers.
+    /// Prepares for drawing the fog of a scene: loads the fog lattices of the visible slices into textures. `range` is
+    /// the range of distances from the eye that the depth buffer covers.
     void begin(const scene::Scene& scene, DepthRange range);
 
-    /// The kinds of shapes that hide fog: `frame` are balls and bars, whose antialiased edges are translucent, and
-    /// `surfaces` are surfaces.
+    /// The kinds of shapes that hide fog: `frame` are the balls and bars, whose antialiased edges are translucent, and
+    /// `surfaces` are the surfaces of the field.
     enum class FogOccluders : std::uint8_t { frame, surfaces };
-    /// Copies the depth buffer to a texture for later calls of draw(). All shapes of the kind `occluders`, and none of
-    /// the other kind, must have been drawn to the depth buffer.
+    /// Copies the depth buffer to a texture for later calls of draw(). All shapes of the kind `occluders`, and no
+    /// shapes of the other kind, must have been drawn to the depth buffer.
     void copyDepths(scene::Viewport viewport, FogOccluders occluders);
 
     /// A part of the fog between the eye and the nearest surface. `behind` is the fog behind the nearest ball or bar.
-    /// It must be drawn before balls and bars are drawn, so that it is visible through their antialiased edges.
-    /// `in_front` is the rest: the fog in front of the nearest ball or bar, or all of the fog where there is no ball or
-    /// bar.
+    /// This part must be drawn before balls and bars are drawn, so that it is visible through their antialiased edges.
+    /// `in_front` is the fog in front of the nearest ball or bar; where there is no ball or bar, it is all of the fog.
     enum class FogPart : std::uint8_t { behind, in_front };
-    /// Blends a part of the fog of one slice with the picture. The caller must first call copyDepths() for both kinds
-    /// of occluders, and then draw the slices from far to near. Leaves the depth test enabled.
+    /// Blends the part `part` of the fog of one slice with the picture. The caller must first call copyDepths() for
+    /// both kinds of occluders, and must draw the slices from far to near. Leaves the depth test enabled.
     void draw(const scene::Scene& scene, std::uint32_t slice, FogPart part);
 
     /// Frees the memory that is kept for the next picture. Keeps the textures of the last picture, because deleting
@@ -56,10 +56,11 @@ class FogPainter {
     void freeMemory() { texels_ = blockTexels_ = {}; }
 
   private:
-    // A corner of the box that the lattice of a slice fills; the box is drawn to run the shader for its pixels.
+    // A corner of the box that the fog lattice of a slice fills. The box is drawn so that the shader runs for its
+    // pixels.
     struct BoxCorner {
-        glm::vec3 clip;   // clip coordinates x, y, w
-        glm::vec3 place;  // in slice coordinates, in circumradii
+        glm::vec3 clip;   // the clip coordinates x, y and w of the corner
+        glm::vec3 place;  // the coordinates of the corner in the slice, in circumradii
     };
     void uploadLattice(const slicing::SliceFog& fog);
     void uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table);
@@ -70,7 +71,8 @@ class FogPainter {
         GLint toDepth, isBehind, eye, walls, wallCount, low, size, step;
     } uniforms_{};
     GLuint table_ = 0, frameDepths_ = 0, surfaceDepths_ = 0;
-    std::vector<GLuint> lattices_, blocks_;  // per slice: the texture of its lattice, and of its blocks; 0 without fog
+    // Per slice: the texture of its lattice, and that of its blocks; 0 if the slice has no fog.
+    std::vector<GLuint> lattices_, blocks_;
     Projection projection_;
     glm::dmat4 toView_{1};
     std::vector<std::uint8_t> texels_, blockTexels_;

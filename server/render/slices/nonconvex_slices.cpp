@@ -25,7 +25,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     out.depths = {std::max(depths.from - radius, static_cast<float>(scene.camera.near)), depths.to + radius};
 
     // Shapes at the same depth are sorted by slice, kind and number, so that equal scenes give equal pictures.
-    // std::stable_sort would make this unnecessary, but allocates memory.
+    // std::stable_sort would make this comparison unnecessary, but allocates memory.
     const auto before = [](const SortedShape& a, const SortedShape& b) {
         return std::tie(a.slice, a.kind, a.number) < std::tie(b.slice, b.kind, b.number);
     };
@@ -50,7 +50,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     paintAll(faded_, out.faded);
 }
 
-// Collects the shapes of a slice, and extends `depths` to include the depths of the vertices of the slice.
+// Collects the shapes of a slice. Extends `depths` to include the depths of the vertices of the slice.
 void NonconvexShapeCollector::collectShapesOf(const SliceRef& slice, DepthRange& depths) {
     const scene::Scene& scene = slice.scene;
     const auto number = static_cast<std::uint32_t>(slice.number);
@@ -65,7 +65,8 @@ void NonconvexShapeCollector::collectShapesOf(const SliceRef& slice, DepthRange&
     }
     for (std::uint32_t e = 0; skeleton.bars && e < slice.edges(); ++e) {
         const auto& [a, b] = slice.edge(e);
-        // A bar has the depth of its far end, so that it is drawn after everything that is farther away than this end.
+        // A bar is sorted by the depth of its far end, so that it is drawn after everything that is farther away than
+        // this end.
         add({-std::min(points[a].z, points[b].z), ShapeKind::bar, number, e}, slice.edgeVisibility(e));
     }
     const slicing::FilledFaces& fill = scene.fill;

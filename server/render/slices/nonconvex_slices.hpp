@@ -1,5 +1,5 @@
 #pragma once
-// Prepares slices for drawing with a depth buffer. The shapes of these slices may intersect.
+// Prepares slices whose shapes may intersect for drawing with a depth buffer.
 
 #include <cstdint>
 #include <vector>
@@ -11,20 +11,20 @@
 
 namespace oval4d::render {
 
-/// Sorts the shapes of slices, which may be nonconvex, into layers, and converts them to patches. Reuses its memory for
-/// the next picture.
+/// Sorts the shapes of slices, which may be nonconvex, into layers, and converts them to patches (flat polygons).
+/// Reuses its memory for the next picture.
 class NonconvexShapeCollector {
   public:
-    /// The layers, in drawing order. `faces` has the opaque faces, from near to far. `skeleton` has the opaque balls
-    /// and bars, from far to near, so that their antialiased edges blend with the shapes behind them. `faded` has the
-    /// faded shapes, from far to near; faded shapes do not hide other shapes.
+    /// The layers of a picture, in drawing order. `faces` has the opaque faces, from near to far. `skeleton` has the
+    /// opaque balls and bars, from far to near, so that their antialiased edges blend with the shapes behind them.
+    /// `faded` has the faded shapes, from far to near; they do not hide other shapes.
     struct Layers {
         ShapeBatch faces, skeleton, faded;
         DepthRange depths;  ///< contains the depths of all shapes
     };
 
-    /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. The faces are
-    /// taken from Scene::fill.
+    /// Overwrites `out` with the shapes of all visible slices, as the camera of the scene sees them. Takes the faces
+    /// from Scene::fill.
     void collect(const scene::Scene& scene, Layers& out);
 
   private:
@@ -32,7 +32,8 @@ class NonconvexShapeCollector {
     struct SortedShape {
         float depth;  // the distance from the eye along the view axis
         ShapeKind kind;
-        std::uint32_t slice, number;  // number: index of a face in Scene::fill, or of a vertex or edge of the slice
+        // `number` is the index of a face in Scene::fill, or of a vertex or edge of the slice.
+        std::uint32_t slice, number;
     };
 
     void collectShapesOf(const SliceRef& slice, DepthRange& depths);
@@ -40,7 +41,7 @@ class NonconvexShapeCollector {
     void addShape(const SliceRef& slice, const SortedShape& item, const SkeletonStyle& skeleton, ShapeBatch& out);
     void addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out);
 
-    std::vector<SliceTransform> transforms_;   // one per slice
+    std::vector<SliceTransform> transforms_;   // one transform per slice
     std::vector<glm::vec3> points_, corners_;  // in view coordinates
     std::vector<SortedShape> faces_, skeleton_, faded_;
 };

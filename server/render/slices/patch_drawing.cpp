@@ -13,54 +13,56 @@ namespace oval4d::render {
 
 namespace {
 
-// The coordinates of a quad's corners may deviate by this many pixels from those of a parallelogram. A quad that
-// deviates more is drawn as two triangles.
+// The corners of a quad may deviate by this many pixels from those of a parallelogram. A quad that deviates more is
+// drawn as two triangles.
 constexpr float kMaxSkew = 0.2F;
 constexpr int kLanes = PatchCanvas::kLanes;
 
 using Form = Patch::Form;
 using DepthUse = ShapeRasterizer::DepthUse;
 
-/// A quantity that is linear in the picture: its value at the center of pixel (0, 0), and its differences to the next
-/// pixels to the right and above.
+/// A quantity that is linear in the picture. `origin` is its value at the center of the pixel (0, 0). `x` and `y` are
+/// its differences to the next pixels to the right and above.
 struct LinearFunction {
     float origin = 0, x = 0, y = 0;
 };
 
-/// The properties that all pixels of a patch share.
+/// The properties that all pixels of a patch have in common.
 struct PatchShading {
-    /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place; `nearness` is as in PatchCorner.
+    /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place. `nearness` is that of PatchCorner.
     LinearFunction u{}, v{}, halfRadius{}, nearness{};
-    glm::vec3 diffuse, specular;  ///< as in ShapeVertex
-    glm::vec3 color;              ///< 0 … 255
+    glm::vec3 diffuse, specular;  ///< the same as in ShapeVertex
+    glm::vec3 color;              ///< R, G and B, 0 … 255
     std::uint32_t alpha;          ///< 0 … 255
-    float bulge;                  ///< the radius of the shape, relative to its distance from the eye
+    float bulge;                  ///< the radius of the shape, divided by its distance from the eye
 };
 
-// Returns the numbers of the lanes, 0 … 7.
+// Returns the numbers of the eight lanes: 0 … 7.
 OVAL4D_AVX2 inline __m256i lanes() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
-// Returns a mask for the eight pixels of a row from column `at` on: all bits of a pixel are set if its column is one of
-// begin … end − 1.
+// Returns a mask for eight pixels of a row, whose first pixel is in column `at`. All bits of a pixel are set if its
+// column is in begin … end − 1.
 OVAL4D_AVX2 inline __m256i between(int begin, int end, int at) {
     const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(at), lanes());
     return _mm256_andnot_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(begin), x),
                                _mm256_cmpgt_epi32(_mm256_set1_epi32(end), x));
 }
 
-// Returns `first` in lanes 0 … 3, and `second` in lanes 4 … 7.
+// Returns a register with `first` in lanes 0 … 3, and `second` in lanes 4 … 7.
 OVAL4D_AVX2 inline __m256i inHalves(int first, int second) {
     return _mm256_set_m128i(_mm_set1_epi32(second), _mm_set1_epi32(first));
 }
 
-// Returns the parts of eight pixels that solid shapes leave uncovered, from 0 to 1.
+// Returns the parts of eight pixels that solid shapes leave uncovered, from 0 to 1. `depths` has the values of the
+// pixels in the depth buffer.
 OVAL4D_AVX2 inline __m256 uncoveredParts(__m256 depths) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
     const __m256i bits = _mm256_andnot_si256(_mm256_castps_si256(depths), mask);
     return _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / kCoverageBits));
 }
 
-// Returns the values of the depth buffer for eight pixels with these nearnesses and uncovered parts (from 0 to 1).
+// Returns the values of the depth buffer for eight pixels, from the nearnesses of the pixels and their uncovered parts
+// (from 0 to 1).
 OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
     const __m256i bits =
@@ -68,14 +70,14 @@ OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) 
     return _mm256_castsi256_ps(_mm256_or_si256(_mm256_andnot_si256(mask, _mm256_castps_si256(nearness)), bits));
 }
 
-/// The values of the linear functions of a PatchShading at the first pixels of two rows: those of the first row in
-/// lanes 0 … 3, those of the second one in lanes 4 … 7.
+/// The values of the linear functions of a PatchShading at the first pixels of two rows. Lanes 0 … 3 have the values in
+/// the first row, and lanes 4 … 7 those in the second row.
 struct StartValues {
     __m256 u, v, halfRadius, nearness;
 };
 
-// Returns the values of the functions of `paint` at the pixels (x1, y1) and (x2, y2); 0 for functions that this form of
-// patch does not need.
+// Returns the values of the linear functions of `paint` at the pixels (x1, y1) and (x2, y2). Returns 0 for functions
+// that a patch of this form does not need.
 template <Form form, DepthUse depth>
 OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, int y1, int x2, int y2) {
     const auto of = [&](const LinearFunction& f) OVAL4D_AVX2 {
@@ -95,7 +97,7 @@ OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, in
 
 /// Eight neighboring pixels of a row.
 struct PixelsOfOneRow {
-    std::ptrdiff_t index;  ///< of the first pixel in the picture
+    std::ptrdiff_t index;  ///< the index of the first of these pixels in the picture
 
     OVAL4D_AVX2 __m256 depths(const float* nearness) const { return _mm256_loadu_ps(nearness + index); }
     OVAL4D_AVX2 void setDepths(float* nearness, __m256 depths) const { _mm256_storeu_ps(nearness + index, depths); }
@@ -109,7 +111,7 @@ struct PixelsOfOneRow {
 
 /// Four neighboring pixels of a row, and four of another row.
 struct PixelsOfTwoRows {
-    std::ptrdiff_t first, second;  ///< the indices of the first pixels of the rows in the picture
+    std::ptrdiff_t first, second;  ///< the indices in the picture of the first of these pixels in each row
 
     OVAL4D_AVX2 __m256 depths(const float* nearness) const {
         return _mm256_set_m128(_mm_loadu_ps(nearness + second), _mm_loadu_ps(nearness + first));
@@ -128,9 +130,9 @@ struct PixelsOfTwoRows {
     }
 };
 
-// Draws eight pixels of a patch. `offsets`: how many columns each pixel is to the right of the pixel whose values are
-// in `start`. `inside`: all bits of a pixel are set if it is in the patch. The formulas are those of the fragment
-// shader in shape_batch.cpp.
+// Draws eight pixels of a patch. `start` has the values at the first pixel, and `offsets` says how many columns each
+// pixel is to the right of it. In `inside`, all bits of a pixel are set if the pixel is in the patch. The formulas are
+// those of the fragment shader in shape_batch.cpp.
 template <Form form, DepthUse depth, typename Pixels>
 OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading& paint, const Pixels& pixels,
                                    const StartValues& start, __m256i offsets, __m256 inside) {
@@ -140,7 +142,7 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
     const auto valueOf = [&](const LinearFunction& f, const __m256& first)
                              OVAL4D_AVX2 { return _mm256_add_ps(first, _mm256_mul_ps(offset, _mm256_set1_ps(f.x))); };
 
-    // The normal (u, v, n), and q = 1 − u² − v².
+    // N is the component of the normal (u, v, n) toward the eye, and q = 1 − u² − v².
     __m256 u = zero, v = zero, q = one;
     if constexpr (isRound) {
         u = valueOf(paint.u, start.u);
@@ -162,8 +164,8 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
         alpha = _mm256_and_ps(alpha, inside);
     } else {
         // Let d be the distance of the patch from the eye, r the much smaller radius of the shape, and n the component
-        // of the normal toward the eye. The point of the shape is closer to the eye than the patch by r·n, so its
-        // nearness is 1 / (d − r·n), which is almost (1 + n·r/d) / d. 1/d is `patch`, and r/d is paint.bulge.
+        // of the normal toward the eye. The point of the shape is closer to the eye than the patch by r·n. So its
+        // nearness is 1 / (d − r·n), which is almost (1 + n·r/d) / d. Here, 1/d is `patch`, and r/d is paint.bulge.
         const __m256 patch = valueOf(paint.nearness, start.nearness);
         const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
         const __m256 old = pixels.depths(canvas.nearness), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
@@ -204,7 +206,8 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
                                      _mm256_or_si256(_mm256_slli_epi32(blue, 16), _mm256_slli_epi32(opacity, 24))));
 }
 
-// Draws a patch: two rows at a time where both cover at most four pixels, as do most rows of thin bars, else one row.
+// Draws a patch. Draws two rows at a time if both have at most four pixels of the patch, as do most rows of thin bars;
+// otherwise draws one row at a time.
 template <Form form, DepthUse depth>
 OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     constexpr int kHalf = kLanes / 2;
@@ -236,7 +239,8 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
 
 // Blends a face with the picture, without writing depths. All pixels of a face have the same color, so integers
 // suffice: the result is (255 − α) · pixel + α · color, divided by 255 and rounded exactly. α is from 0 to 255. With
-// `tested`, most pixels are blended like this: where the face is nearer than all solid shapes, or where there is none.
+// `tested`, only pixels are blended in this way where the face is nearer than all solid shapes, or where there is no
+// solid shape: most pixels.
 template <DepthUse depth>
 OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     static_assert(depth != DepthUse::written);
@@ -263,7 +267,8 @@ OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const
                 const __m256i coverage = _mm256_and_si256(_mm256_castps_si256(solid), _mm256_set1_epi32(kCoverageBits));
                 const __m256 isVisible = _mm256_or_ps(_mm256_cmp_ps(nearness, solid, _CMP_GT_OQ),
                                                       _mm256_castsi256_ps(_mm256_cmpeq_epi32(coverage, zero)));
-                if (_mm256_testc_ps(isVisible, _mm256_castsi256_ps(inside)) == 0) {  // somewhere inside, it is not
+                // Somewhere in the face, a solid shape is nearer.
+                if (_mm256_testc_ps(isVisible, _mm256_castsi256_ps(inside)) == 0) {
                     fillPixels<Form::face, depth>(canvas, paint, pixels, start, lanes(), _mm256_castsi256_ps(inside));
                     continue;
                 }
@@ -279,15 +284,15 @@ OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const
     }
 }
 
-// Returns the first row of `rows` whose center is not below y, or rows.end if there is none.
+// Returns the first row of `rows` whose center is not below y, or rows.end if there is no such row.
 OVAL4D_AVX2 inline int firstRow(float y, const RowRange& rows) {
     const auto begin = static_cast<float>(rows.begin), end = static_cast<float>(rows.end);
-    return static_cast<int>(std::ceil(std::min(end, std::max(begin, y - 0.5F))));  // `begin` if y is not a number
+    return static_cast<int>(std::ceil(std::min(end, std::max(begin, y - 0.5F))));  // if y is NaN, the result is `begin`
 }
 
-// Finds the pixels whose centers are in a convex polygon. Returns their rows, and sets the entries of canvas.left and
-// canvas.right for these rows. Polygons with a common edge have no common pixels and leave no gap, because the pixels
-// at an edge depend only on its ends.
+// Finds the pixels whose centers are in a convex polygon. Returns the rows of these pixels, and sets the entries of
+// canvas.left and canvas.right for these rows. Polygons with a common edge have no common pixels and leave no gap,
+// because the pixels at an edge depend only on the ends of the edge.
 OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCorner> corners, bool counterclockwise) {
     RowRange rows{corners[0].row, corners[0].row};
     for (const PatchCorner& corner : corners) rows = {std::min(rows.begin, corner.row), std::max(rows.end, corner.row)};
@@ -320,8 +325,9 @@ OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCo
     return rows;
 }
 
-// Returns the nearness of a face as a linear function. Its gradient is the mean of the gradients in the triangles of a
-// fan that divides the face, weighted by the areas of the triangles. `area`: twice the signed area of the polygon.
+// Returns the nearness of a face as a linear function. A fan of triangles divides the face. The gradient of the
+// function is the mean of the gradients in these triangles, weighted by their areas. `area` is twice the signed area of
+// the polygon.
 OVAL4D_AVX2 LinearFunction nearnessOf(std::span<const PatchCorner> corners, float area) {
     const PatchCorner& first = corners[0];
     float x = 0, y = 0, sumX = first.x, sumY = first.y, sum = first.nearness;
@@ -376,12 +382,12 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
 }
 
-// Draws a patch of any form but Form::face that has three corners, or four that deviate from a parallelogram by at most
-// kMaxSkew pixels, so that ShapeVertex::place and the nearness can be taken as linear in the picture.
+// Draws a patch of any form except Form::face. The patch has three corners, or four corners that deviate from a
+// parallelogram by at most kMaxSkew pixels. So ShapeVertex::place and the nearness count as linear in the picture.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
                           Form form, DepthUse depth, float pixelSize) {
-    // The gradient of a quantity is computed from its differences along the diagonals of the quad. A triangle is
-    // treated as a quad whose fourth corner is equal to the first.
+    // The gradient of a quantity is computed from its differences along the diagonals of the quad. A triangle counts as
+    // a quad whose fourth corner is equal to the first.
     const PatchCorner &a = corners[0], &b = corners[1], &c = corners[2], &d = corners.size() == 4 ? corners[3] : a;
     const float x1 = c.x - a.x, y1 = c.y - a.y, x2 = d.x - b.x, y2 = d.y - b.y;
     const float area = x1 * y2 - x2 * y1;

@@ -48,7 +48,7 @@ void ProjectionShapeCollector::collectPart(const scene::Scene& scene, std::uint3
     const auto add = [&](const ProjectedShape& item, Visibility visibility) {
         if (visibility == Visibility::hidden) return;
         // The bars of sections (parts other than 0) are so thin that they do not cover whole pixels. Faces must be
-        // visible behind these bars; the bars are therefore in the translucent layer.
+        // visible behind these bars. Therefore these bars belong to the translucent layer.
         const bool isSkeleton = item.kind == ShapeKind::ball || item.kind == ShapeKind::bar;
         const bool solid = isSkeleton && part == 0 && visibility == Visibility::full;
         (solid ? solid_ : translucent_).push_back(item);
@@ -120,7 +120,7 @@ void ProjectionShapeCollector::addShape(const scene::Scene& scene, const Project
         const slicing::FilledFaces& fill = scene.projection.fill;
         corners_.assign(fillPoints_.begin() + fill.cornerBegin[item.number],
                         fillPoints_.begin() + fill.cornerBegin[item.number + 1]);
-        // The face of the piece is the last one whose pieces do not begin after this one.
+        // The face to which the piece belongs: the last face whose first piece is not after this piece.
         const auto next = std::ranges::upper_bound(fill.pieceBegin, item.number);
         const auto face = static_cast<std::size_t>(next - fill.pieceBegin.begin()) - 1;
         addPolygon(scene.cellColors[scene.projection.fillCells[face]],
@@ -129,7 +129,7 @@ void ProjectionShapeCollector::addShape(const scene::Scene& scene, const Project
     }
 }
 
-// Adds the convex polygon with the corners corners_.
+// Adds the convex polygon whose corners are in corners_ to `out`.
 void ProjectionShapeCollector::addPolygon(scene::Color color, float opacity, ShapeBatch& out) const {
     glm::vec3 area(0);
     for (std::size_t i = 2; i < corners_.size(); ++i)
@@ -138,8 +138,8 @@ void ProjectionShapeCollector::addPolygon(scene::Color color, float opacity, Sha
     out.addFace(corners_, length > 0 ? area / length : glm::vec3(0, 0, 1), color, opacity, false);
 }
 
-// The rectangle is computed from the vertices of the shapes, not from ProjectionPlacement::radius: far from the view
-// axis, the image of a sphere is an ellipse, and balls of a cloud may extend beyond the sphere.
+// The rectangle is computed from the vertices of the shapes, not from ProjectionPlacement::radius, for two reasons: far
+// from the view axis, the image of a sphere is an ellipse, and balls of a cloud may extend beyond the sphere.
 PixelArea ProjectionShapeCollector::Layers::pixelArea(scene::Viewport viewport) const {
     const glm::vec2 most(viewport.width, viewport.height);
     glm::vec2 least(1), greatest(-1);
@@ -150,7 +150,7 @@ PixelArea ProjectionShapeCollector::Layers::pixelArea(scene::Viewport viewport) 
         }
     }
     const glm::vec2 from = (least * 0.5F + 0.5F) * most, to = (greatest * 0.5F + 0.5F) * most;
-    // One pixel more on each side, because of rounding errors.
+    // One more pixel on each side allows for rounding errors.
     const glm::vec2 first = glm::clamp(glm::floor(from) - 1.0F, glm::vec2(0), most);
     const glm::vec2 end = glm::clamp(glm::ceil(to) + 1.0F, first, most);
     return {glm::ivec2(first), glm::ivec2(end)};

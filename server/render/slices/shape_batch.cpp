@@ -17,23 +17,23 @@ namespace oval4d::render {
 
 namespace {
 
-// The minimum radius of a shape in pixels. A thinner shape could miss all pixel centers, so it is drawn with this
-// radius, but more transparent.
+// The minimum radius of a shape in pixels. A thinner shape could miss all pixel centers. So it is drawn with this
+// radius, but with a lower opacity.
 constexpr float kMinRadius = 0.6f;
-constexpr float kMinAlpha = 0.02f;      // shapes with a lower opacity are not drawn
-constexpr float kMinFootRadius = 1.8f;  // in pixels; thinner bars have no foot (see ShapeBatch::addBarFromFarEnd())
+constexpr float kMinAlpha = 0.02f;  // shapes with a lower opacity are not drawn
+// In pixels; a bar with a smaller radius has no foot (see ShapeBatch::addBarFromFarEnd()).
+constexpr float kMinFootRadius = 1.8f;
 
-/// How a shape is drawn whose radius is clamped to at least kMinRadius.
+/// The changes to a shape whose radius, in pixels, is increased to kMinRadius if it is less.
 struct ClampedRadius {
-    float scale;          ///< the factor that multiplies the radius
-    float opacityFactor;  ///< the factor that multiplies the opacity
-    float halfPixels;     ///< half the clamped radius in pixels
-    float edgeU;          ///< the u, greater than 1, at which the coverage becomes 0
+    float scale;          ///< the factor by which the radius is multiplied
+    float opacityFactor;  ///< the factor by which the opacity is multiplied
+    float halfPixels;     ///< half the increased radius in pixels
+    float edgeU;          ///< the coordinate u, greater than 1, at which the coverage becomes 0
 };
 
-/// Clamps the radius of a shape to at least kMinRadius, and returns how this changes its size and its opacity.
-/// `pixels`: the radius of the shape in pixels. `dimensions`: the number of directions in which the shape is thin, 1
-/// for a bar and 2 for a ball.
+/// Returns the changes to a shape whose radius is `pixels` pixels, so that it is drawn with a radius of at least
+/// kMinRadius. `dimensions` is the number of directions in which the shape is thin: 1 for a bar and 2 for a ball.
 ClampedRadius clampedRadius(float pixels, int dimensions) {
     ClampedRadius clamped{1, 1, 0.5f * pixels, 0};
     if (pixels < kMinRadius) {
@@ -65,7 +65,7 @@ void ShapeBatch::add(std::initializer_list<ShapeVertex> vertices, Patch::Form fo
     addPatch(first, form);
 }
 
-/// Adds the patch whose vertices are those from `first` to the last one.
+/// Adds the patch with the vertices from index `first` to the last vertex in vertices_.
 void ShapeBatch::addPatch(std::uint32_t first, Patch::Form form) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const auto vertices = std::span(vertices_).subspan(first);
@@ -92,8 +92,8 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
     const glm::vec3 x = glm::normalize(glm::vec3(z.z, 0, -z.x));
     const glm::vec3 y = glm::cross(z, x);
 
-    // The radius, at the center of the ball, of the cone from the eye that is tangent to the ball, with room for the
-    // antialiased edge.
+    // The radius of the silhouette: at the center of the ball, the radius of the cone from the eye that is tangent to
+    // the ball. It includes room for the antialiased edge.
     const float silhouette = radius * size.scale * std::sqrt(distance2 / inside2) * size.edgeU;
     const glm::vec3 c = projection_.clipXyw(center), dx = projection_.clipXyw(x) * silhouette,
                     dy = projection_.clipXyw(y) * silhouette;
@@ -110,12 +110,12 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
 void ShapeBatch::addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color,
                                   float opacity) {
     if (from.z > -radius || to.z > -radius) return;
-    // n is the normal of the plane through the eye and the bar's axis. The silhouette consists of two lines parallel to
-    // the axis.
+    // N is the normal of the plane through the eye and the axis of the bar. The silhouette of the bar consists of two
+    // lines parallel to the axis.
     const glm::vec3 axis = to - from;
     const glm::vec3 n = glm::cross(from, to);
     const float n2 = glm::dot(n, n), axis2 = glm::dot(axis, axis), inside2 = n2 - radius * radius * axis2;
-    if (inside2 <= 0) return;  // the view is along the axis: the ball at the near end hides the bar
+    if (inside2 <= 0) return;  // the view is along the axis of the bar, so the ball at the near end hides the bar
     const ClampedRadius size = clampedRadius(radius * projection_.focalLengthInPixels() / (-0.5f * (from.z + to.z)), 1);
     if (size.opacityFactor * opacity < kMinAlpha) return;
     const glm::vec3 x = n / std::sqrt(n2);
@@ -132,8 +132,8 @@ void ShapeBatch::addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, fl
     };
     add({corner(a, -1, 0), corner(a, 1, 0), corner(b, 1, 0), corner(b, -1, 0)}, Patch::Form::strip);
     if (2 * size.halfPixels < kMinFootRadius) return;
-    // The end of the cylinder is a circle. The half of this circle that is turned to the eye extends beyond the flat
-    // end in the picture. The foot covers this half.
+    // The end of the cylinder is a circle. In the picture, the half of this circle that is turned to the eye extends
+    // beyond the flat end. The foot covers this half.
     const glm::vec3 foot = a + projection_.clipXyw(z) * (radius * size.edgeU);
     add({corner(foot, -1, 1), corner(foot, 1, 1), corner(a, 1, 0), corner(a, -1, 0)}, Patch::Form::disk);
 }
@@ -162,16 +162,16 @@ void ShapeBatch::addStroke(glm::vec2 from, glm::vec2 to, float width, scene::Col
         const glm::vec2 clip = 2.0F * at / glm::vec2(projection_.width, projection_.height) - 1.0F;
         return ShapeVertex{{clip, 1}, {0, 0, inside}, {0, 0, 1 - ambient_}, {0, 0, 0}, tint};
     };
-    // On each side of the axis, the coverage falls from the axis to half a pixel outside the edge: at the distance d
-    // from the axis, it is width/2 − d + ½, clamped to 0 … 1.
+    // On each side of the axis of the stroke, the coverage falls from the axis to half a pixel outside the edge. At the
+    // distance d from the axis, the coverage is width/2 − d + ½, clamped to 0 … 1.
     for (const glm::vec2& outward : {-side, side}) {
         add({corner(from, half), corner(to, half), corner(to + outward, -0.5F), corner(from + outward, -0.5F)},
             Patch::Form::rim);
     }
 }
 
-/// Antialiases a face: moves its edges half a pixel inward, and adds a rim whose coverage falls to zero half a pixel
-/// outside the original edges.
+/// Antialiases a face: moves its edges half a pixel inward, and adds a rim. The coverage of the rim falls to zero half
+/// a pixel outside the original edges.
 void ShapeBatch::antialiasFace(std::uint32_t first, std::uint32_t count) {
     const glm::vec2 halfSize{0.5f * projection_.width, 0.5f * projection_.height};
     pixels_.clear();
@@ -192,7 +192,7 @@ void ShapeBatch::antialiasFace(std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t i = 0; i < count; ++i) {
         const glm::vec2 before = inward(pixels_[(i + count - 1) % count], pixels_[i]);
         const glm::vec2 after = inward(pixels_[i], pixels_[(i + 1) % count]);
-        // The miter of a sharp corner is limited to twice the rim's width.
+        // The extension of a sharp corner (its miter) is limited to twice the width of the rim.
         const glm::vec2 miter = (before + after) / std::max(1 + glm::dot(before, after), 0.5f);
         ShapeVertex vertex = vertices_[first + i];
         const glm::vec2 step = 0.5f * miter / halfSize * vertex.clip.z;
@@ -233,8 +233,8 @@ void main() {
 }
 )";
 
-/// Returns shader code that replaces h by pow(h, shininess). The code squares h repeatedly if shininess is a power of
-/// two, because pow would take longer than the rest of the shader.
+/// Returns shader code that replaces h by pow(h, shininess). If the shininess is a power of two, the code squares h
+/// repeatedly, because pow would take longer than the rest of the shader.
 std::string specularPowerCode(double shininess) {
     int squarings = 0;
     while (std::exp2(squarings) < shininess) ++squarings;
@@ -245,7 +245,8 @@ std::string specularPowerCode(double shininess) {
 }
 
 // A ball or bar is drawn as a flat patch. A point of the ball or bar is closer to the eye than the patch by n.z times
-// the radius. place.z is half the radius in pixels, and toDepth.z is twice the size of a pixel at the distance 1.
+// the radius. In the formula, place.z is half the radius in pixels, and toDepth.z is twice the size of a pixel at the
+// distance 1.
 constexpr std::string_view kSurfaceDepth = R"(
     gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
 )";

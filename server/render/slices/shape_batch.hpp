@@ -1,6 +1,6 @@
 #pragma once
-// Converts balls, bars, faces and strokes to flat patches of one vertex format, so that one shader draws all of them in
-// one call and in any order.
+// Converts balls, bars, faces and strokes to flat patches with one vertex format, so that one shader draws all of them
+// in one call and in any order.
 
 #include <cstdint>
 #include <initializer_list>
@@ -21,44 +21,45 @@ namespace oval4d::render {
 /// - ball: the patch covers the unit disk of (u, v), and Z points to the eye;
 /// - bar: u runs across the bar from −1 to 1, and v = 0;
 /// - face: u = v = 0, so the normal is Z everywhere.
-/// The vertices hold the dot products of X, Y and Z with the direction of light L and the half vector H, so that the
-/// shader need not compute normals.
+/// The vertices hold the dot products of X, Y and Z with the direction to the light L and with the half vector H. So
+/// the shader need not compute normals.
 struct ShapeVertex {
-    glm::vec3 clip;  ///< clip coordinates x, y, w
-    /// u, v and r/2, for the radius r in pixels. The shape covers the fraction (1 − u² − v²) · r/2 + ½ of the pixel,
-    /// clamped to 0 … 1. A face has ½ instead of r/2, so that it covers whole pixels; at the outer edge of its soft
-    /// rim, it has −½, so that it covers nothing. A stroke has half its width at its axis, and −½ at its outer edges.
+    glm::vec3 clip;  ///< the clip coordinates x, y and w
+    /// u, v and r/2, where r is the radius of the shape in pixels. The shape covers the fraction (1 − u² − v²) · r/2 +
+    /// ½ of the pixel, clamped to 0 … 1. A face has ½ instead of r/2, so that it covers whole pixels. At the outer edge
+    /// of its soft rim, it has −½, so that it covers nothing. A stroke has half its width at its axis, and −½ at its
+    /// outer edges.
     glm::vec3 place;
     glm::vec3 diffuse;    ///< X·L, Y·L, Z·L, times the diffuse intensity
     glm::vec3 specular;   ///< X·H, Y·H, Z·H
-    std::uint32_t color;  ///< as returned by rgba()
+    std::uint32_t color;  ///< the color, as returned by rgba()
 };
 
 /// The distance of the near clipping plane from the eye, in view coordinates.
 inline constexpr float kNearPlane = 1e-3F;
 
-/// A convex polygon, whose vertices follow one another in the batch. The vertices differ only in ShapeVertex::clip and,
-/// depending on the form, in a part of ShapeVertex::place.
+/// A flat convex polygon that represents a shape or a part of a shape. Its vertices follow one another in the batch.
+/// They differ only in ShapeVertex::clip and, depending on the form, in a part of ShapeVertex::place.
 struct Patch {
-    /// The form of the shape, and the parts of ShapeVertex::place in which the vertices differ.
+    /// The form of the patch, and the parts of ShapeVertex::place in which its vertices differ.
     enum class Form : std::uint8_t {
-        face,   ///< a face; no part differs
+        face,   ///< a face; no part of ShapeVertex::place differs
         rim,    ///< a part of the soft edge of a face, or one side of a stroke; place.z differs
         strip,  ///< a bar without its foot (see ShapeBatch::addBarFromFarEnd()); place.x differs, and place.y is 0
         disk,   ///< a ball, or the foot of a bar; place.x and place.y differ
     };
-    std::uint32_t first, count;  ///< the index of the first vertex; the number of vertices
+    std::uint32_t first, count;  ///< the index of the patch's first vertex in the batch, and the number of its vertices
     Form form;
-    /// The least and the greatest x and y of the vertices in the picture, which extends from −1 to 1; infinite if a
+    /// The least and the greatest x and y of the vertices in the picture, which extends from −1 to 1. Infinite if a
     /// vertex is closer to the eye than kNearPlane.
     glm::vec2 least, greatest;
 };
 
-/// A list of shapes, converted to patches. The caller must add them in drawing order. Positions and radii are in view
-/// coordinates (see Projection); opacities are from 0 to 1.
+/// A list of shapes, converted to patches (flat polygons). The caller must add the shapes in drawing order. Positions
+/// and radii are in view coordinates (see Projection); opacities are from 0 to 1.
 class ShapeBatch {
   public:
-    /// Starts an empty list of shapes, lit as `style` specifies.
+    /// Starts an empty list of shapes. Their light is that of `style`.
     void begin(const scene::Style& style);
 
     /// Removes all shapes. Keeps the light and the projection.
@@ -67,24 +68,24 @@ class ShapeBatch {
     /// Sets the projection of the shapes that are added after this call.
     void setProjection(const Projection& projection) { projection_ = projection; }
 
-    /// Adds a ball. Does nothing if the ball is not entirely in front of the eye, or is almost transparent.
+    /// Adds a ball. Does nothing if the ball is not entirely in front of the eye, or if it is almost transparent.
     void addBall(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
 
     /// Adds a bar: a cylinder. `from` must be the end that is farther from the eye. At this end, a bar that is thick
-    /// enough has a round foot, which joins it to the ball there; the other end is flat. Does nothing if an end is
+    /// enough has a round foot, which joins the bar to the ball there; the other end is flat. Does nothing if an end is
     /// behind the eye or closer to it than `radius`, if the line through `from` and `to` passes the eye within
     /// `radius`, or if the bar is almost transparent.
     void addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color,
                           float opacity = 1);
 
     /// Adds a flat convex polygon. `normal` is a unit normal; its sign does not matter. If `soft` is true, the edges
-    /// are antialiased over one pixel, which is necessary if no bars cover them.
+    /// are antialiased over one pixel. This is necessary if no bars cover the edges.
     void addFace(std::span<const glm::vec3> corners, const glm::vec3& normal, scene::Color color, float opacity,
                  bool soft);
 
-    /// Adds a stroke: a straight line with flat ends and antialiased sides, which has its color whatever the light.
-    /// `from`, `to` and `width` are in pixels, counted from the lower left corner of the picture. Only the size of the
-    /// picture is taken from the projection. Does nothing if `from` and `to` are equal.
+    /// Adds a stroke: a straight line with flat ends and antialiased sides. Light does not change its color. `from`,
+    /// `to` and `width` are in pixels, counted from the lower left corner of the picture. Of the projection, only the
+    /// size of the picture matters. Does nothing if `from` and `to` are equal.
     void addStroke(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
     const Projection& projection() const { return projection_; }
@@ -108,7 +109,7 @@ class ShapeBatch {
 struct DepthRange {
     float from = 1, to = 2;
 
-    /// Returns (a, b) such that the depth of a point at distance d is a + b / d, from −1 at `from` to 1 at `to`. On
+    /// Returns (a, b) such that the depth of a point at the distance d is a + b / d, from −1 at `from` to 1 at `to`. On
     /// every plane in space, this depth is a linear function of the position in the picture.
     glm::vec2 toDepth() const {
         const float b = 2 / (1 / to - 1 / from);
@@ -116,23 +117,23 @@ struct DepthRange {
     }
 };
 
-/// The shader program that draws a ShapeBatch, lit as `style` specifies.
+/// The shader program that draws a ShapeBatch. The light is that of the style.
 class ShapeProgram {
   public:
     /// The depths that drawWithDepth() writes to the depth buffer.
     enum class DepthSource : std::uint8_t {
         patch,  ///< the depth of the flat patch
-        /// The depth of the ball or bar that the patch represents. Faces count as closer to the eye by the size of a
+        /// The depth of the ball or bar that the patch represents. A face counts as closer to the eye by the size of a
         /// pixel.
         surface,
     };
     ShapeProgram(const scene::Style& style, DepthSource depth);
 
-    /// Draws the shapes in order. The depth test must be disabled, because all shapes get the same depth.
+    /// Draws the shapes in their order. The depth test must be disabled, because all shapes get the same depth.
     void draw(const ShapeBatch& shapes);
 
-    /// Draws the shapes in order, with their depths. The depth test must be enabled. The depth buffer covers `range`,
-    /// which must contain the depths of all shapes.
+    /// Draws the shapes in their order, with their depths. The depth test must be enabled. The depth buffer covers
+    /// `range`, which must contain the depths of all shapes.
     void drawWithDepth(DepthRange range, const ShapeBatch& shapes);
 
   private:

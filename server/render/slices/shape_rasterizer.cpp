@@ -23,7 +23,7 @@ namespace {
 using Form = Patch::Form;
 using DepthUse = ShapeRasterizer::DepthUse;
 
-// Writes to `out` the part of a convex polygon that is in front of the eye, at a depth of at least kNearPlane.
+// Writes to `out` the part of a convex polygon that is in front of the eye at a depth of at least kNearPlane.
 void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVertex>& out) {
     out.clear();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -41,20 +41,21 @@ void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVert
 }  // namespace
 
 struct ShapeRasterizer::Impl {
-    /// The patches or the triangles that one call of add() has added, or what addDepthClearing() has.
+    /// The patches or the triangles that one call of add() has added, or the clearing that one call of
+    /// addDepthClearing() has added.
     struct AddedShapes {
         const ShapeBatch* shapes = nullptr;  // null for triangles
         DepthUse depth = DepthUse::unused;
         const SurfaceRasterizer* surfaces = nullptr;    // null for patches
-        std::span<const std::uint32_t> triangles = {};  // three indices of vertices each
+        std::span<const std::uint32_t> triangles = {};  // three indices of vertices for each triangle
         SurfaceRasterizer::Blending blending = SurfaceRasterizer::Blending::none;
-        PixelArea cleared{{0, 0}, {0, 0}};  // with neither patches nor triangles: where depths are cleared
+        PixelArea cleared{{0, 0}, {0, 0}};  // for a clearing: where depths are cleared
 
         std::span<const Patch> patches() const {
             return shapes == nullptr ? std::span<const Patch>() : shapes->patches();
         }
     };
-    /// Working memory for drawing some of the rows.
+    /// Working memory for drawing some of the rows of the picture.
     struct Workspace {
         std::vector<int> left, right;
         std::vector<ShapeVertex> clipped;
@@ -68,7 +69,7 @@ struct ShapeRasterizer::Impl {
 
     PatchCanvas canvas;
     std::uint32_t background = 0;
-    bool keepsPicture = false;  // whether shapes are drawn over the picture that is in memory
+    bool keepsPicture = false;  // whether shapes are drawn over the picture that is already in memory
     PixelArea depthArea{{0, 0}, {0, 0}};
     std::vector<AddedShapes> layers;
     std::vector<float> nearness;
@@ -130,10 +131,11 @@ void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
     forkJoin->invoke(std::ref(drawLower), std::ref(drawUpper));
 }
 
-// Returns the mean row of the shapes. The two parts of the picture below and above this row take about equally long to
+// Returns the mean row of the shapes. The parts of the picture below and above this row take about the same time to
 // draw.
 int ShapeRasterizer::Impl::middleRow() const {
-    double sum = 0;  // of the positions of the shapes: 0 at the lower edge of the picture, 1 at the upper
+    // The sum of the heights of the shapes, from 0 at the lower edge of the picture to 1 at the upper edge.
+    double sum = 0;
     std::size_t count = 0;
     for (const AddedShapes& layer : layers) {
         for (const Patch& patch : layer.patches()) {
@@ -170,7 +172,7 @@ void ShapeRasterizer::Impl::drawRows(const RowRange& rows, Workspace& workspace)
     }
 }
 
-// Clears the depths of the part of `area` that is in these rows and in the depth area.
+// Clears the depths in the part of `area` that lies in these rows and in the depth area.
 void ShapeRasterizer::Impl::clearDepth(const RowRange& rows, const PixelArea& area) const {
     const glm::ivec2 from = glm::max(area.from, depthArea.from), to = glm::min(area.to, depthArea.to);
     for (int y = std::max(rows.begin, from.y); from.x < to.x && y < std::min(rows.end, to.y); ++y) {
@@ -181,7 +183,8 @@ void ShapeRasterizer::Impl::clearDepth(const RowRange& rows, const PixelArea& ar
 
 void ShapeRasterizer::Impl::drawPatches(const PatchCanvas& part, const AddedShapes& layer, Workspace& workspace) const {
     const float pixelSize = 1 / layer.shapes->projection().focalLengthInPixels();
-    // The bounds of the drawn rows in the picture, with room for the antialiased edge, which moves corners by a pixel.
+    // The heights in the picture between which shapes may touch the drawn rows. They include room for the antialiased
+    // edge, for which corners are moved by a pixel.
     constexpr int kRoom = 2;
     const auto heightOf = [&](int row) { return 2 * static_cast<float>(row) / static_cast<float>(canvas.height) - 1; };
     const float lower = heightOf(part.rows.begin - kRoom), upper = heightOf(part.rows.end + kRoom);

@@ -20,26 +20,27 @@ struct PixelArea {
     glm::ivec2 from, to;
 };
 
-/// Rasterizes the patches of a ShapeBatch like ShapeProgram, but several times faster than llvmpipe, Mesa's rasterizer:
-/// each patch is one convex polygon, so that no pixel is shaded twice at the diagonal of a quad, and polygons are not
-/// sorted into bins. Draws the surfaces of fields with a SurfaceRasterizer; surfaces and shapes share one depth buffer.
-/// Reuses its memory for the next picture.
+/// Draws the patches of a ShapeBatch (flat polygons that represent shapes) as ShapeProgram draws them, but without
+/// OpenGL. It is several times faster than llvmpipe, Mesa's rasterizer, for two reasons. Each patch is one convex
+/// polygon, so that no pixel is shaded twice at the diagonal of a quad. And polygons are not sorted into bins. Draws
+/// the surfaces of fields with a SurfaceRasterizer; surfaces and shapes share one depth buffer. Reuses its memory for
+/// the next picture.
 class ShapeRasterizer {
   public:
-    /// How shapes use the depth buffer.
+    /// The way in which shapes use the depth buffer.
     enum class DepthUse : std::uint8_t {
-        unused,  ///< neither read nor written
-        /// Read, not written: where a shape that was drawn with `written`, or an opaque surface, is nearer, the new
-        /// shape changes only the part of each pixel that the nearer one leaves uncovered. Faces count as closer to the
-        /// eye by the size of a pixel.
+        unused,  ///< the depth buffer is neither read nor written
+        /// The depth buffer is read, not written. A nearer shape that was drawn with `written`, or a nearer opaque
+        /// surface, hides the new shape: the new shape changes only the part of each pixel that the nearer one leaves
+        /// uncovered. Faces count as closer to the eye by the size of a pixel.
         tested,
-        written,  ///< read as with `tested`, and written; faces have exactly their own depth
+        written,  ///< the depth buffer is read as with `tested`, and written; faces have exactly their own depth
     };
-    /// The minimum width of a picture.
+    /// The minimum width of a picture, in pixels.
     static constexpr int kMinWidth = 8;
 
-    /// Returns whether this processor has AVX2 and FMA. If not, only isSupported(), the constructor, the destructor and
-    /// freeMemory() may be called.
+    /// Returns whether this processor has AVX2 and FMA. If it does not, only isSupported(), the constructor, the
+    /// destructor and freeMemory() may be called.
     static bool isSupported();
 
     ShapeRasterizer();
@@ -47,21 +48,21 @@ class ShapeRasterizer {
     ShapeRasterizer(const ShapeRasterizer&) = delete;
     ShapeRasterizer& operator=(const ShapeRasterizer&) = delete;
 
-    /// Starts a picture with the background of the style. The picture will be drawn to `pixels`, which have the layout
-    /// of image::Image, premultiplied by alpha, and must remain valid until finish() returns. The viewport must be at
-    /// least kMinWidth wide.
+    /// Starts a picture with the background of `style`. The picture will be drawn to `pixels`, which have the layout of
+    /// image::Image, multiplied by alpha, and must remain valid until finish() returns. The viewport must be at least
+    /// kMinWidth wide.
     void begin(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
 
-    /// Like begin(), but draws over the picture that is in `pixels`, instead of the background.
+    /// Starts a picture like begin(), but draws over the picture that is in `pixels`, instead of the background.
     void beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
 
-    /// Adds the patches of `shapes`, which must remain valid and unchanged until finish() returns. They are drawn in
-    /// order, after everything that was added before.
+    /// Adds the patches of `shapes`, which must remain valid and unchanged until finish() returns. The patches are
+    /// drawn in their order, after everything that was added before.
     void add(const ShapeBatch& shapes, DepthUse depth);
 
     /// Adds triangles of surfaces, each given by three indices of vertices. SurfaceRasterizer::projectAndLight() must
     /// have prepared `surfaces` for this picture. `surfaces` and `indices` must remain valid until finish() returns.
-    /// The triangles are drawn in order, after everything that was added before.
+    /// The triangles are drawn in their order, after everything that was added before.
     void add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
              SurfaceRasterizer::Blending blending);
 
@@ -69,12 +70,12 @@ class ShapeRasterizer {
     /// other than `unused`, must lie in this part. Must be called after begin(), which makes the part empty.
     void setDepthArea(const PixelArea& area);
 
-    /// Clears the depth buffer in this part of the picture when everything that was added before has been drawn: it
-    /// hides nothing that is added later.
+    /// Adds a clearing of the depth buffer in the part `area` of the picture, after everything that was added before.
+    /// What was added before then hides nothing that is added later.
     void addDepthClearing(const PixelArea& area);
 
     /// Draws everything that was added. If `forkJoin` is not null, draws the upper and the lower part of the picture in
-    /// parallel.
+    /// parallel, on two threads.
     void finish(parallel::ForkJoin* forkJoin);
 
     /// Frees the memory that is kept for the next picture.

@@ -1,5 +1,5 @@
 #pragma once
-// Access to one slice of a scene.
+// Access to the elements of one slice of a scene, and their appearance.
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,13 @@
 
 namespace oval4d::render {
 
-/// A reference to one slice of a scene. The arguments v, e and f are indices of vertices, edges and faces of the slice.
+/// A reference to one slice of a scene. The arguments v, e and f of its functions are indices of vertices, edges and
+/// faces within the slice.
 struct SliceRef {
     const slicing::SliceSet& set;
     const scene::Scene& scene;
-    const glm::dmat4& toView;  ///< from world coordinates to view coordinates
-    std::size_t number;        ///< the index of the slice in the set
+    const glm::dmat4& toView;  ///< the matrix from world coordinates to view coordinates
+    std::size_t number;        ///< the index of the slice in `set`
 
     std::size_t firstVertex() const { return set.vertexBegin[number]; }
     std::size_t firstEdge() const { return set.edgeBegin[number]; }
@@ -29,14 +30,14 @@ struct SliceRef {
     std::size_t faces() const { return set.faceBegin[number + 1] - firstFace(); }
     const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
 
-    /// Returns the loop of face f, as a half-open range of indices into SliceSet::corners.
+    /// Returns the loop of face f as a half-open range of indices into SliceSet::corners.
     std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
 
     scene::Color faceColor(std::size_t f) const { return scene.cellColors[scene.coloringCellOfFace(firstFace() + f)]; }
-    /// Returns the color of vertex v or edge e: the highlight color if it belongs to the highlighted element, else
-    /// `usual`.
+    /// Returns the color of vertex v or edge e: the highlight color if the vertex or edge belongs to the highlighted
+    /// element, else `usual`.
     scene::Color vertexColor(std::size_t v, scene::Color usual) const {
         return scene.highlight.hasVertex(set.vertexSource[firstVertex() + v]) ? scene.style().highlight : usual;
     }
@@ -55,21 +56,22 @@ struct SliceRef {
         const float own = set.ballOpacity.empty() ? 1 : set.ballOpacity[firstVertex() + v];
         return own * opacity(vertexVisibility(v));
     }
-    /// Returns the factor, usually 1, that multiplies the radius of the ball at vertex v.
+    /// Returns the factor by which the radius of the ball at vertex v is multiplied; usually 1.
     float ballScale(std::size_t v) const { return set.ballScale.empty() ? 1 : set.ballScale[firstVertex() + v]; }
     float edgeOpacity(std::size_t e) const { return opacity(edgeVisibility(e)); }
-    /// Returns the factor, 0 … 1, by which the visibility of face f multiplies Scene::faceOpacity.
+    /// Returns the factor, 0 … 1, by which Scene::faceOpacity is multiplied because of the visibility of face f.
     float faceVisibilityFactor(std::size_t f) const {
         return opacity(scene.visibilities.face(set.faceSource[firstFace() + f]));
     }
 };
 
-/// Transforms slice coordinates (in the units of the object, from the origin of the slice) to view coordinates.
+/// Transforms points from slice coordinates (in the units of the object, relative to the origin of the slice) to view
+/// coordinates.
 class SliceTransform {
   public:
     explicit SliceTransform(const SliceRef& slice)
         : SliceTransform(slice.toView, slice.scene.placements[slice.number].position, slice.scene.scale) {}
-    /// `position` is the origin of the slice in world coordinates, and `scale` is in world units per unit of the
+    /// `position` is the origin of the slice in world coordinates. `scale` is the number of world units per unit of the
     /// object.
     SliceTransform(const glm::dmat4& toView, const glm::dvec3& position, double scale)
         : turn_(glm::dmat3(toView) * scale), origin_(toView * glm::dvec4(position, 1)) {}
@@ -80,7 +82,7 @@ class SliceTransform {
     glm::vec3 origin_;
 };
 
-/// The appearance of balls and bars; lengths are in world units. `ballRadius` and `ballColor` are those of
+/// The appearance of balls and bars. Lengths are in world units. `ballRadius` and `ballColor` are those of
 /// Scene::drawnBallRadius() and Scene::drawnBallColor().
 struct SkeletonStyle {
     bool balls, bars;
@@ -97,8 +99,8 @@ struct SkeletonStyle {
           barColor(scene.style().bar),
           hiddenEndLength(std::sqrt(std::max(ballRadius * ballRadius - barRadius * barRadius, 0.0f))) {}
 
-    /// Adds the part of a bar that is outside the balls at its ends, if there is one. `from` must be the end that is
-    /// farther from the eye.
+    /// Adds to `out` the part of a bar that is outside the balls at its ends, if there is such a part. `from` must be
+    /// the end that is farther from the eye.
     void addBarBetweenBalls(const glm::vec3& from, const glm::vec3& to, scene::Color color, float opacity,
                             ShapeBatch& out) const {
         const float length = glm::length(to - from);

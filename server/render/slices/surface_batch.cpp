@@ -76,7 +76,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
     }
 }
 
-// Removes the slices that do not belong to `half` from order_.
+// Removes from order_ the slices that do not belong to the half `half`: to the nearer or to the farther slices.
 void SurfaceBatch::keepHalf(const scene::Scene& scene, Selection half) {
     const auto triangles = [&](const Place& place) {
         return scene.placements[place.slice].drawn ? scene.slices->surfaces[place.slice].triangles.size() : 0;
@@ -92,12 +92,12 @@ void SurfaceBatch::keepHalf(const scene::Scene& scene, Selection half) {
     }
 }
 
-// Adds the triangles of one level of a slice. points_ and normals_ must contain the points and normals of the slice.
+// Adds the triangles of one level of a slice. points_ and normals_ must have the points and normals of the slice.
 void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     const auto alpha = static_cast<float>(level.opacity);
     const bool opaque = level.opacity == 1;
-    // A closed surface hides its own triangles that face away from the eye. Without caps, a surface is open.
+    // A closed surface hides its own triangles that face away from the eye. Only caps close a surface.
     const bool skipsBack = opaque && level.caps;
     std::vector<std::uint32_t>& out = opaque ? opaqueIndices_ : translucentIndices_;
     facing_.clear();
@@ -113,8 +113,9 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         }
         return number_[point];
     };
-    // The triangles of a cap in one wall share vertices. Their normals are equal except for rounding, which changes the
-    // light less than one step of a color; where walls meet, each wall gets vertices of its own.
+    // Triangles of a cap that lie in the same wall of the domain share vertices. Their normals are equal except for
+    // rounding, which changes the light less than one step of a color. Where walls meet, each wall gets vertices of its
+    // own.
     if (level.caps) capNumber_.assign(surface.points.size(), kNone);
     const auto capVertex = [&](std::uint32_t point, const glm::vec3& flat) {
         constexpr float kSame = 5e-4F;
@@ -194,7 +195,7 @@ void SurfaceBatch::addFringesOfLastLevel(const scene::Scene& scene, std::size_t 
     }
 }
 
-// Finds the edges between a triangle that faces the eye and one that faces away.
+// Finds the silhouette: the edges between a triangle that faces the eye and a triangle that faces away from the eye.
 void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
     silhouette_.clear();
     for (const std::uint32_t t : front_) {
@@ -204,8 +205,8 @@ void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
             if (touchesBack_[from] != 0 && touchesBack_[to] != 0) silhouette_.push_back({from, to, t});
         }
     }
-    // An edge between two triangles that face the eye is in the list twice, once in each direction. Such edges are
-    // removed.
+    // An edge between two triangles that face the eye is in the list twice, once in each direction. Such edges do not
+    // belong to the silhouette, and are removed.
     const auto ends = [](const RimEdge& edge) {
         return std::pair(std::min(edge.from, edge.to), std::max(edge.from, edge.to));
     };

@@ -22,25 +22,26 @@ using LitVertex = SurfaceRasterizer::LitVertex;
 
 constexpr std::size_t kLanes = 8;
 // While eight triangles are drawn, the first corners of the eight triangles that begin this many indices later are
-// prefetched, because another core may have written them. The other corners are often close to the first ones in
-// memory.
+// loaded into the cache (prefetched), because another core may have written them. The other corners are often close to
+// the first corners in memory.
 constexpr std::size_t kAhead = 2 * 3 * kLanes;
 
 static_assert(sizeof(LitVertex) == 8 * sizeof(float));
 static_assert(sizeof(SurfaceVertex) == 7 * sizeof(float));
 
-// The properties of the picture and the light that all vertices share.
+// The properties of the picture and of the light that all vertices have in common.
 struct Lighting {
     float halfWidth, halfHeight;  // half the size of the picture, in pixels
     float ambient, diffuse;
-    float gloss;  // the specular intensity, 0 … 255
+    float gloss;  // the intensity of specular light, 0 … 255
     unsigned shininess;
-    // Unit vectors in view coordinates: to the light, and halfway between the directions to the light and to the eye.
+    // Unit vectors in view coordinates. `light` points to the light. `halfVector` points halfway between the directions
+    // to the light and to the eye.
     glm::vec3 light, halfVector;
 };
 
-// Projects and lights eight vertices. A vertex has seven floats, but eight are read for each vertex. Therefore one more
-// float after the last vertex must be readable.
+// Projects and lights eight vertices. A vertex has seven floats, but eight floats are read for each vertex. Therefore
+// one more float after the last vertex must be readable.
 OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVertex* in, LitVertex* out) {
     __m256 v[kLanes];
     for (std::size_t i = 0; i < kLanes; ++i) v[i] = _mm256_loadu_ps(&in[i].clip.x);
@@ -49,7 +50,8 @@ OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVer
     const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
 
     const __m256 nearness = _mm256_div_ps(one, clipW);
-    // All bits of `behind` are set for a vertex that cannot be projected. A float with all bits set is NaN.
+    // All bits of `behind` are set for a vertex that cannot be projected, because it is behind the eye or too close to
+    // it. A float with all bits set is NaN.
     const __m256 behind = _mm256_cmp_ps(clipW, _mm256_set1_ps(kNearPlane), _CMP_NGE_UQ);
     const auto pixel = [&](const __m256& clip, float half) OVAL4D_AVX2 {
         const __m256 halves = _mm256_set1_ps(half);
@@ -65,7 +67,7 @@ OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVer
         _mm256_fmadd_ps(normalZ, normalZ, _mm256_fmadd_ps(normalY, normalY, _mm256_mul_ps(normalX, normalX)));
     const __m256 scale = _mm256_div_ps(one, _mm256_sqrt_ps(length2));
     const auto cosine = [&](const glm::vec3& direction) OVAL4D_AVX2 {
-        return _mm256_max_ps(_mm256_mul_ps(product(direction), scale), zero);  // 0 if the normal is 0
+        return _mm256_max_ps(_mm256_mul_ps(product(direction), scale), zero);  // at least 0; 0 if the normal is 0
     };
     const __m256 light =
         _mm256_fmadd_ps(cosine(lighting.light), _mm256_set1_ps(lighting.diffuse), _mm256_set1_ps(lighting.ambient));
@@ -91,16 +93,17 @@ OVAL4D_AVX2 void projectAndLightEight(const Lighting& lighting, const SurfaceVer
 using FloatLanes = std::array<float, kLanes>;
 using IntLanes = std::array<std::int32_t, kLanes>;
 
-// The edges and the gradients of eight triangles. The corners p, q and r of a triangle are sorted by height, the lowest
-// first.
+// The edges and the gradients of eight triangles. The corners p, q and r of each triangle are sorted by height, the
+// lowest first.
 struct alignas(32) TriangleSetup {
-    FloatLanes baseP, baseQ;    // the first row whose center is not below p, or q
-    IntLanes rowP, rowQ, rowR;  // the first rows whose centers are not below p, q, r; clamped to beginRow … endRow
-    // For each edge: its x, minus half a pixel, in the base row of its lower end; and the change of x to the next row.
+    FloatLanes baseP, baseQ;    // the first row whose center is not below p, and the first whose center is not below q
+    IntLanes rowP, rowQ, rowR;  // the first rows whose centers are not below p, q and r, clamped to beginRow … endRow
+    // For each edge: its x in the base row of its lower end, minus half a pixel; and the change of x from a row to the
+    // next.
     FloatLanes xPQ, xQR, xPR, stepPQ, stepQR, stepPR;
-    // The factors of gradients. A quantity with the values a, b and c at the corners, in the order of the indices, has
-    // d/dx = (b − a) · xB + (c − a) · xC; for d/dy, yB and yC replace xB and xC. The first corner is at
-    // (originX, originY), relative to the center of pixel (0, 0).
+    // Factors from which gradients are computed. If a quantity has the values a, b and c at the corners, in the order
+    // of the indices, its derivative d/dx is (b − a) · xB + (c − a) · xC. For d/dy, the factors are yB and yC. The
+    // first corner is at (originX, originY), relative to the center of the pixel (0, 0).
     FloatLanes xB, xC, yB, yC, originX, originY;
 };
 
@@ -119,18 +122,18 @@ OVAL4D_AVX2 inline __m256 firstPixel(__m256 coordinate) {
     return _mm256_ceil_ps(_mm256_sub_ps(coordinate, _mm256_set1_ps(0.5F)));
 }
 
-// Clamps a number to the bounds and truncates it. Returns `least` if it is NaN.
+// Clamps a number to least … greatest, and truncates it to an integer. Returns `least` if the number is NaN.
 OVAL4D_AVX2 inline __m256i clampToInt(__m256 number, float least, float greatest) {
     return _mm256_cvttps_epi32(_mm256_min_ps(_mm256_max_ps(number, _mm256_set1_ps(least)), _mm256_set1_ps(greatest)));
 }
 
-// Which of eight triangles may cover pixels, one bit per triangle.
+// Masks with one bit for each of eight triangles: which of them may cover pixels.
 struct TriangleMasks {
-    unsigned drawn;    // the bounding box contains the center of a pixel, and no corner has a position of NaN
-    unsigned clipped;  // a corner has a position of NaN, because it is behind the eye or too close
+    unsigned drawn;    // set if the bounding box contains the center of a pixel, and no corner has a position of NaN
+    unsigned clipped;  // set if a corner has a position of NaN, because it is behind the eye or too close to it
 };
 
-// The indices of the corners of eight triangles: `a` has the first corner of each triangle, `b` the second, `c` the
+// The indices of the corners of eight triangles. `a` has the first corner of each triangle, `b` the second, and `c` the
 // third.
 struct TriangleCorners {
     __m256i a, b, c;
@@ -140,8 +143,8 @@ OVAL4D_AVX2 inline TriangleCorners cornersOf(const std::uint32_t* indices) {
     const auto* const from = reinterpret_cast<const __m256i*>(indices);
     const __m256i first = _mm256_loadu_si256(from), second = _mm256_loadu_si256(from + 1),
                   third = _mm256_loadu_si256(from + 2);
-    // The index of corner k of triangle i is entry 3 i + k of 24, so it is at place (3 i + k) mod 8 in one of three
-    // registers.
+    // The index of corner k of triangle i is entry 3 i + k of 24 entries. So it is at place (3 i + k) mod 8 in one of
+    // three registers.
     const auto pick = [&](__m256i x, __m256i y, __m256i z) OVAL4D_AVX2 {
         return _mm256_blend_epi32(_mm256_blend_epi32(x, y, 0b10010010), z, 0b00100100);
     };
@@ -155,7 +158,7 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
     const auto& [a, b, c] = cornersOf(indices);
     const auto gather = [points](const float LitVertex::* member, __m256i index) OVAL4D_AVX2 {
         const float* const base = &(points->*member);
-        // A point consists of eight floats.
+        // Each point consists of eight floats.
         return _mm256_i32gather_ps(base, _mm256_slli_epi32(index, 3), 4);
     };
     const __m256 yA = gather(&LitVertex::y, a), yB = gather(&LitVertex::y, b), yC = gather(&LitVertex::y, c);
@@ -166,8 +169,8 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
     const __m256 sumY = _mm256_add_ps(_mm256_add_ps(yA, yB), yC);
     const __m256 noY = _mm256_cmp_ps(sumY, sumY, _CMP_UNORD_Q);
     const __m256i coversRows = _mm256_cmpgt_epi32(rowR, rowP);
-    // Successive triangles are close together, so often all eight lie outside the rows of this canvas, if another
-    // thread draws the other rows.
+    // Successive triangles are close together. If another thread draws the other rows, often all eight triangles lie
+    // outside the rows of this canvas.
     if (_mm256_movemask_ps(_mm256_or_ps(noY, _mm256_castsi256_ps(coversRows))) == 0) return {0, 0};
 
     const __m256 xA = gather(&LitVertex::x, a), xB = gather(&LitVertex::x, b), xC = gather(&LitVertex::x, c);
@@ -199,7 +202,8 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
     const auto putEdge = [&](const __m256& x0, const __m256& y0, const __m256& x1, const __m256& y1, const __m256& base,
                              FloatLanes& at, FloatLanes& step) OVAL4D_AVX2 {
         const __m256 slope = _mm256_div_ps(_mm256_sub_ps(x1, x0), _mm256_sub_ps(y1, y0));
-        const __m256 above = _mm256_sub_ps(_mm256_add_ps(base, half), y0);  // 0 … 1
+        // The distance of the base row above the lower end, 0 … 1.
+        const __m256 above = _mm256_sub_ps(_mm256_add_ps(base, half), y0);
         put(at, _mm256_fmadd_ps(slope, above, _mm256_sub_ps(x0, half)));
         put(step, slope);
     };
@@ -221,21 +225,21 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
     return masks;
 }
 
-// Converts the upper half of a LitVertex, a color with numbers from 0 to 255, to an RGBA pixel.
+// Converts a color with numbers from 0 to 255, the upper half of a LitVertex, to an RGBA pixel.
 OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
     const __m128i numbers = _mm_cvtps_epi32(color), words = _mm_packus_epi32(numbers, numbers);
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
 }
 
-// Draws triangle i of eight. A register holds all quantities of one pixel, because most rows of most triangles have
-// fewer pixels than a register has lanes.
+// Draws triangle i of eight triangles. A register holds all quantities of one pixel, because most rows of most
+// triangles have fewer pixels than a register has lanes.
 template <Blending blending>
 OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s, std::size_t i,
                              const LitVertex& pointA, const LitVertex& pointB, const LitVertex& pointC) {
     const __m256 a = _mm256_load_ps(&pointA.nearness), b = _mm256_load_ps(&pointB.nearness),
                  c = _mm256_load_ps(&pointC.nearness);
-    // Each quantity is clamped to the range of its values at the corners, because gradients of narrow triangles are
-    // inexact. Clamping also replaces the NaN of triangles without an area.
+    // Each quantity is clamped to the range of its values at the corners, because the gradients of narrow triangles are
+    // inexact. Clamping also replaces the NaN of triangles with the area 0.
     const __m256 least = _mm256_min_ps(_mm256_min_ps(a, b), c), most = _mm256_max_ps(_mm256_max_ps(a, b), c);
     const __m256 toB = _mm256_sub_ps(b, a), toC = _mm256_sub_ps(c, a);
     const auto gradient = [&](const FloatLanes& ofB, const FloatLanes& ofC) OVAL4D_AVX2 {
@@ -286,14 +290,14 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s
     fillRows(s.rowQ[i], s.rowR[i], s.baseQ[i], s.xQR[i], s.stepQR[i]);
 }
 
-// Draws the triangles of `wanted` (one bit for each of eight triangles) that precede the first one that must be
-// clipped. Returns all triangles of `wanted` that must be clipped, also as bits.
+// Draws the triangles of `wanted` (one bit for each of eight triangles) that come before the first triangle that must
+// be clipped. Returns, as bits, all triangles of `wanted` that must be clipped.
 template <Blending blending>
 OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const LitVertex* points, const std::uint32_t* indices,
                                unsigned wanted, TriangleSetup& lanes) {
     const TriangleMasks masks = setUpTriangles(canvas, points, indices, lanes);
     const unsigned clipped = masks.clipped & wanted;
-    // Triangles must be drawn in order, so those after a clipped one are drawn by a later call.
+    // Triangles must be drawn in order. So a later call draws the triangles after a clipped triangle.
     unsigned drawn = masks.drawn & wanted;
     if (clipped != 0) drawn &= (clipped & (0U - clipped)) - 1;
     for (; drawn != 0; drawn &= drawn - 1) {
@@ -364,7 +368,7 @@ void SurfaceRasterizer::draw(const SurfaceCanvas& canvas, std::span<const std::u
     drawTriangles<Blending::alpha>(canvas, points_.data(), indices, clipped);
 }
 
-// Draws the part of a triangle that is in front of the eye, at a depth of at least kNearPlane.
+// Draws the part of a triangle that is in front of the eye at a depth of at least kNearPlane.
 void SurfaceRasterizer::drawClippedAtNearPlane(const SurfaceCanvas& canvas, const std::uint32_t* corners,
                                                Blending blending) const {
     std::array<LitVertex, 4> polygon;

@@ -1,5 +1,5 @@
 #pragma once
-// Draws the triangles of surfaces into memory, without OpenGL.
+// Draws the triangles of the surfaces of fields into memory, without OpenGL.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,31 +11,31 @@
 
 namespace oval4d::render {
 
-/// The picture to which surfaces are drawn, and the rows that are drawn.
+/// The picture to which surfaces are drawn, with the rows that are drawn.
 struct SurfaceCanvas {
     int width, height;      ///< the size of the whole picture, in pixels
-    int beginRow, endRow;   ///< the rows that are drawn, counted from the bottom: beginRow … endRow − 1
-    std::uint32_t* pixels;  ///< the whole picture in RGBA, bottom row first
-    float* nearness;        ///< the depth buffer: see kCoverageBits (depth_buffer.hpp)
+    int beginRow, endRow;   ///< the rows beginRow … endRow − 1, counted from the bottom, are drawn
+    std::uint32_t* pixels;  ///< the whole picture in RGBA, with the bottom row first
+    float* nearness;        ///< the depth buffer of the whole picture (see kCoverageBits in depth_buffer.hpp)
 };
 
 /// Draws the triangles of a SurfaceBatch on the CPU, as SurfaceProgram (surface_batch.hpp) draws them with OpenGL.
-/// Surfaces consist of many triangles with a few pixels each. Setting up the triangles therefore takes most of the
-/// time. So eight triangles are set up at once, and triangles are not sorted into bins. Colors, opacities and 1 / depth
-/// are interpolated linearly in the picture. Triangles with a common edge have no common pixels and leave no gap.
+/// Surfaces consist of many triangles with a few pixels each, so setting up the triangles takes most of the time.
+/// Therefore eight triangles are set up at once, and triangles are not sorted into bins. Colors, opacities and 1 /
+/// depth are interpolated linearly in the picture. Triangles with a common edge have no common pixels and leave no gap.
 /// Reuses its memory for the next picture. Requires AVX2 and FMA.
 class SurfaceRasterizer {
   public:
-    /// How triangles are drawn to the picture and to the depth buffer.
+    /// The way in which triangles are drawn to the picture and to the depth buffer.
     enum class Blending : std::uint8_t {
-        none,  ///< where nothing solid is nearer, the triangle replaces the pixel and its value in the depth buffer
-        /// The triangle is blended with the pixel; the depth buffer does not change. Where a solid shape is nearer, the
-        /// triangle changes only the part of the pixel that this shape leaves uncovered.
+        none,  ///< where no solid shape is nearer, the triangle replaces the pixel and its value in the depth buffer
+        /// The triangle is blended with the pixel, and the depth buffer does not change. Where a solid shape is nearer,
+        /// the triangle changes only the part of the pixel that this shape leaves uncovered.
         alpha,
     };
 
-    /// Projects and lights the vertices of `surfaces`, which must not change until its triangles are drawn. Light is
-    /// computed per vertex, as by SurfaceProgram, because triangles are so small that light is almost linear in each of
+    /// Projects and lights the vertices of `surfaces`, which must not change until its triangles are drawn. The light
+    /// is computed per vertex, as in SurfaceProgram: triangles are so small that the light is almost linear in each of
     /// them.
     void projectAndLight(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces);
 
@@ -43,16 +43,18 @@ class SurfaceRasterizer {
     /// different rows at the same time.
     void draw(const SurfaceCanvas& canvas, std::span<const std::uint32_t> indices, Blending blending) const;
 
-    /// Estimates the mean screen y of the triangles, as a fraction of the picture height from its lower edge. Uses only
-    /// the first corner of every 32nd triangle; returns 0.5 if no such corner is between the lower and the upper edge.
+    /// Returns an estimate of the mean height of the triangles in the picture, as a fraction of the picture height from
+    /// the lower edge. Uses only the first corner of every 32nd triangle. Returns 0.5 if no such corner is between the
+    /// lower and the upper edge.
     double estimateMeanScreenY(std::span<const std::uint32_t> indices) const;
 
     /// A projected and lit vertex. It fills one 256-bit register.
     struct alignas(32) LitVertex {
         float nearness;  ///< 1 / (the distance from the eye along the view axis)
-        float x, y;      ///< in pixels from the lower left corner; NaN if the vertex is behind the eye or too close
+        /// The position in pixels from the lower left corner; NaN if the vertex is behind the eye or too close to it.
+        float x, y;
         float unused;
-        float r, g, b, a;  ///< the lit color, multiplied by alpha, and alpha: 0 … 255
+        float r, g, b, a;  ///< the lit color, multiplied by alpha, and alpha; all from 0 to 255
     };
 
   private:
@@ -60,7 +62,7 @@ class SurfaceRasterizer {
 
     const SurfaceBatch* surfaces_ = nullptr;
     scene::Viewport viewport_;
-    std::vector<LitVertex> points_;  // one per vertex of the batch
+    std::vector<LitVertex> points_;  // one per vertex of surfaces_
 };
 
 }  // namespace oval4d::render
