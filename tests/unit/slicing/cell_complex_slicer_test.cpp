@@ -15,7 +15,7 @@ using namespace oval4d;
 using namespace oval4d::support;
 using namespace oval4d::slicing;
 
-/// The signed area of a polygon, weighted by the winding number.
+/// Returns the signed area of a polygon, weighted by the winding number.
 double areaOf(const Polygon& polygon) {
     double sum = 0;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -74,16 +74,17 @@ TEST(NonConvex, slicesAreClosed) {
 }
 
 TEST(NonConvex, sectionNearThePointOfAPentagramIsABox) {
-    // The prism over a pentagram prism, cut across one point of the star.
+    // The prism over a pentagram prism, cut across one tip of the star.
     const polytopes::Polytope p = product(kSquare, pentagram());
     const SliceSet s = cutAt(p, geometry::Rotation(geometry::Turn{geometry::Plane::zw, std::numbers::pi / 2, {}}), 0.9);
-    EXPECT_EQ(s.vertexCount(0), 8U);  // a thin box at the tip
+    EXPECT_EQ(s.vertexCount(0), 8U);  // a thin box at the tip of the star
     EXPECT_EQ(s.edgeCount(0), 12U);
     EXPECT_EQ(s.faceCount(0), 6U);
 }
 
-// A comb with many teeth along w, times a square with the area 4. The lowest or highest edges of the comb's 2-faces lie
-// in the hyperplane: one for each tooth.
+// Sections through the tips of a comb's teeth have one box for each tooth. The polytope is a comb with many teeth along
+// w, times a square with the area 4. The hyperplane contains the lowest or highest edges of the comb's 2-faces: one
+// edge for each tooth.
 TEST(NonConvex, sectionThroughTheTipsOfACombConsistsOfBoxes) {
     constexpr int kTeeth = 12;
     for (const double down : {-1.0, 1.0}) {
@@ -104,8 +105,8 @@ TEST(NonConvex, sectionThroughTheTipsOfACombConsistsOfBoxes) {
     }
 }
 
-// The vertices of a cell in a hyperplane w = const are moved up and down, so that a hyperplane between them cuts the
-// cell's 2-faces several times.
+// Slices through bent cells are closed. Each cell in a hyperplane w = const has its vertices moved up and down, so that
+// a hyperplane between them cuts the cell's 2-faces several times.
 TEST(NonConvex, slicesThroughBentCellsAreClosed) {
     std::mt19937 random(23);
     std::uniform_real_distribution<double> noise(-1e-6, 1e-6);
@@ -116,7 +117,8 @@ TEST(NonConvex, slicesThroughBentCellsAreClosed) {
         const polytopes::Polytope bent = polytopes::makePolytope(name, vertices, exact.faces, exact.cells);
         std::sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.w < b.w; });
         for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-            if (vertices[i + 1].w - vertices[i].w < 1e-7) continue;  // the vertices may count as lying in it
+            // The vertices may count as lying in the hyperplane.
+            if (vertices[i + 1].w - vertices[i].w < 1e-7) continue;
             expectClosed(cutAt(bent, {}, (vertices[i].w + vertices[i + 1].w) / 2));
             ASSERT_FALSE(HasFatalFailure()) << name << " above " << vertices[i].w;
         }

@@ -1,4 +1,4 @@
-// Slices of finite sets of points.
+// Tests of slices of point clouds.
 
 #include <cmath>
 #include <limits>
@@ -40,7 +40,7 @@ TEST(CloudSlicer, showsEachPointInTheSliceNearestToIt) {
     const CloudPtr cloud = randomCloud(500, 1);
     for (int round = 0; round < 20; ++round) {
         const geometry::Rotation turn = support::randomRotation(random);
-        const geometry::Hyperplanes planes{-6, 13, 0.3};  // beyond the cloud
+        const geometry::Hyperplanes planes{-6, 13, 0.3};  // these hyperplanes reach beyond the cloud on both sides
         SliceSet slices;
         Slicer().sliceWithoutSurfaces(Object(cloud), turn, planes, slices);
         std::set<std::uint32_t> seen;

@@ -22,11 +22,13 @@ using namespace oval4d::support;
 using namespace oval4d::slicing;
 using std::numbers::pi;
 
-/// The elements of a slice by their source numbers, independent of their order and of where loops begin.
+/// The elements of a slice, found by their source numbers. So neither the order of the elements nor the corner at which
+/// a loop begins matters.
 struct BySource {
     std::map<std::uint32_t, glm::dvec3> vertices;
-    std::map<std::uint32_t, std::set<std::uint32_t>> edges;  // the sources of its ends
-    /// The sources of its corners and of the edges that follow them, beginning with the least pair.
+    std::map<std::uint32_t, std::set<std::uint32_t>> edges;  // per edge: the source numbers of its ends
+    /// Per face: the source numbers of its corners and of the edges that follow the corners, beginning with the least
+    /// pair.
     std::map<std::uint32_t, std::vector<std::array<std::uint32_t, 2>>> faces;
 };
 
@@ -67,11 +69,12 @@ void expectSame(const SliceSet& s, const SliceSet& t) {
     }
 }
 
-/// Convex polytopes have the same slices whether they are cut as convex or as general polytopes.
+/// Convex polytopes have the same slices whether they are cut by the method for convex polytopes or by the general
+/// method.
 class ConvexSlices : public testing::TestWithParam<const char*> {
   protected:
-    // Expects the same slices of the polytope as a convex and as a general one. Returns how many of them contain
-    // vertices of the polytope.
+    // Expects that both methods, the one for convex polytopes and the general one, give the same slices of the
+    // polytope. Returns how many of the slices contain vertices of the polytope.
     int expectSameAsGeneral(const geometry::Rotation& orientation, const geometry::Hyperplanes& planes) {
         slicer.slice(p, orientation, planes, s);
         generalSlicer.slice(general, orientation, planes, t);
@@ -111,7 +114,7 @@ TEST_P(ConvexSlices, inHyperplanesThroughVerticesAreThoseOfTheGeneralSlicer) {
         SCOPED_TRACE(testing::Message() << "trial " << trial);
         geometry::Rotation orientation;
         switch (trial % 4) {
-            case 0:  // vertices in the plane yz stay in w = 0
+            case 0:  // vertices in the plane yz stay in the hyperplane w = 0
                 orientation =
                     geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.1 + 0.37 * trial, 0.2 + 0.11 * trial});
                 break;
@@ -125,7 +128,7 @@ TEST_P(ConvexSlices, inHyperplanesThroughVerticesAreThoseOfTheGeneralSlicer) {
             default:
                 orientation = randomRotation(random);
         }
-        // A hyperplane through the origin, or one through some vertex.
+        // The hyperplanes include one through the origin, or one through some vertex.
         const glm::dvec4 vertex = orientation(p.vertices[random() % p.vertices.size()]);
         const int count = trial % 3 == 0 ? 41 : 21;
         const double spacing = trial % 2 == 0 ? 1.9 * p.circumradius / count : std::abs(vertex.w) / (1 + trial % 5);
@@ -145,7 +148,8 @@ INSTANTIATE_TEST_SUITE_P(Some, ConvexSlices,
                              return "the_" + name;
                          });
 
-/// An 8-cell whose squares are divided into triangles: a hyperplane may contain several coplanar 2-faces of a cell.
+/// Slices of a polytope are correct even if a hyperplane contains several coplanar 2-faces of a cell. The polytope is
+/// an 8-cell whose squares are divided into triangles.
 TEST(ConvexSlicer, handlesCellsWithSeveralFacesInAHyperplane) {
     const polytopes::Polytope& whole = named("8-cell");
     geometry::JaggedArray faces, cells;
@@ -195,7 +199,7 @@ TEST(ConvexSlicer, handlesManyElements) {
     }
 }
 
-/// Whether a second core is available depends on the other threads.
+/// The slices are the same on one and on two cores. Whether the second core is available depends on the other threads.
 TEST(ConvexSlicer, givesTheSameSlicesOnOneAndOnTwoCores) {
     const polytopes::Polytope& p = named("omnitruncated 120-cell");
     polytopes::Polytope general = p;
@@ -203,7 +207,7 @@ TEST(ConvexSlicer, givesTheSameSlicesOnOneAndOnTwoCores) {
     std::mt19937 random(20);
     const geometry::Rotation orientation = randomRotation(random);
     const double step = p.circumradius / 10;
-    // Hyperplanes on both sides of the center, on one side, outside the polytope, and a single one.
+    // Hyperplanes on both sides of the center, on one side, outside the polytope, and a single hyperplane.
     for (const geometry::Hyperplanes& planes :
          {geometry::Hyperplanes{-6, 13, step}, {3, 10, step}, {12, 9, step}, {1, 1, step}}) {
         SliceSet expected;
@@ -219,8 +223,8 @@ TEST(ConvexSlicer, givesTheSameSlicesOnOneAndOnTwoCores) {
     }
 }
 
-/// With rounded vertices, a hyperplane may cut a 2-face twice, and cells may be slightly nonconvex. The slices must
-/// still be valid data.
+/// Slices of polytopes that are not quite convex are valid data. With rounded vertices, a hyperplane may cut a 2-face
+/// twice, and cells may be slightly nonconvex.
 TEST(ConvexSlicer, isSafeForPolytopesThatAreNotQuiteConvex) {
     std::mt19937 random(3);
     CellComplexSlicer slicer;
@@ -231,7 +235,7 @@ TEST(ConvexSlicer, isSafeForPolytopesThatAreNotQuiteConvex) {
             std::normal_distribution<double> noise(0, much * p.circumradius);
             for (glm::dvec4& v : p.vertices)
                 v += glm::dvec4(noise(random), noise(random), noise(random), noise(random));
-            p.convex = true;  // as if within the tolerance of the convexity test
+            p.convex = true;  // as if the vertices were within the tolerance of the convexity test
             for (int trial = 0; trial < 20; ++trial) {
                 const geometry::Rotation orientation = trial < 10 ? randomRotation(random) : geometry::Rotation();
                 slicer.slice(p, orientation, {-10, 21, p.circumradius / 10}, s);

@@ -30,7 +30,7 @@ double weightAt(const CoordinateValueHistograms& histogram, int row, int axis, i
     return histogram.weights()[CoordinateValueHistograms::index(row, axis, column)];
 }
 
-/// Returns the sum of each row of a panel.
+/// Returns, for each row of the panel of `axis`, the sum of its weights.
 std::vector<double> valuesAlong(const CoordinateValueHistograms& histogram, int axis) {
     std::vector<double> sums(kRows, 0.0);
     for (int row = 0; row < kRows; ++row)
@@ -39,13 +39,13 @@ std::vector<double> valuesAlong(const CoordinateValueHistograms& histogram, int 
     return sums;
 }
 
-/// Returns the value in the middle of a row.
+/// Returns the value of the field that the middle of a row stands for.
 double valueOf(const CoordinateValueHistograms& histogram, int row) {
     const auto [least, greatest] = histogram.range();
     return greatest - row * (greatest - least) / (kRows - 1);
 }
 
-/// Returns the coordinate in the middle of a column.
+/// Returns the coordinate along `axis` that the middle of a column stands for.
 double coordinateOf(const CoordinateValueHistograms& histogram, int axis, int column) {
     return histogram.reach()[static_cast<std::size_t>(axis)] * (2.0 * column / (kPanel - 1) - 1);
 }
@@ -86,14 +86,15 @@ TEST(CoordinateValueHistograms, TurnsWithTheField) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.x; }, 1, kCube);
     const geometry::Rotation quarter(geometry::Turn{geometry::Plane::xw, std::numbers::pi / 2, {}});
     expectRidge(histogramOf(field, quarter), 3);
-    // Half of a quarter turn shows the cube from an edge.
+    // An eighth of a turn shows the cube from an edge.
     const geometry::Rotation eighth(geometry::Turn{geometry::Plane::xy, std::numbers::pi / 4, {}});
     const CoordinateValueHistograms turned = histogramOf(field, eighth);
     EXPECT_NEAR(turned.reach()[0], std::numbers::sqrt2, 1e-12);
     EXPECT_NEAR(turned.reach()[2], 1, 1e-12);
 }
 
-// The ball of radius r has the volume π² r⁴ / 2. No point at the distance r has a coordinate beyond r.
+// The histogram of the distance from the origin counts the volumes of balls. The ball of radius r has the volume π² r⁴
+// / 2. No point at the distance r from the origin has a coordinate greater than r.
 TEST(CoordinateValueHistograms, OfTheDistanceCountsTheVolumesOfBalls) {
     const fields::Field field = testField([](const glm::dvec4& p) { return glm::length(p); }, 1, kCube);
     std::mt19937 random(31);
@@ -109,7 +110,7 @@ TEST(CoordinateValueHistograms, OfTheDistanceCountsTheVolumesOfBalls) {
                     if (std::abs(coordinateOf(histogram, axis, column)) <= radius + 0.1) continue;
                     EXPECT_EQ(weightAt(histogram, row, axis, column), 0) << radius << ' ' << column;
                 }
-                // The upper edge of the row.
+                // `edge` is the distance that the upper edge of the row stands for.
                 inside += sums[static_cast<std::size_t>(row)];
                 const double edge = row > 0 ? (radius + valueOf(histogram, row - 1)) / 2 : radius;
                 if (edge > 1) continue;
@@ -128,7 +129,7 @@ TEST(CoordinateValueHistograms, KeepsItsTotalsUnderRotation) {
     EXPECT_EQ(std::accumulate(values.begin(), values.end(), 0.0),
               double(CoordinateValueHistograms::kPointWeight) * static_cast<double>(straight.countedPoints()));
     std::mt19937 random(32);
-    CoordinateValueHistograms histogram;  // measured again and again
+    CoordinateValueHistograms histogram;  // the same object measures all fields, one after another
     for (int trial = 0; trial < 5; ++trial) {
         histogram.measure(field, support::randomRotation(random), {});
         EXPECT_EQ(histogram.range(), straight.range());
@@ -136,15 +137,15 @@ TEST(CoordinateValueHistograms, KeepsItsTotalsUnderRotation) {
     }
 }
 
-// In a frame of reference in which a unit of time is worth two units of space, the domain is twice as long along w, and
-// has the same values.
+// A histogram shows the domain in its frame of reference. If a unit of time is worth two units of space, the domain is
+// twice as long along w, and has the same values.
 TEST(CoordinateValueHistograms, ShowsTheDomainInAFrameOfReference) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.w; }, 1, kCube);
     const CoordinateValueHistograms longer = histogramOf(fields::transformedTo(field, {.pace = 2}, 71));
     EXPECT_NEAR(longer.reach()[3], 2, 1e-12);
     EXPECT_NEAR(longer.reach()[0], 1, 1e-12);
     EXPECT_EQ(valuesAlong(longer, 3), valuesAlong(histogramOf(field), 3));
-    // x' = x − w / 2 reaches from −1.5 to 1.5, and differs from −w / 2 by at most 1.
+    // In the sheared frame, x' = x − w / 2 extends from −1.5 to 1.5, and differs from −w / 2 by at most 1.
     const CoordinateValueHistograms sheared = histogramOf(fields::transformedTo(field, {.follow = {0.5, 0, 0}}, 72));
     EXPECT_NEAR(sheared.reach()[0], 1.5, 1e-12);
     for (int column = 0; column < kPanel; ++column) {

@@ -1,5 +1,5 @@
 #pragma once
-// A check of meshes of triangles that does not use the code under test.
+// Checks of triangle meshes that do not use the code under test.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace oval4d::support {
 
-/// The directed edges of a mesh: each triangle has three of them.
+/// The directed edges of a triangle mesh: each triangle has three of them.
 class DirectedEdges {
   public:
     explicit DirectedEdges(std::span<const std::array<std::uint32_t, 3>> triangles) {
@@ -28,6 +28,7 @@ class DirectedEdges {
         return number;
     }
     /// Returns how many directed edges occur more than once, or have an opposite edge that does not occur exactly once.
+    /// In a closed mesh, there are none.
     std::size_t unpaired() const {
         std::size_t number = 0;
         forEachDifferent([&](const Edge& edge, std::size_t times) {
@@ -35,14 +36,14 @@ class DirectedEdges {
         });
         return number;
     }
-    /// Returns how many directed edges occur more often than their opposite edges.
+    /// Returns how many directed edges occur more often than their opposite edges. In a closed mesh, there are none.
     std::size_t unbalanced() const {
         std::size_t number = 0;
         forEachDifferent(
             [&](const Edge& edge, std::size_t times) { number += times > from(edge[1], edge[0]).size() ? 1U : 0U; });
         return number;
     }
-    /// Returns whether the mesh is closed and the triangles around each of its points form one ring.
+    /// Returns whether the mesh is closed, and the triangles around each of its points form one ring.
     bool isManifold() const {
         for (auto first = edges_.begin(); first != edges_.end();) {
             const auto last =
@@ -60,7 +61,7 @@ class DirectedEdges {
     }
 
   private:
-    using Edge = std::array<std::uint32_t, 3>;  // from, to, and the third corner of the triangle
+    using Edge = std::array<std::uint32_t, 3>;  // the start, the end, and the third corner of the triangle
 
     std::span<const Edge> from(std::uint32_t start, std::uint32_t end) const {
         return std::ranges::equal_range(edges_, Edge{start, end}, {}, [](const Edge& e) { return Edge{e[0], e[1]}; });

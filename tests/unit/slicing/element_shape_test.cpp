@@ -19,7 +19,7 @@ namespace {
 
 using support::shared;
 
-// The shape is congruent to the element: distances stay the same.
+// The shape of an element is congruent to the element: all distances between its vertices stay the same.
 TEST(ElementShape, hasTheDistancesOfTheElement) {
     std::mt19937 random(31);
     for (const char* name : {"5-cell", "tesseract", "3,5-duoprism", "small stellated 120-cell"}) {
@@ -54,14 +54,15 @@ TEST(ElementShape, hasTheDistancesOfTheElement) {
     }
 }
 
-// The 2-faces of a cell are oriented outward, and join its edges.
+// The 2-faces in the shape of a cell are oriented outward and joined along the cell's edges, so that they enclose the
+// volume of the cell.
 TEST(ElementShape, ofACellEnclosesItsVolume) {
     std::mt19937 random(32);
     for (const char* name : {"5-cell", "snub 24-cell", "3,5-duoprism", "small stellated 120-cell"}) {
         const Object object = shared(name);
         std::vector<glm::dvec4> normals;
         std::vector<double> offsets;
-        findCellHyperplanes(object, normals, offsets);  // a normal is six times as long as the volume
+        findCellHyperplanes(object, normals, offsets);  // the length of a normal is six times the volume of the cell
         for (int round = 0; round < 5; ++round) {
             const std::size_t cell = random() % normals.size();
             SCOPED_TRACE(std::string(name) + ", cell " + std::to_string(cell));

@@ -1,4 +1,4 @@
-// Elements turned toward +w, the sizes of elements, and the heights of vertices.
+// Tests of elements: turning them toward +w, their sizes, and the heights of vertices.
 
 #include <algorithm>
 #include <cmath>
@@ -29,7 +29,7 @@ using support::shared;
 
 const glm::dvec4 kW(0, 0, 0, 1);
 
-// Returns w of the element's vertices after rotation.
+// Returns the w coordinates of the element's vertices after rotation by `orientation`.
 std::vector<double> heightsOf(const Polytope& p, const Element& element, const geometry::Rotation& orientation) {
     std::set<std::uint32_t> vertices;
     switch (element.kind) {
@@ -80,7 +80,8 @@ TEST(Elements, LieInOneHyperplaneOnceTheyPointToW) {
     }
 }
 
-// Objects from files have rounded coordinates. The rounding errors of the vertices are not directions of the element.
+// An element that is turned toward +w lies in one hyperplane, even if the vertices are rounded, as those of objects
+// from files are. The rounding errors do not count as directions of the element.
 TEST(Elements, LieInOneHyperplaneToWithinTheRoundingOfTheirVertices) {
     std::mt19937 random(48);
     for (const char* name : {"5-cell", "tesseract", "24-cell", "3,3-duoprism", "3,5-duoprism", "snub 24-cell"}) {
@@ -104,7 +105,7 @@ TEST(Elements, LieInOneHyperplaneToWithinTheRoundingOfTheirVertices) {
 }
 
 TEST(Elements, ThroughTheOriginTurnTheShortestWay) {
-    // A point at the origin has no direction of its own, so it is already where it should be.
+    // A point at the origin has no direction of its own, so the rotation leaves it where it is.
     const Object object = std::make_shared<const geometry::PointCloud>(
         geometry::makePointCloud("points", {{0, 0, 0, 0}, {1, 0, 0, 0}}, {0, 0}));
     std::mt19937 random(12);
@@ -139,8 +140,9 @@ TEST(Elements, ClosestToWIsChosenAndThenTheNext) {
     }
 }
 
-// Every face of a 24-cell is in two cells, has three edges and three vertices; every vertex is in six cells (Coxeter,
-// Regular Polytopes, table I).
+// The element to turn to can be restricted to elements at another element. In a 24-cell, every 2-face belongs to two
+// cells and has three edges and three vertices; every vertex belongs to six cells (Coxeter, Regular Polytopes, table
+// I).
 TEST(Elements, AreChosenAmongThoseAtAnother) {
     const Object object = shared("24-cell");
     std::mt19937 random(14);
@@ -196,8 +198,8 @@ TEST(ElementsCutBy, LieInTheHyperplaneOrOnBothSides) {
     const auto countAt = [&](double w, ElementKind kind) {
         return std::ranges::count(elementsCutBy(tesseract, kind, {}, {0, 1, 1, w}), true);
     };
-    // The hyperplane w = 1 cuts all elements of the cell that it contains. Elements that only touch the hyperplane are
-    // not cut.
+    // The hyperplane w = 1 contains a cell, and cuts all elements of this cell. Elements that only touch the hyperplane
+    // are not cut.
     struct {
         ElementKind kind;
         std::ptrdiff_t atOne, atZero;
@@ -210,7 +212,7 @@ TEST(ElementsCutBy, LieInTheHyperplaneOrOnBothSides) {
     }
 }
 
-// Returns the length, the area or the volume, whichever belongs to this kind of element; expects that the others are
+// Returns the length, the area or the volume: the one that an element of this kind has. Expects that the other two are
 // absent. Returns 1 for a vertex.
 double sizeIn(const ElementMeasurements& measured, ElementKind kind) {
     EXPECT_EQ(measured.length.has_value(), kind == ElementKind::edge);
@@ -223,7 +225,7 @@ TEST(ElementMeasurements, AreThoseOfRegularPolygonsAndPolyhedra) {
     const double root2 = std::sqrt(2), root3 = std::sqrt(3), root5 = std::sqrt(5);
     struct {
         const char* name;
-        double area, volume;  // of a polygon and a polyhedron with the edge length 2
+        double area, volume;  // the area and the volume of a polygon and a polyhedron with the edge length 2
     } const rows[] = {{"5-cell", root3, 2 * root2 / 3},
                       {"tesseract", 4, 8},
                       {"24-cell", root3, 8 * root2 / 3},
@@ -239,21 +241,23 @@ TEST(ElementMeasurements, AreThoseOfRegularPolygonsAndPolyhedra) {
                 const ElementMeasurements measured = measureElement(object, element);
                 const double size = sizes[static_cast<std::size_t>(kind)];
                 EXPECT_NEAR(sizeIn(measured, kind), size, 1e-9 * size) << name << ", " << kindName;
-                // The center of a regular polytope's element is the point of its span that is closest to the origin.
+                // The center of an element of a regular polytope is the point of the element's span that is closest to
+                // the origin.
                 EXPECT_LT(glm::distance(measured.center, directionOf(object, element, kW)), 1e-9) << name;
             }
         }
     }
 }
 
-// A pentagram with sides of the length s encloses its middle twice: its area is that of five triangles with the base s,
-// whose apex is the center.
+// Areas and volumes count a region that a star encloses several times as often as the star encloses it. A pentagram
+// with sides of the length s encloses its middle twice. So its area is that of five triangles with the base s, whose
+// apex is the center.
 TEST(ElementMeasurements, CountWhatAStarEnclosesSeveralTimes) {
     const auto polytope = shared("small stellated 120-cell");
     const Object object = polytope;
     std::vector<glm::dvec4> normals;
     std::vector<double> offsets;
-    findCellHyperplanes(object, normals, offsets);  // a normal is six times as long as the volume
+    findCellHyperplanes(object, normals, offsets);  // the length of a normal is six times the volume of the cell
     std::mt19937 random(16);
     for (int round = 0; round < 10; ++round) {
         const auto [a, b] = polytope->edges[0];
@@ -268,7 +272,7 @@ TEST(ElementMeasurements, CountWhatAStarEnclosesSeveralTimes) {
     }
 }
 
-// Heron's formula, for triangles that are not regular.
+// The areas of triangles that are not regular follow from their sides by Heron's formula.
 TEST(ElementMeasurements, OfTrianglesFollowFromTheirSides) {
     const Object object = transformedTo(shared("5-cell"), {2, glm::dvec3(0.3, -0.2, 0.1), glm::dvec3(0, 0.5, 0.3)});
     const Polytope& image = *std::get<PolytopePtr>(object);
@@ -331,7 +335,8 @@ TEST(ElementMeasurements, AreInTheCoordinatesOfTheFile) {
     EXPECT_EQ(sizeIn(point, ElementKind::vertex), 1);
 }
 
-// An element of a box extends along those axes along which its center is in the middle.
+// The elements of a field are those of its box. An element of the box extends along the axes along which its center is
+// in the middle of the box.
 TEST(ElementMeasurements, OfAFieldAreThoseOfItsBox) {
     const fields::Box box{{0, -1, 2, 10}, {1, 1, 5, 14}};
     const auto function = std::make_shared<TestFunction>([](const glm::dvec4& p) { return p.x; }, 1);
@@ -371,7 +376,8 @@ TEST(RangeOfW, OfAnElementIsThatOfItsVertices) {
     }
 }
 
-// Coxeter, Regular Polytopes, table V: the distances of the 600-cell's vertices from one of them.
+// The heights of vertices are those of Coxeter's sections. Regular Polytopes, table V, has the distances of the
+// 600-cell's vertices from one of them.
 TEST(VertexHeights, AreThoseOfCoxetersSections) {
     struct Case {
         const char* name;

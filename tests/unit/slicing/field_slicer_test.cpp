@@ -27,7 +27,8 @@ SliceSet slicesOf(const fields::Field& field, const geometry::Rotation& orientat
     return out;
 }
 
-// The slice of a 4-D ellipsoid by a hyperplane is a 3-D ellipsoid: its volume and centroid are known.
+// Slices of ellipsoids have the right volumes and centroids: the slice of a 4-D ellipsoid by a hyperplane is a 3-D
+// ellipsoid.
 TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
     std::mt19937 random(20);
     std::uniform_real_distribution<double> axis(0.7, 1.5), shift(-0.2, 0.2);
@@ -38,8 +39,8 @@ TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
         const auto f = [&](const glm::dvec4& p) { return glm::length(own(p - center) / axes) - 1; };
         const fields::Field field = testField(f, 1 / 0.7, {glm::dvec4(-2), glm::dvec4(2)});
         const SliceSet slices = slicesOf(field, orientation, {}, 128);
-        // The ellipsoid is {c + M u : |u| ≤ 1}, where M = orientation · own⁻¹ · diag(axes). With m, the last row of M,
-        // the slice at w is the set of u with m · u = w − c.w: a 3-ball.
+        // The ellipsoid is {c + M u : |u| ≤ 1}, where M = orientation · own⁻¹ · diag(axes). Let m be the last row of M.
+        // Then the slice at w is the image of the u with m · u = w − c.w: a 3-ball.
         const glm::dvec4 rotatedCenter = orientation(center);
         glm::dmat4 m = (orientation * own.inverse()).matrix();
         for (int k = 0; k < 4; ++k) m[k] *= axes[k];
@@ -76,7 +77,7 @@ TEST(FieldSlicer, EllipsoidsHaveTheRightVolumesAndCentroids) {
     }
 }
 
-// The whole domain is inside: the caps are the domain's slice.
+// If the whole domain is inside the level, the caps bound exactly the slice of the domain.
 TEST(FieldSlicer, CapsFillTheDomainExactly) {
     std::mt19937 random(21);
     const fields::Field field =
@@ -98,14 +99,14 @@ TEST(FieldSlicer, CapsFillTheDomainExactly) {
             const Measure result = measure(surface, 0);
             EXPECT_EQ(result.unpaired, 0U);
             EXPECT_NEAR(result.volume / expected, 1, trial == 0 ? 1e-6 : 0.004) << "trial " << trial << " slice " << i;
-            // Where the domain is thinner than the lattice's step, it may fall apart.
+            // Where the domain is thinner than a lattice step, the body may fall apart.
             EXPECT_EQ(result.euler, 2 * static_cast<long>(result.components));
         }
     }
 }
 
-// Sums of waves, whose level sets have many components and tunnels. Where two of them almost touch, faces of the
-// lattice have alternating corners.
+// Surfaces are closed, whatever the field. Sums of waves have level sets with many components and tunnels. Where two
+// parts almost touch, faces of the lattice have alternating corners.
 TEST(FieldSlicer, SurfacesOfRandomFieldsAreClosed) {
     std::mt19937 random(22);
     std::normal_distribution<double> normal;
@@ -118,7 +119,8 @@ TEST(FieldSlicer, SurfacesOfRandomFieldsAreClosed) {
                 text += " + " + std::to_string(3 * normal(random)) + "*" + axis;
             text += ")";
         }
-        if (trial % 4 == 3) text += " + 0.1*sqrt(x^2 + y^2 + z^2 + w^2 - 0.5)";  // without values in a ball
+        // The square root has no value in a ball.
+        if (trial % 4 == 3) text += " + 0.1*sqrt(x^2 + y^2 + z^2 + w^2 - 0.5)";
         const auto field = fields::fieldFromFormula("waves", text, {glm::dvec4(-1), glm::dvec4(1, 1, 1, 1.5)});
         ASSERT_TRUE(field) << field.error().message;
         FieldSettings settings{{-0.5, normal(random)}, trial % 2 == 0 ? fields::Inside::below : fields::Inside::above};
@@ -138,7 +140,8 @@ TEST(FieldSlicer, SurfacesOfRandomFieldsAreClosed) {
 
 constexpr std::string_view kTiger = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 < 0.09";
 
-// The tiger's 4-volume follows from Pappus' theorem: 4 π³ a b r².
+// The 4-volume of the tiger, found from its slices, does not depend on its rotation. It follows from Pappus' theorem: 4
+// π³ a b r².
 TEST(FieldSlicer, TheTigersVolumeDoesNotDependOnItsRotation) {
     const auto tiger = fields::fieldFromFormula("tiger", kTiger, {glm::dvec4(-1.6), glm::dvec4(1.6)});
     ASSERT_TRUE(tiger) << tiger.error().message;
@@ -154,8 +157,9 @@ TEST(FieldSlicer, TheTigersVolumeDoesNotDependOnItsRotation) {
     }
 }
 
-// At w = 0 the tiger is two coaxial tori around the circle x² + y² = 1, at z = ±0.7; where |w| is between 0.7 − 0.3 and
-// 0.7 + 0.3, both merge to one torus, and beyond it is empty.
+// The slices of the tiger have the right topology. At w = 0, the slice consists of two coaxial tori around the circle
+// x² + y² = 1, at z = ±0.7. If |w| is between 0.7 − 0.3 and 0.7 + 0.3, the two tori have merged to one torus. For
+// greater |w|, the slice is empty.
 TEST(FieldSlicer, TheTigersSlicesHaveTheRightTopology) {
     const auto tiger = fields::fieldFromFormula("tiger", kTiger, {glm::dvec4(-1.6), glm::dvec4(1.6)});
     ASSERT_TRUE(tiger) << tiger.error().message;
@@ -164,21 +168,21 @@ TEST(FieldSlicer, TheTigersSlicesHaveTheRightTopology) {
     for (int i = 0; i < planes.count; ++i) {
         const double w = planes.w(i);
         const Measure result = measure(slices.surfaces[static_cast<std::size_t>(i)], 0);
-        EXPECT_EQ(result.euler, 0);  // tori have the Euler number 0
+        EXPECT_EQ(result.euler, 0);  // a torus has the Euler characteristic 0
         if (std::abs(w - 0.4) < 0.05) continue;
         EXPECT_EQ(result.components, w < 0.4 ? 2U : w < 1 ? 1U : 0U) << "w = " << w;
     }
 }
 
-// The hyperplane z + s x = 1 meets the wall z = 1 in x = 0, at an angle that may be small. The lattice may have any
-// position.
+// The rim of a surface is smooth even where the surface meets the box at a small angle: the hyperplane z + s x = 1
+// meets the wall z = 1 at x = 0. This holds for any position of the lattice.
 TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
     std::mt19937 random(22);
     for (const double slope : {1.0, 0.3, 0.1}) {
         const auto f = [slope](const glm::dvec4& p) { return p.z + slope * p.x - 1; };
         const fields::Field field = testField(f, 1 + slope, {glm::dvec4(-1), glm::dvec4(1)});
         for (int trial = 0; trial < 4; ++trial) {
-            // These rotations do not change w, so the slice w = 0 contains the whole rim.
+            // These rotations do not change w, so the slice at w = 0 contains the whole rim.
             const geometry::Rotation orientation =
                 geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.3 + trial, {}}) *
                 geometry::Rotation(geometry::Turn{geometry::Plane::xz, 0.8 * trial, {}}) *
@@ -204,7 +208,8 @@ TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
     }
 }
 
-// The same sphere bounds the body inside a level, the body outside it, and one of two bodies at the same time.
+// Levels are independent of each other. The same sphere bounds the body inside a level, the body outside the level, and
+// one of two bodies that are shown at the same time.
 TEST(FieldSlicer, LevelsAreIndependentOfEachOther) {
     const auto ball = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2", {glm::dvec4(-1), glm::dvec4(1)});
     ASSERT_TRUE(ball);
@@ -216,11 +221,11 @@ TEST(FieldSlicer, LevelsAreIndependentOfEachOther) {
     EXPECT_EQ(measure(both.surfaces[0], 0).volume, measure(inner.surfaces[0], 0).volume);
     EXPECT_NEAR(measure(both.surfaces[0], 1).volume / (volume * 1.8 * 1.8 * 1.8), 1, 0.01);
     EXPECT_NEAR(measure(outside.surfaces[0], 0).volume, 8 - volume, 0.01);
-    EXPECT_EQ(measure(outside.surfaces[0], 0).euler, 4);  // a cube, and a spherical cavity
+    EXPECT_EQ(measure(outside.surfaces[0], 0).euler, 4);  // the body is a cube with a spherical cavity
 }
 
 TEST(FieldSlicer, GrowthIsTheSpeedOfTheSurface) {
-    // The radius of the ball is 0.3 + 0.25 t.
+    // The ball's radius at the time t is 0.3 + 0.25 t.
     const auto ball =
         fields::fieldFromFormula("growing", "sqrt(x^2+y^2+z^2) < 0.3 + 0.25*t", {glm::dvec4(-1), glm::dvec4(1)});
     ASSERT_TRUE(ball);
@@ -231,16 +236,16 @@ TEST(FieldSlicer, GrowthIsTheSpeedOfTheSurface) {
     }
 }
 
-// Where the field has the level, the array differs from the formula by at most 0.005, the error of interpolation
-// between its samples.
+// An array with the values of a formula has nearly the same surfaces as the formula. Where the field has the value of
+// the level, the array differs from the formula by at most 0.005, because it is interpolated between its samples.
 TEST(FieldSlicer, AnArrayOfAFormulasValuesHasItsSurfaces) {
     SKIP_IF_SANITIZED();
     struct Flow {
         double level;
         std::string_view speed;
     };
-    // Exact solutions of the Navier-Stokes equations: Ethier and Steinman's flow, and a decaying flow of Arnold,
-    // Beltrami and Childress.
+    // The speeds of two flows that solve the Navier-Stokes equations exactly: the flow of Ethier and Steinman, and a
+    // decaying flow of Arnold, Beltrami and Childress.
     for (const Flow& flow :
          {Flow{0.8,
                "exp(-d^2*t)*a*sqrt((exp(a*x)*sin(a*y+d*z)+exp(a*z)*cos(a*x+d*y))^2"
@@ -251,9 +256,10 @@ TEST(FieldSlicer, AnArrayOfAFormulasValuesHasItsSurfaces) {
         ASSERT_TRUE(formula) << formula.error().message;
         const fields::Field array = sampledField(*formula, 33);
         const FieldSettings settings{{flow.level}, fields::Inside::above};
-        // The errors are of second order in the distances h of the samples and of the points in the slice's lattice:
-        // those of linear interpolation are at most h²/8 times the sum of the second derivatives, and a surface's point
-        // is the mean of the places where it crosses the edges of a cube. The sum reaches 160 where the speed is low.
+        // The errors are of second order in the distances h of the samples, and in those of the lattice points of the
+        // slice. The error of linear interpolation is at most h²/8 times the sum of the second derivatives. A point of
+        // the surface is the mean of the places where the surface crosses the edges of a cube. The sum reaches 160
+        // where the speed is low.
         constexpr double kMaxError = 160.0 / (16 * 16 * 8);
         std::mt19937 random(24);
         const geometry::Rotation orientation = support::randomRotation(random);
@@ -280,7 +286,8 @@ TEST(FieldSlicer, AnArrayOfAFormulasValuesHasItsSurfaces) {
     }
 }
 
-// Where the temperature w^(-3/2) exp(-r²/4w) is L, r² = -4w log(L w^(3/2)).
+// The region where heat is above a level is a ball of known radius. Where the temperature w^(-3/2) exp(-r²/4w) is L, r²
+// = -4w log(L w^(3/2)).
 TEST(FieldSlicer, HeatIsWarmerThanALevelInABallOfKnownRadius) {
     constexpr double kLevel = 3, kBegin = 0.05, kEnd = 0.45;
     const auto heat = fields::fieldFromFormula("heat", "w^(-3/2)*exp(-(x^2+y^2+z^2)/(4*w))",
@@ -297,8 +304,8 @@ TEST(FieldSlicer, HeatIsWarmerThanALevelInABallOfKnownRadius) {
     }
 }
 
-// The second function is evaluated at the field's own points: the points of the slice, rotated back. This also holds in
-// a frame of reference, on caps, and for each level.
+// The second values of surface points are those of the second function at the field's own points: the points of the
+// slice, rotated back. This also holds in a frame of reference, on caps, and for each level.
 TEST(FieldSlicer, SecondValuesAreThoseOfTheFieldsOwnPoints) {
     std::mt19937 random(21);
     const auto field = fields::fieldFromFormula(

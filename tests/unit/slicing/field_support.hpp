@@ -1,5 +1,5 @@
 #pragma once
-// Test functions for fields, and measurements of closed surfaces.
+// Test functions and fields, and measurements of closed surfaces.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,8 @@
 
 namespace oval4d::slicing {
 
-/// Returns lattices whose cubes have 1/`cubes` of the field's diameter as their width.
+/// Returns the settings of lattices whose cubes are 1/`cubes` as wide as the field's diameter, for all hyperplanes of
+/// `planes`.
 inline SurfaceDetail detailOf(const fields::Field& field, const geometry::Hyperplanes& planes, int cubes) {
     SurfaceDetail detail;
     detail.steps.assign(static_cast<std::size_t>(planes.count), 2 * field.circumradius / cubes);
@@ -32,7 +33,7 @@ inline SurfaceDetail detailOf(const fields::Field& field, const geometry::Hyperp
     return detail;
 }
 
-/// A function given by a callable, whose slope is at most `lipschitz` everywhere.
+/// A scalar function that calls a callable. The slope of the callable must be at most `lipschitz` everywhere.
 class TestFunction : public fields::ScalarFunction {
   public:
     using Callable = std::function<double(const glm::dvec4&)>;
@@ -74,11 +75,12 @@ class TestFunction : public fields::ScalarFunction {
     double lipschitz_;
 };
 
+/// Returns a field with the function `f`, whose slope is at most `lipschitz`, in the box `box`.
 inline fields::Field testField(TestFunction::Callable f, double lipschitz, const fields::Box& box) {
     return fields::makeField("test", std::make_shared<TestFunction>(std::move(f), lipschitz), box);
 }
 
-/// Returns an array of this shape with the values of the field in its box.
+/// Returns an array with the number of samples `shape` that has the values of `field` in its box.
 inline fields::Field sampledField(const fields::Field& field, const fields::Shape& shape) {
     const fields::Box& box = field.box;
     const auto at = [&](int axis, std::size_t i) {
@@ -101,14 +103,14 @@ inline fields::Field sampledField(const fields::Field& field, const fields::Shap
     return array;
 }
 
-/// Returns an array with the values of the field at `side` points along each axis of its box.
+/// Returns an array that has the values of `field` at `side` points along each axis of its box.
 inline fields::Field sampledField(const fields::Field& field, std::size_t side) {
     return sampledField(field, fields::Shape{side, side, side, side});
 }
 
-/// Heat that spreads from the points x = ±1, y = z = 0, since the time w = 0, as a field and as an array. The samples
-/// lie so close together along w that the level is reached halfway between the points at nearly the right time; one of
-/// them lies there at each moment. The middle of the box is not there.
+/// Heat that spreads from two points, x = ±1 with y = z = 0, since the time w = 0, as a field and as an array. The
+/// samples of the array lie so close together along w that the level is reached halfway between the points at nearly
+/// the right time. At each moment, one of the samples lies there. The middle of the box does not lie there.
 struct HeatKernels {
     static constexpr double kLevel = 5;
     fields::Box box{{-2.1, -1.1, -1.1, 0.06}, {2.3, 1.3, 1.2, 0.3}};
@@ -120,9 +122,9 @@ struct HeatKernels {
         1000, box);
     fields::Field array = sampledField(field, fields::Shape{45, 25, 24, 97});
 
-    /// Returns the time at which the parts of the body above kLevel merge.
+    /// Returns the time at which the two parts of the body above kLevel merge.
     static double merging() {
-        double below = 0.06, above = 1.0 / 6;  // halfway between the points, it is hottest at 1/6
+        double below = 0.06, above = 1.0 / 6;  // halfway between the points, the temperature is highest at the time 1/6
         for (int i = 0; i < 60; ++i) {
             const double t = (below + above) / 2;
             (2 * std::pow(t, -1.5) * std::exp(-1 / (4 * t)) < kLevel ? below : above) = t;
@@ -137,14 +139,15 @@ struct Measure {
     glm::dvec3 moment{0};        ///< the volume times the centroid
     long euler = 0;              ///< the Euler characteristic of the surface
     std::size_t components = 0;  ///< the number of connected components of the surface
-    std::size_t unpaired = 0;    ///< the number of directed edges that occur more than once, or whose opposite edge
-                                 ///< does not occur exactly once
+    /// The number of directed edges that occur more than once, or whose opposite edge does not occur exactly once.
+    std::size_t unpaired = 0;
 };
 
+/// Measures the body that the triangles of the level with the index `level` enclose, without the code under test.
 inline Measure measure(const SliceSurface& surface, std::size_t level) {
     Measure result;
     std::vector<std::array<std::uint32_t, 3>> triangles;
-    // Each point refers to a point of the same component with a smaller number, or to itself.
+    // A union–find structure: each point refers to a point of the same component with a smaller number, or to itself.
     constexpr std::uint32_t kUnused = ~0U;
     std::vector<std::uint32_t> points(surface.points.size(), kUnused);
     const auto rootOf = [&](std::uint32_t point) {

@@ -1,4 +1,4 @@
-// Filling by the nonzero winding rule, and the convexity test.
+// Tests of filling faces by the nonzero winding rule, and of the convexity test.
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ std::vector<polytopes::Polytope> starPolychora() {
     return all;
 }
 
-/// A slice with one face, of one cell, made of loops in the plane spanned by u and v.
+/// Returns a slice with one face of one cell. The face consists of `loops` in the plane spanned by u and v.
 SliceSet flat(const std::vector<std::vector<glm::dvec2>>& loops, const glm::dvec3& u, const glm::dvec3& v) {
     SliceSet s;
     s.planes = {0, 1, 1};
@@ -108,8 +108,8 @@ std::vector<glm::dvec2> starPolygon(int points, int step) {
 
 TEST(FaceFiller, IncludesTheCoreOfAPentagram) {
     const FilledFaces fill = filled(flat({starPolygon(5, 2)}, {1, 0, 0}, {0, 0.6, 0.8}), 1);
-    // The outline has ten corners, at radii 1 and 1 / φ² alternately, which divide it into ten triangles with an angle
-    // of π / 5 at the center.
+    // The outline of the pentagram has ten corners, alternately at the radii 1 and 1 / φ². They divide the pentagram
+    // into ten triangles with an angle of π / 5 at the center.
     const double inner = 1 / (std::numbers::phi * std::numbers::phi);
     EXPECT_NEAR(areaOf(fill), 5 * inner * std::sin(std::numbers::pi / 5), 1e-9);
     ASSERT_EQ(fill.faces.size(), 1U);
@@ -124,7 +124,7 @@ TEST(FaceFiller, IsRoughIfThereAreTooFewSteps) {
         ASSERT_EQ(fill.faces.size(), 1U);
         EXPECT_EQ(fill.faces[0].winding, 0);
         EXPECT_EQ(fill.cornerBegin.size() - 1, 7U);
-        // A star polygon is star-shaped about its center, so the triangles overlap only in the core.
+        // A star polygon is star-shaped about its center. So the triangles overlap only in the core of the star.
         EXPECT_NEAR(areaOf(fill), 3.5 * std::sin(6 * std::numbers::pi / 7), 1e-9);
     }
     FilledFaces fill;
@@ -167,7 +167,7 @@ TEST(FaceFiller, FillsALoopThatIsNotFlatUpToItsSides) {
         EXPECT_EQ(fill.corners[3 * i + 2], saddle.vertices[(i + 1) % 4]);
     }
     EXPECT_LT(glm::distance(middle, glm::dvec3(0.3, -0.2, 0.1)), 1e-12);
-    // A loop that is flat but for rounding is a single piece.
+    // A loop that is flat except for rounding is filled by a single piece.
     for (std::size_t i = 0; i < 4; ++i) saddle.vertices[i].z *= 1e-12;
     EXPECT_LT(FaceFiller().fill(saddle, 2, fill, steps), steps);
     EXPECT_EQ(fill.cornerBegin.size() - 1, 1U);
@@ -181,8 +181,8 @@ TEST(FaceFiller, LeavesAHoleBetweenOppositeLoops) {
     EXPECT_NEAR(areaOf(filled(flat({outer, inner}, {1, 0, 0}, {0, 1, 0}), 3)), 16, 1e-8);
 }
 
-// A comb whose teeth all have different lengths: most strips contain many pieces, and all but one piece continue into
-// the next strip.
+// A comb is divided into few pieces: pieces continue from strip to strip. The teeth of the comb all have different
+// lengths. So most strips contain many pieces, and all of these except one continue into the next strip.
 TEST(FaceFiller, ContinuesThePiecesOfACombInEachStrip) {
     constexpr int kTeeth = 60;
     std::vector<glm::dvec2> comb{{2.0 * kTeeth - 1, 0.0}};
@@ -201,7 +201,7 @@ TEST(FaceFiller, ContinuesThePiecesOfACombInEachStrip) {
     EXPECT_NEAR(areaOf(fill), area, 1e-6);
     ASSERT_EQ(fill.faces.size(), 1U);
     EXPECT_EQ(fill.faces[0].winding, 1);
-    // A polygon that does not cross itself is divided into fewer trapezoids than it has sides.
+    // A polygon that does not cross itself is divided into at most as many trapezoids as it has sides.
     EXPECT_LE(fill.cornerBegin.size() - 1, comb.size());
 }
 
@@ -209,7 +209,8 @@ TEST(FaceFiller, CoversExactlyThePointsWithNonzeroWindingNumber) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1, 1);
     for (int trial = 0; trial < 60; ++trial) {
-        // Random loops, in every other trial on a coarse grid, where sides overlap and corners lie on sides.
+        // Random loops. In every other trial, their corners lie on a coarse grid, so that sides overlap and corners lie
+        // on sides.
         std::vector<std::vector<glm::dvec2>> loops(1 + random() % 3);
         for (auto& loop : loops) {
             for (std::size_t n = 3 + random() % 9; n-- > 0;) {
@@ -230,9 +231,10 @@ TEST(FaceFiller, CoversExactlyThePointsWithNonzeroWindingNumber) {
         for (int i = 0; i < 2000; ++i) {
             const glm::dvec2 p(place(random), place(random));
             int holders = 0;
-            bool near = false;  // near an edge, either result is correct
+            bool near = false;  // near an edge, the point may count as inside or outside
             for (std::size_t k = 0; k + 1 < fill.cornerBegin.size(); ++k) {
-                double least = 1, most = -1;  // signed distances from the sides; pieces may have either orientation
+                // Signed distances of the point from the sides; a piece may have either orientation.
+                double least = 1, most = -1;
                 for (auto c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c) {
                     const auto next = c + 1 < fill.cornerBegin[k + 1] ? c + 1 : fill.cornerBegin[k];
                     const glm::dvec2 a = onPlane(fill.corners[c]), b = onPlane(fill.corners[next]) - a;
@@ -275,8 +277,8 @@ TEST(FaceFiller, PiecesLieInTheirPlaneAndFaceOutward) {
     }
 }
 
-// The winding numbers of the faces that a ray from the center of a star polychoron passes through add up to its density
-// (Coxeter, Regular Polytopes, table I (iii)).
+// The winding numbers along a ray from the center of a star polychoron add up to its density. The ray passes through
+// faces, and their winding numbers are added (Coxeter, Regular Polytopes, table I (iii)).
 TEST(FaceFiller, WindingNumbersAlongARayAddUpToTheDensity) {
     const std::array densities{4, 4, 6, 20, 20, 66, 76, 76, 191, 191};
     std::mt19937 random(9);

@@ -14,7 +14,7 @@
 namespace oval4d::slicing {
 namespace {
 
-/// Expects slice i of `all` to have the elements of the only slice of `one`.
+/// Expects that slice i of `all` has the same elements as the only slice of `one`.
 void expectSlice(const SliceSet& all, int i, const SliceSet& one) {
     ASSERT_EQ(all.vertexCount(i), one.vertexCount(0));
     ASSERT_EQ(all.edgeCount(i), one.edgeCount(0));
@@ -44,14 +44,15 @@ void expectSlice(const SliceSet& all, int i, const SliceSet& one) {
 }
 
 void expectListedSlices(const Object& object, const geometry::Rotation& orientation) {
-    // The hyperplanes are in no order: one is beyond the object, two are close together, and one goes through the
-    // middle.
+    // The hyperplanes are not in ascending order. One lies beyond the object, two are close together, and one goes
+    // through the middle.
     const double r = infoOf(object).circumradius;
     const std::vector<double> listed{0.3 * r, -0.7 * r, 2 * r, 0, 0.3 * r + 1e-4 * r};
     const geometry::Hyperplanes planes{0, 5, 0.2 * r, 0, listed};
     SliceSet all, one;
     Slicer slicer;
-    slicer.sliceWithoutSurfaces(object, orientation, {-3, 7, 0.1}, all);  // what was in the set does not matter
+    // The slicer overwrites what the set contained before.
+    slicer.sliceWithoutSurfaces(object, orientation, {-3, 7, 0.1}, all);
     slicer.sliceWithoutSurfaces(object, orientation, planes, all);
     ASSERT_EQ(all.planes, planes);
     for (int i = 0; i < planes.count; ++i) {

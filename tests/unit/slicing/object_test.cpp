@@ -1,4 +1,4 @@
-// The functions that all kinds of objects have, and the encoding of objects as bytes.
+// Tests of the functions that all kinds of objects have, and of the encoding of objects as bytes.
 
 #include <algorithm>
 #include <array>
@@ -96,7 +96,7 @@ TEST(Object, IsCutAsItsPolytopeIs) {
     }
 }
 
-/// Returns an object of each kind.
+/// Returns one object of each kind.
 std::vector<Object> objectsOfEachKind() {
     return {shared("5-cell"),
             std::make_shared<const geometry::PointCloud>(
@@ -105,7 +105,7 @@ std::vector<Object> objectsOfEachKind() {
             support::cliffordTorus(5, 6)};
 }
 
-/// Returns what slices of the object through its middle are made of, from the slices themselves.
+/// Returns what the slices of the object through its middle are made of, found from these slices.
 SliceContent contentOfSlices(const Object& object, double middle) {
     const geometry::Hyperplanes planes{-1, 3, infoOf(object).circumradius / 5, middle};
     SliceSet slices;
@@ -131,7 +131,7 @@ TEST(Object, OfEachKindHasTheStatedProperties) {
         const double middle = (least + most) / 2 + 0.01;
         EXPECT_EQ(contentOfSlices(object, middle), properties.slices);
         EXPECT_EQ(SectionNamer::mayHaveName(object, {}, middle), properties.sectionsHaveNames);
-        // The hyperplane lies beyond the object, but at less than half the spacing.
+        // This hyperplane lies beyond the object, at less than half the spacing.
         const double spacing = infoOf(object).circumradius / 2;
         SliceSet beyond;
         Slicer().sliceWithoutSurfaces(object, {}, {0, 1, spacing, most + 0.3 * spacing}, beyond);
@@ -211,7 +211,7 @@ TEST(ObjectBytes, ObjectsKeepTheirPlaceInTheFile) {
         EXPECT_EQ(infoOf(parts).originInFile, origin);
         EXPECT_EQ(vertexInFile(parts, 0), vertexInFile(sent, 0));
     }
-    // A file that is exported has the coordinates of the file that was loaded.
+    // An exported file has the coordinates of the file that was loaded.
     const std::string exported = write4Off(std::make_shared<const Polytope>(moved), moved.vertices);
     std::string expected;
     for (int axis = 0; axis < 4; ++axis)

@@ -1,4 +1,4 @@
-// What the projection of a nonconvex object leaves out because it lies wholly behind other cells.
+// Tests of hidden elements: the projection of a nonconvex object leaves out what lies wholly behind other cells.
 
 #include <algorithm>
 #include <array>
@@ -34,7 +34,8 @@ struct TestBox {
 
 TestBox cubeAt(const glm::dvec4& center, double halfEdge) { return {center - halfEdge, center + halfEdge}; }
 
-/// Returns boxes as one polytope. Box i has the vertices 16 i … 16 i + 15, the 2-faces 24 i … 24 i + 23 and 8 cells.
+/// Returns one polytope that consists of the boxes `all`. Box i has the vertices 16 i … 16 i + 15, the 2-faces 24 i …
+/// 24 i + 23 and 8 cells.
 Polytope boxes(const std::vector<TestBox>& all) {
     const support::Polygon square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const Polytope tesseract = support::product(square, square);
@@ -59,7 +60,7 @@ Polytope boxes(const std::vector<TestBox>& all) {
     return polytopes::makePolytope("boxes", std::move(vertices), std::move(faces), std::move(cells));
 }
 
-/// The drawn elements of an object.
+/// The elements of an object that are drawn.
 struct Drawn {
     std::set<std::uint32_t> vertices, edges, faces;
     bool operator==(const Drawn&) const = default;
@@ -85,7 +86,7 @@ Drawn drawn(const Polytope& p, const geometry::Rotation& turn, const Projector::
     return drawnWith(projector, p, turn, options);
 }
 
-/// Returns a random rotation that maps the w axis to itself.
+/// Returns a random rotation of x, y and z, which does not change w.
 geometry::Rotation randomRotationOfSpace(std::mt19937& random) {
     std::normal_distribution<double> normal;
     const double w = normal(random), x = normal(random), y = normal(random), z = normal(random);
@@ -93,7 +94,7 @@ geometry::Rotation randomRotationOfSpace(std::mt19937& random) {
     return {q, glm::conjugate(q)};
 }
 
-/// Returns how many vertices of each box are drawn.
+/// Returns, for each box, how many of its vertices are drawn.
 std::vector<std::size_t> verticesOfBoxes(const Drawn& seen, std::size_t boxCount) {
     std::vector<std::size_t> counts(boxCount, 0);
     for (const std::uint32_t v : seen.vertices) ++counts[v / 16];
@@ -109,7 +110,7 @@ TEST(Occlusion, LeavesOutABodyBehindALargerOne) {
             const geometry::Rotation turn = round == 0 ? geometry::Rotation() : randomRotationOfSpace(random);
             for (const bool cells : {false, true}) {
                 const Drawn seen = drawn(p, turn, {.projection = {inverse}, .cells = cells, .culled = true});
-                if (inverse == 0) {  // of the nearer one, the eye at infinity sees the upper cell
+                if (inverse == 0) {  // of the nearer box, the eye at infinity sees only the upper cell
                     EXPECT_EQ(seen.vertices.size(), 8U);
                     EXPECT_EQ(seen.edges.size(), 12U);
                     EXPECT_EQ(seen.faces.size(), cells ? 6U : 0U);
@@ -132,17 +133,19 @@ TEST(Occlusion, KeepsABodyBehindASmallerOne) {
     EXPECT_EQ(seen.faces.size(), 12U);
 }
 
-// In the projection, the nearer cube has |x|, |y|, |z| ≤ 1, and the farther one 0.5 ≤ x ≤ 1.5 and |y|, |z| ≤ 0.5.
+// An edge is divided where it vanishes behind a cell. In the projection, the nearer cube is |x|, |y|, |z| ≤ 1; the
+// farther cube is 0.5 ≤ x ≤ 1.5 and |y|, |z| ≤ 0.5.
 TEST(Occlusion, DividesEdgesWhereTheyVanishBehindACell) {
     const Polytope p = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({1, 0, 0, -3}, 0.5)});
     std::mt19937 random(22);
     for (int round = 0; round < 4; ++round) {
         const geometry::Rotation turn = round == 0 ? geometry::Rotation() : randomRotationOfSpace(random);
         const Drawn bars = drawn(p, turn, {.projection = {0.0}, .culled = true});
-        // The four edges with x = 0.5 are hidden. Four others are hidden only in part, so that both ends are drawn.
+        // The four edges with x = 0.5 are hidden. Four other edges are hidden only in part, so both of their ends are
+        // drawn.
         EXPECT_EQ(bars.edges.size(), 12U + 8U);
         EXPECT_EQ(bars.vertices.size(), 8U + 8U);
-        // Only the square with x = 0.5 is wholly hidden. The other squares are drawn with all their sides.
+        // Only the square with x = 0.5 is wholly hidden. The other squares are drawn with all of their sides.
         const Drawn cells = drawn(p, turn, {.projection = {0.0}, .cells = true, .culled = true});
         EXPECT_EQ(cells.faces.size(), 6U + 5U);
         EXPECT_EQ(cells.edges.size(), 12U + 12U);
@@ -150,12 +153,13 @@ TEST(Occlusion, DividesEdgesWhereTheyVanishBehindACell) {
     }
 }
 
-// Boxes in pairs side by side hide what lies behind their common boundary, also if it runs along this boundary.
+// There are no gaps between neighboring cells: two boxes side by side hide what lies behind their common boundary, even
+// if it runs along this boundary.
 TEST(Occlusion, HasNoGapsBetweenNeighboringCells) {
     const Polytope p = boxes({{{-2, -2, -2, 2}, {0, 2, 2, 3}},
                               {{0, -2, -2, 2}, {2, 2, 2, 3}},
                               cubeAt({0, 0, 0, -3}, 1),
-                              cubeAt({0.5, 0, 0, -6}, 0.5)});  // it has edges with x = 0
+                              cubeAt({0.5, 0, 0, -6}, 0.5)});  // this cube has edges with x = 0
     for (const bool cells : {false, true}) {
         const auto counts = verticesOfBoxes(drawn(p, {}, {.projection = {0.0}, .cells = cells, .culled = true}), 4);
         EXPECT_EQ(counts[0], 8U);
@@ -165,7 +169,8 @@ TEST(Occlusion, HasNoGapsBetweenNeighboringCells) {
     }
 }
 
-// Four bars hide the sides of the square z = 2 of a cube, but not its middle, until a lid covers it.
+// A face is drawn if only a part of it can be seen through a window. Four bars hide the sides of the square z = 2 of a
+// cube, but not its middle. Then a lid covers the middle.
 TEST(Occlusion, KeepsAFaceThatIsSeenThroughAWindow) {
     std::vector<TestBox> parts{cubeAt({0, 0, 0, -8}, 2),
                                {{-3, -3, 1, 0}, {3, -1, 3, 1}},
@@ -229,8 +234,8 @@ TEST(Occlusion, IsNotSoughtForConvexPolytopes) {
     }
 }
 
-/// Returns the winding number of the boundary of a cell around a point, both projected, as a sum of solid angles: see
-/// A. Van Oosterom and J. Strackee, "The solid angle of a plane triangle", 1983.
+/// Returns the winding number of the boundary of a projected cell around a projected point, as a sum of solid angles
+/// (A. Van Oosterom and J. Strackee, "The solid angle of a plane triangle", 1983).
 int windingBySolidAngle(const Polytope& p, std::size_t cell, const std::vector<glm::dvec3>& projected,
                         const glm::dvec3& point) {
     double sum = 0;
@@ -249,7 +254,7 @@ int windingBySolidAngle(const Polytope& p, std::size_t cell, const std::vector<g
     return static_cast<int>(std::lround(sum / (4 * std::numbers::pi)));
 }
 
-/// Looks along rays at points of the elements of a star, without the code under test.
+/// Finds out whether points of a star's elements can be seen, by casting rays, without the code under test.
 class RayCaster {
   public:
     RayCaster(const Polytope& p, const geometry::Rotation& turn, double inverseDistance)
@@ -264,7 +269,7 @@ class RayCaster {
 
     const glm::dvec4& vertex(std::uint32_t v) const { return turned_[v]; }
 
-    /// Returns whether no cell but those in `own` is between the point and the eye.
+    /// Returns whether no cell is between the point and the eye. Ignores the cells in `own`.
     bool sees(const glm::dvec4& point, const std::set<std::uint32_t>& own) const {
         const bool perspective = inverseDistance_ > 0;
         const glm::dvec4 up(0, 0, 0, 1), way = perspective ? up / inverseDistance_ - point : up;

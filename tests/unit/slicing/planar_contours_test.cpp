@@ -1,4 +1,4 @@
-// Contours of fields in planes, compared with curves that are known.
+// Tests of the contours of fields in planes: they are compared with curves that are known.
 
 #include "slicing/planar_contours.hpp"
 
@@ -26,20 +26,21 @@ namespace {
 
 using geometry::Rotation;
 
-constexpr double kSquares = 96;  // of the lattices, across a panel
+constexpr double kSquares = 96;  // the number of lattice squares across a panel
 
 double stepFor(const fields::Field& field) { return 2 * field.circumradius / kSquares; }
 
 MatrixContours contoursOf(const fields::Field& field, const Rotation& orientation, const glm::dvec4& point,
                           const std::vector<double>& levels = {0}, double step = 0) {
     MatrixContours out;
-    out[0].points.emplace_back(7, 7);  // what was there before is overwritten
+    out[0].points.emplace_back(7, 7);  // the tracer overwrites what the list contained before
     PlanarContourTracer tracer;
     tracer.trace(field, orientation, point, levels, step > 0 ? step : stepFor(field), Quality::full, out);
     return out;
 }
 
-/// Returns the coordinates, in the function, of a point of the plane through `point` that is parallel to `axes`.
+/// Returns the coordinates, as the function takes them, of a point p in the plane through `point` that is parallel to
+/// `axes`.
 glm::dvec4 inFunction(const fields::Field& field, const Rotation& orientation, const std::array<int, 2>& axes,
                       const glm::dvec2& p, glm::dvec4 point) {
     point[axes[0]] = p.x;
@@ -55,7 +56,7 @@ double lengthOf(std::span<const glm::dvec2> line) {
     return sum;
 }
 
-/// Returns the least distance of a point, in the function's coordinates, from the facets of the box.
+/// Returns the least distance of a point from the facets of the box, in the function's coordinates.
 double depthInBox(const fields::Box& box, const glm::dvec4& at) {
     double least = INFINITY;
     for (int axis = 0; axis < 4; ++axis) least = std::min({least, at[axis] - box.min[axis], box.max[axis] - at[axis]});
@@ -85,7 +86,7 @@ TEST(PlanarContours, OfASphereAreCirclesInAllPlanes) {
             const PlanarContours& lines = contours[plane];
             const auto& axes = kPlaneAxes[plane];
             const glm::dvec2 middle(rotated[axes[0]], rotated[axes[1]]);
-            double beside = 0;  // the squared distance of the sphere's center from the plane
+            double beside = 0;  // the squared distance of the center of the sphere from the plane
             for (int axis = 0; axis < 4; ++axis) {
                 if (axis != axes[0] && axis != axes[1]) beside += std::pow(point[axis] - rotated[axis], 2);
             }
@@ -103,8 +104,8 @@ TEST(PlanarContours, OfASphereAreCirclesInAllPlanes) {
 
 constexpr const char* kTigerFormula = "(sqrt(x^2+y^2)-1)^2 + (sqrt(z^2+w^2)-0.7)^2 - 0.09";
 
-// If the other two coordinates are constant, the tiger's equation says that sqrt(x² + y²) or sqrt(z² + w²) has one of
-// two values.
+// In the planes xy and zw, the contours of a tiger are two circles around the origin. If the other two coordinates are
+// constant, the equation of the tiger says that sqrt(x² + y²) or sqrt(z² + w²) has one of two values.
 TEST(PlanarContours, OfATigerAreTwoCirclesAroundTheOriginInXyAndZw) {
     const fields::Field field = formulaField(kTigerFormula, {glm::dvec4(-1.6), glm::dvec4(1.6)});
     const glm::dvec4 point(0.6, 0.7, 0.5, 0.4);
@@ -147,8 +148,8 @@ TEST(PlanarContours, OfATigerLieOnItInAllRotations) {
     }
 }
 
-// The contour of a linear function is the chord of the domain on which the function equals the level. The function is
-// evaluated only in the domain.
+// The contour of a linear function is a chord of the domain: the part in the domain of the line on which the function
+// equals the level. The function is evaluated only in the domain.
 TEST(PlanarContours, OfALinearFunctionAreChordsOfTheDomain) {
     std::mt19937 random(43);
     std::uniform_real_distribution<double> part(-0.4, 0.4);
@@ -164,7 +165,7 @@ TEST(PlanarContours, OfALinearFunctionAreChordsOfTheDomain) {
             return glm::dot(slope, p - box.center() - own);
         };
         const fields::Field field = testField(f, 1, box);
-        const glm::dvec4 point = orientation(own);  // the function is 0 there
+        const glm::dvec4 point = orientation(own);  // the function is 0 at this point
         const MatrixContours contours = contoursOf(field, orientation, point);
         EXPECT_GT(leastDepth, -1e-6) << "nothing outside of the domain is evaluated";
         for (std::size_t plane = 0; plane < contours.size(); ++plane) {
@@ -173,7 +174,7 @@ TEST(PlanarContours, OfALinearFunctionAreChordsOfTheDomain) {
             const auto& axes = kPlaneAxes[plane];
             const glm::dvec4 turned = orientation(slope);
             const glm::dvec2 across(turned[axes[0]], turned[axes[1]]);
-            if (glm::length(across) < 0.05) continue;  // the function is nearly constant in the plane
+            if (glm::length(across) < 0.05) continue;  // skips planes in which the function is nearly constant
             ASSERT_EQ(lines.lineCount(), 1U);
             const auto line = lines.line(0);
             const glm::dvec2 middle(point[axes[0]], point[axes[1]]);
@@ -266,8 +267,9 @@ TEST(PlanarContours, AreEmptyBesideTheDomainAndOverwriteWhatWasThere) {
     }
 }
 
-// Around the center of a hyperbola, the corners of a square that are below the level alternate with those above it. The
-// function is bilinear, so its interpolation on the sides of the square is exact.
+// The contours of a hyperbola's two branches are separate. Around the center, the corners of a square that are below
+// the level alternate with the corners above the level. The function is bilinear, so its interpolation on the sides of
+// the square is exact.
 TEST(PlanarContours, SeparateTheBranchesOfAHyperbola) {
     const glm::dvec2 center(0.04, -0.055);
     const fields::Field field = testField([&](const glm::dvec4& p) { return (p.x - center.x) * (p.y - center.y); }, 4,
@@ -296,7 +298,7 @@ TEST(PlanarContours, PassBetweenInfiniteValues) {
     EXPECT_NEAR(lengthOf(lines.line(0)), 2, 0.01);
 }
 
-/// A function with this cost per value.
+/// A function whose estimated cost per value is given, in nanoseconds.
 class CostlyFunction : public TestFunction {
   public:
     explicit CostlyFunction(double cost) : TestFunction([](const glm::dvec4& p) { return p.x; }, 1), cost_(cost) {}

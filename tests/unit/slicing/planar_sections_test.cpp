@@ -1,4 +1,4 @@
-// Sections by planes, compared with the object's own inequalities and with each other.
+// Tests of sections by planes: they are compared with the object's own inequalities and with each other.
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,8 @@ double areaOf(const PlanarSection& section) {
     return std::abs(twice) / 2;
 }
 
-/// Returns the positions at which the edges of a section cross the line along `axis` through `point`.
+/// Returns the positions along `axis` at which the edges of a section cross the line through `point` parallel to
+/// `axis`.
 std::vector<double> crossingsOf(const PlanarSection& section, int axis, const glm::dvec4& point) {
     const int along = section.axes[0] == axis ? 0 : 1;
     const double level = point[section.axes[1 - along]];
@@ -67,8 +68,8 @@ std::vector<double> crossingsOf(const PlanarSection& section, int axis, const gl
 
 class PlanarSectionsOf : public testing::TestWithParam<const char*> {};
 
-// A closed polygon whose points satisfy the inequalities of all cells, and each of whose edges lies in the hyperplane
-// of its cell, is the section of a convex polytope.
+// The section of a convex polytope by a plane is the polygon that its cells bound. The polygon is closed, its points
+// satisfy the inequalities of all cells, and each of its edges lies in the hyperplane of its cell.
 TEST_P(PlanarSectionsOf, AreThePolygonsThatTheCellsBound) {
     const Polytope& p = named(GetParam());
     std::vector<glm::dvec4> normals;
@@ -79,7 +80,7 @@ TEST_P(PlanarSectionsOf, AreThePolygonsThatTheCellsBound) {
     for (int turn = 0; turn < 12; ++turn) {
         const Rotation orientation = turn == 0 ? Rotation{} : support::randomRotation(random);
         const double r = p.circumradius;
-        // The planes through the center of a polytope in its own position meet many of its elements in special ways.
+        // Planes through the center of a polytope that is not rotated meet many elements in special ways.
         const glm::dvec4 point =
             turn < 2 ? glm::dvec4(0)
                      : r * glm::dvec4(coordinate(random), coordinate(random), coordinate(random), coordinate(random));
@@ -115,8 +116,8 @@ INSTANTIATE_TEST_SUITE_P(Polytopes, PlanarSectionsOf,
                          testing::Values("5-cell", "tesseract", "16-cell", "24-cell", "120-cell", "600-cell",
                                          "truncated tesseract", "5,7-duoprism", "snub 24-cell", "grand antiprism"));
 
-// The planes xy and xz meet in a line parallel to x. The object meets the line in the same points, whichever section
-// they are read from.
+// Sections by different planes agree where the planes meet. The planes xy and xz meet in a line parallel to x. Both
+// sections cross this line in the same points.
 TEST(PlanarSections, AgreeOnTheLinesInWhichTheyMeet) {
     std::mt19937 random(11);
     std::uniform_real_distribution<double> coordinate(-0.3, 0.3);
@@ -165,7 +166,7 @@ TEST(PlanarSections, InACellAreSectionsOfTheCell) {
     }
     for (const double x : {half, -half}) {
         const PlanarSections sections = sectionsOf(objectOf(p), Rotation{}, {x, 0, 0, 0});
-        EXPECT_NEAR(areaOf(sections[2]), 4 * half * half, 1e-12);  // yz, a section of the cube x = const
+        EXPECT_NEAR(areaOf(sections[2]), 4 * half * half, 1e-12);  // the plane yz cuts the cube x = const
     }
 }
 

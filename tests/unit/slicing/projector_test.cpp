@@ -1,4 +1,4 @@
-// Projections of whole objects and of their slices, and the hyperplanes of cells.
+// Tests of the projections of whole objects and of their slices, and of the hyperplanes of cells.
 
 #include <algorithm>
 #include <array>
@@ -23,7 +23,7 @@ using polytopes::Polytope;
 using support::named;
 using support::objectOf;
 
-/// Returns the vertices of each cell.
+/// Returns, for each cell, the set of its vertices.
 std::vector<std::set<std::uint32_t>> verticesOfCells(const Polytope& p) {
     std::vector<std::set<std::uint32_t>> all(p.cells.size());
     for (std::size_t c = 0; c < all.size(); ++c) {
@@ -61,8 +61,9 @@ TEST(CellHyperplanes, SupportConvexPolytopesFromOutside) {
 }
 
 TEST(CellHyperplanes, GiveTheHypervolumeOfRegularPolytopes) {
-    // The hypervolume is the sum over the cells of volume · height / 4 (Coxeter, Regular Polytopes, table I). The
-    // normal's length is six times the volume, so the offset is six times the volume · height.
+    // The hypervolume of the polytope is the sum over its cells of volume · height / 4 (Coxeter, Regular Polytopes,
+    // table I). The length of a cell's normal is six times the volume of the cell, so the offset is six times volume ·
+    // height.
     const auto hypervolume = [](const char* name) {
         std::vector<glm::dvec4> normals;
         std::vector<double> offsets;
@@ -106,7 +107,7 @@ TEST(Projector, ProjectsAlongLinesThroughTheEye) {
         ASSERT_EQ(all.parts.vertices.size(), p.vertices.size());
         for (std::size_t v = 0; v < p.vertices.size(); ++v) {
             const glm::dvec4 point = turn(p.vertices[v]), image(all.parts.vertices[v], 0);
-            // The line through the image and the point is parallel to w or, in perspective, runs through the eye.
+            // The line through a point and its image is parallel to w or, in perspective, passes through the eye.
             const glm::dvec4 way = point - image;
             const glm::dvec4 ray = distance > 0 ? image - glm::dvec4(0, 0, 0, 1 / inverse) : glm::dvec4(0, 0, 0, 1);
             EXPECT_NEAR(std::abs(glm::dot(way, ray)), glm::length(way) * glm::length(ray), 1e-9);
@@ -125,7 +126,7 @@ TEST(Projector, PlacesSectionsInTheProjectedEdges) {
         const geometry::Rotation turn = support::randomRotation(random);
         const auto [slices, parts, cells] = projected(
             objectOf(p), turn, {.projection = {1 / (2 * p.circumradius)}, .firstSlice = 2, .endSlice = 6}, spanning(p));
-        ASSERT_EQ(parts.vertexBegin.size(), 6U);  // the object and four sections
+        ASSERT_EQ(parts.vertexBegin.size(), 6U);  // the object, and four sections
         std::size_t tested = 0;
         for (int part = 1; part <= 4; ++part) {
             EXPECT_EQ(parts.vertexCount(part), slices.vertexCount(part + 1));
@@ -157,7 +158,8 @@ TEST(Projector, CullsWhatTheEyeCannotSee) {
                 const geometry::Rotation turn = support::randomRotation(random);
                 const auto [slices, parts, cells] =
                     projected(objectOf(p), turn, {.projection = {inverse}, .cells = true, .culled = true}, spanning(p));
-                // Of a convex polytope, an eye outside sees a topological ball: its Euler characteristic is 1.
+                // An eye outside a convex polytope sees cells that form a topological ball: their Euler characteristic
+                // is 1.
                 const std::set<std::uint32_t> seen(cells.begin(), cells.end());
                 const auto v = static_cast<long>(parts.vertices.size()), e = static_cast<long>(parts.edges.size());
                 const auto f = static_cast<long>(parts.faceSource.size()), c = static_cast<long>(seen.size());
@@ -190,7 +192,7 @@ TEST(Projector, ShowsAllTwoFacesWithoutCulling) {
 }
 
 TEST(Projector, WritesTheLoopsOfTwoFacesThatCrossThemselves) {
-    const Polytope& p = named("small stellated 120-cell");  // its 2-faces are pentagrams
+    const Polytope& p = named("small stellated 120-cell");  // the 2-faces of this polytope are pentagrams
     const auto [slices, parts, cells] = projected(objectOf(p), {}, {.projection = {0.2}, .cells = true}, spanning(p));
     ASSERT_EQ(parts.faceSource.size(), p.faces.size());
     EXPECT_EQ(cells.size(), p.faces.size());
@@ -211,7 +213,8 @@ TEST(Projector, ShowsThePointsOfClouds) {
     ASSERT_EQ(parts.vertexCount(0), 3U);
     EXPECT_LT(glm::distance(parts.vertices[0], glm::dvec3(1 / (1 - 0.125), 0, 0)), 1e-12);
     EXPECT_EQ(parts.ballScale.size(), parts.vertices.size());
-    ASSERT_EQ(parts.vertexCount(1), 1U);  // the point with w = 0, where the section's ball covers that of the cloud
+    // The point with w = 0, where the ball of the section covers that of the cloud.
+    ASSERT_EQ(parts.vertexCount(1), 1U);
     EXPECT_EQ(parts.vertices[3], parts.vertices[2]);
 }
 

@@ -1,4 +1,4 @@
-// Objects in moving frames of reference: their slices against the linear map, exactly.
+// Tests of objects in moving frames of reference: their slices are compared with the exact linear map.
 
 #include <cmath>
 #include <random>
@@ -36,8 +36,8 @@ polytopes::Polytope imageOfPolytope(const polytopes::Polytope& p, const Referenc
     return polytopes::transformedTo(p, frame, geometry::nextSerial());
 }
 
-/// The volume of the part of the plane w = const in which the point, mapped by `inverse`, lies in the 8-cell; by
-/// counting the points of a lattice.
+/// Returns the volume of a part of the hyperplane with this w: the points whose images by `inverse` lie in the 8-cell.
+/// The volume is found by counting the points of a lattice.
 double countedVolume(const glm::dmat4& inverse, double w, double reach) {
     constexpr int kSteps = 120;
     const double step = 2 * reach / kSteps;
@@ -54,7 +54,8 @@ double countedVolume(const glm::dmat4& inverse, double w, double reach) {
     return static_cast<double>(inside) * step * step * step;
 }
 
-// The image of the 8-cell |x|, |y|, |z|, |w| ≤ 1 is given by its half-spaces.
+// In a moving frame, the slices of an 8-cell |x|, |y|, |z|, |w| ≤ 1 are those of its image, which is given by
+// half-spaces.
 TEST(ReferenceFrames, SlicesOfAnEightCellAreThoseOfItsHalfSpaces) {
     std::mt19937 random(30);
     const auto& tesseract = support::named("8-cell");
@@ -109,7 +110,8 @@ TEST(ReferenceFrames, VerticesOfSlicesLieOnTheImagesOfTheirEdges) {
     }
 }
 
-// Compares the properties that depend on the vertices, but that transformedTo() does not compute anew.
+// An object in a moving frame has the same properties as a polytope built from the moved vertices. The test compares
+// the properties that depend on the vertices, but that transformedTo() does not compute anew.
 TEST(ReferenceFrames, ImagesHaveThePropertiesOfPolytopesBuiltFromTheirVertices) {
     std::mt19937 random(32);
     for (const char* name : {"8-cell", "24-cell", "rectified 600-cell", "3,5-duoprism", "grand 600-cell"}) {
@@ -146,7 +148,8 @@ TEST(ReferenceFrames, SectionsAreNamedByWhatTheyAre) {
     EXPECT_EQ(nameIn({1, {}, {0.6, 0, 0}}), "cuboid") << "the boosted section is shorter than wide";
 }
 
-// A rod of the length 2 that exists for a while, in the frame of an observer who moves along it.
+// A moving rod contracts: a rod of the length 2, which exists for a while, is seen in the frame of an observer who
+// moves along it.
 TEST(ReferenceFrames, RodsContract) {
     const auto rod =
         fields::fieldFromFormula("rod", "0*x-1", {glm::dvec4(-1, -0.1, -0.1, -4), glm::dvec4(1, 0.1, 0.1, 4)});
@@ -165,7 +168,7 @@ TEST(ReferenceFrames, RodsContract) {
             EXPECT_NEAR(most.x - least.x, 2 / gamma, 1e-12) << "Lorentz contraction at the velocity " << v;
             EXPECT_NEAR(most.y - least.y, 0.2, 1e-12) << "not across the motion";
             EXPECT_NEAR(0.5 * (most.x + least.x), -v * w, 1e-12) << "the rod moves backward";
-            if (gamma > 3) continue;  // the lattice, which is as fine as the whole image is large, does not resolve it
+            if (gamma > 3) continue;  // the lattice spans the whole image, and is then too coarse for the rod
             const Measure body = measure(slices.surfaces[0], 0);
             EXPECT_EQ(body.unpaired, 0U);
             EXPECT_NEAR(body.volume, 2 / gamma * 0.04, 0.002 * 2 / gamma) << "the field is cut as its box is";
@@ -173,8 +176,8 @@ TEST(ReferenceFrames, RodsContract) {
     }
 }
 
-// Two doors of a barn are closed at the same time, and a ladder fits between them; in the frame of the ladder the barn
-// is too short, and the doors are closed at different times.
+// In the frame of the barn, its two doors are closed at the same time, and the ladder fits between them. In the frame
+// of the ladder, the barn is too short, and the doors are closed at different times.
 TEST(ReferenceFrames, TheLadderAndTheBarnDisagreeAboutWhatIsSimultaneous) {
     const double v = 0.6, barn = 1.6;
     const glm::dvec4 front(0.5 * barn, 0, 0, 0), rear(-0.5 * barn, 0, 0, 0);
@@ -211,7 +214,8 @@ TEST(ReferenceFrames, WhatIsFollowedHasEqualSlices) {
     }
 }
 
-// The values and normals at the points of surfaces are those of the function at the points mapped back into its box.
+// In a moving frame, the surfaces of a field lie on the level. The values and normals at their points are those of the
+// function at the points mapped back into its box.
 TEST(ReferenceFrames, SurfacesOfFieldsLieOnTheLevel) {
     std::mt19937 random(33);
     const fields::Box box{glm::dvec4(-1, -1, -0.8, 0), glm::dvec4(1, 1.2, 1, 2)};

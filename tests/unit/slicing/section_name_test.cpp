@@ -29,8 +29,8 @@ using Points = std::vector<glm::dvec3>;
 
 std::string nameOfSlice(const SliceSet& slices) { return std::string(SectionNamer().nameOfSlice(slices, 0)); }
 
-/// Returns the rotation that turns the center of the first vertex, edge, 2-face or cell (first = 0 … 3) onto the w
-/// axis.
+/// Returns a rotation that turns the center of an element onto the w axis: of the first vertex, edge, 2-face or cell
+/// (first = 0 … 3).
 geometry::Rotation beginningWith(const polytopes::Polytope& p, int first) {
     std::vector<std::uint32_t> vertices;
     if (first == 0) vertices = {0};
@@ -58,15 +58,17 @@ std::vector<double> levelsOf(const polytopes::Polytope& p, const geometry::Rotat
     return levels;
 }
 
-/// The sections of a regular polytope through its vertices. An empty name stands for a section without a name.
+/// The sections of a regular polytope through its vertices, with their names. An empty name stands for a section
+/// without a name.
 struct Sections {
     const char* polytope;
-    int first;       ///< the dimension of the element with which they begin
+    int first;       ///< the dimension of the element toward +w, with which the sections begin
     Names slices;    ///< the names of the slices
-    Names vertices;  ///< the names of the vertices in the hyperplanes
+    Names vertices;  ///< the names of the convex hulls of the vertices in the hyperplanes
 };
 
-/// Sections that repeat in reverse order behind the middle one are listed up to the middle.
+/// The sections of regular polytopes. If the sections after the middle one repeat those before it in reverse order, the
+/// list ends at the middle one.
 const Sections kSections[] = {
     {"5-cell", 0, {"point", "tetrahedron"}, {"point", "tetrahedron"}},
     {"5-cell", 1, {"segment", "triangle"}, {"segment", "triangle"}},
@@ -102,7 +104,8 @@ const Sections kSections[] = {
      {"dodecahedron", "dodecahedron", "icosidodecahedron", "", "", "rhombicosidodecahedron", "dodecahedron", ""}},
 };
 
-// Coxeter, Regular Polytopes, table V, lists the vertices. His irregular sections have no name here.
+// The sections of regular polytopes through their vertices have the names in Coxeter, Regular Polytopes, table V, which
+// lists the vertices. Coxeter's irregular sections have no name here.
 TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
     SectionNamer namer;
     for (const Sections& sections : kSections) {
@@ -127,7 +130,8 @@ TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
     }
 }
 
-// A polyhedron over a regular polygon has its name at any height; other polyhedra only if they are uniform.
+// Between the vertices of a polytope, sections have names, too. A polyhedron over a regular polygon (such as a prism)
+// has its name at any height. Other polyhedra have a name only if they are uniform.
 TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
     struct Row {
         const char* polytope;
@@ -135,8 +139,8 @@ TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
         double w;  // in circumradii
         const char* name;
     };
-    const double octahedra = std::numbers::sqrt2 / 2;  // where the 24-cell has octahedra as sections
-    const double edge = std::sqrt(6) / 4;              // where the 5-cell has an edge as section
+    const double octahedra = std::numbers::sqrt2 / 2;  // the w at which the sections of the 24-cell are octahedra
+    const double edge = std::sqrt(6) / 4;              // the w of the 5-cell's first section, an edge
     for (const Row& row : {Row{"8-cell", 0, 0.25, "truncated tetrahedron"},
                            {"8-cell", 0, 0.75, "tetrahedron"},
                            {"16-cell", 3, 0, "cuboctahedron"},
@@ -152,7 +156,8 @@ TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
     }
 }
 
-// The names of cells are found from their faces, and do not depend on this class.
+// The section in the hyperplane of a cell has the name of the cell. The names of cells are found from their faces,
+// without the class under test.
 TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
     Names polytopes{"snub 24-cell", "rectified 600-cell", "runcitruncated 16-cell", "omnitruncated 24-cell"};
     for (const polytopes::NamedPolyhedron& solid : polytopes::namedPolyhedra()) {
@@ -181,8 +186,8 @@ TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
     EXPECT_EQ(seen.size(), 18U + 17 + 17);
 }
 
-// The middle section of a prism over a polyhedron is this polyhedron, and so is each section of its pyramid between the
-// base and the apex.
+// Catalan solids and duals of antiprisms are named. The middle section of a prism over a polyhedron is this polyhedron.
+// Each section of a pyramid between the base and the apex is similar to the base.
 TEST(SectionNamePair, areThoseOfCatalanSolidsAndOfDualsOfAntiprisms) {
     for (const char* solid :
          {"triakis tetrahedron", "rhombic dodecahedron", "triakis octahedron", "tetrakis hexahedron",
@@ -200,7 +205,7 @@ TEST(SectionNamePair, areThoseOfCatalanSolidsAndOfDualsOfAntiprisms) {
 }
 
 TEST(SectionNamePair, areThoseOfPrismsAndCuboidsOfAnyHeight) {
-    // Every section of a duoprism by w = const is a prism over its first polygon, the one with fewer sides.
+    // Every section w = const of a duoprism is a prism over its first polygon, the one with fewer sides.
     for (const auto& [duoprism, name] : {std::pair{"3,5-duoprism", "triangular prism"},
                                          {"4,5-duoprism", "cuboid"},
                                          {"5,7-duoprism", "pentagonal prism"},
@@ -210,14 +215,15 @@ TEST(SectionNamePair, areThoseOfPrismsAndCuboidsOfAnyHeight) {
         const polytopes::Polytope& p = named(duoprism);
         for (const double w : {0.0, 0.1, -0.2}) EXPECT_EQ(nameOfSlice(cutAt(p, geometry::Rotation(), w)), name);
     }
-    // A plane that turns about a 2-face of a tesseract's cube cuts a cuboid; one that turns about an edge, none.
+    // A hyperplane that turns about a 2-face of one of the tesseract's cubes cuts a cuboid. A hyperplane that turns
+    // about an edge does not.
     const polytopes::Polytope& tesseract = named("8-cell");
     EXPECT_EQ(nameOfSlice(cutAt(tesseract, ontoW({0.1, 0, 0, 1}), 0)), "cuboid");
     EXPECT_EQ(nameOfSlice(cutAt(tesseract, ontoW({0.1, 0.1, 0, 1}), 0)), "");
     EXPECT_EQ(nameOfSlice(cutAt(tesseract, ontoW({0, 1, 1, 1}), 0)), "hexagonal prism");
 }
 
-/// Returns the slice with these vertices, these edges, and as many faces as a convex polyhedron with them has.
+/// Returns a slice with these vertices and edges, and with as many faces as a convex polyhedron with them has.
 SliceSet sliceWith(const Points& points, const std::vector<std::array<std::uint32_t, 2>>& edges) {
     SliceSet slice;
     slice.vertices = points;
@@ -230,7 +236,8 @@ SliceSet sliceWith(const Points& points, const std::vector<std::array<std::uint3
 }
 
 TEST(SectionNamePair, areThoseOfRightPolyhedraOverRegularPolygonsOnly) {
-    // Over a pentagon with the radius 1 in the plane z = 0 stand an antiprism, a pyramid and a bipyramid.
+    // The base is a pentagon with the radius 1 in the plane z = 0. Over it stand an antiprism, a pyramid and a
+    // bipyramid.
     constexpr std::uint32_t kSides = 5;
     const auto pointAt = [](double turns, double z) {
         const double angle = 2 * std::numbers::pi * turns / kSides;
@@ -285,7 +292,7 @@ TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
         for (std::size_t i = 0; i < sections.slices.size(); ++i) {
             SCOPED_TRACE(std::string(sections.polytope) + " " + std::to_string(i));
             const glm::dquat turn(normal(random), normal(random), normal(random), normal(random));
-            const geometry::Rotation around(turn, glm::conjugate(turn));  // keeps the w axis
+            const geometry::Rotation around(turn, glm::conjugate(turn));  // this rotation does not change w
             SliceSet cut = cutAt(p, around * orientation, levels[i]);
             const double scale = std::exp(5 * normal(random));
             for (glm::dvec3& v : cut.vertices) v = v * scale + glm::dvec3(scale, 0, -scale);
@@ -318,8 +325,8 @@ TEST(SectionNamePair, areNotThoseOfStretchedSolids) {
     }
 }
 
-/// Returns a slice with these vertices whose edges join the nearest vertices, and which has as many faces as a convex
-/// polyhedron has according to Euler's formula.
+/// Returns a slice with these vertices. Its edges join the nearest vertices. It has as many faces as a convex
+/// polyhedron with these vertices and edges, according to Euler's formula.
 SliceSet sliceOf(const Points& points) {
     SliceSet slice;
     slice.vertices = points;
@@ -348,14 +355,15 @@ Points verticesOf(std::string_view name) {
     return {};
 }
 
-// If caps of these solids are turned by half of their symmetry, the result has the same faces and the same
-// circumradius: Johnson's solids J27, J34, J37, J72 and J73.
+// Solids with turned caps do not have the name of the original solid. If caps of these solids are turned by half of
+// their symmetry, the results have the same faces and the same circumradius: Johnson's solids J27, J34, J37, J72 and
+// J73.
 TEST(SectionNamePair, areNotThoseOfSolidsWithTurnedCaps) {
     struct Row {
-        const char *solid, *axis;  // the axis runs through the first vertex of the solid with this name
-        int order;                 // of the rotations around the axis
-        double height;             // of the cap above the center, relative to the circumradius
-        bool both;                 // whether the opposite cap is turned, too
+        const char *solid, *axis;  // the axis runs through the first vertex of the solid with the name `axis`
+        int order;                 // the order of the symmetry around the axis
+        double height;             // the height of the cap above the center, relative to the circumradius
+        bool both;                 // whether the cap on the opposite side is turned, too
     };
     for (const Row& row : {Row{"cuboctahedron", "cube", 3, 0.5, false},
                            {"icosidodecahedron", "icosahedron", 5, 0.3, false},
@@ -394,7 +402,7 @@ TEST(SectionNamePair, areThoseOfRegularStars) {
             EXPECT_EQ(cut.edgeCount(0), 30U);
             EXPECT_EQ(nameOfSlice(cut), solid.name);
         }
-        // The name of the hull: the vertices are those of an icosahedron or a dodecahedron.
+        // The convex hull has a name: its vertices are those of an icosahedron or a dodecahedron.
         const SliceSet base = cutAt(p, geometry::Rotation(), 1);
         EXPECT_EQ(SectionNamer().nameOfObjectVertices(base, 0, p.edges.size()),
                   base.vertexCount(0) == 12 ? "icosahedron" : "dodecahedron");
@@ -403,7 +411,7 @@ TEST(SectionNamePair, areThoseOfRegularStars) {
 }
 
 TEST(SectionNamePair, areThoseOfPrismsOverStarPolygons) {
-    // The polygon with fewer sides comes first, and is the base of the sections.
+    // In the name of the duoprism, the polygon with fewer sides comes first. This polygon is the base of the sections.
     for (const auto& [duoprism, name] : {std::pair{"5/2,7-duoprism", "pentagrammic prism"},
                                          {"7/2,8-duoprism", "7/2-gonal prism"},
                                          {"7/3,8-duoprism", "7/3-gonal prism"}}) {
@@ -413,7 +421,7 @@ TEST(SectionNamePair, areThoseOfPrismsOverStarPolygons) {
 }
 
 TEST(SectionNamePair, areNotThoseOfCompounds) {
-    // Two tetrahedra have the vertices of a cube.
+    // A compound of two tetrahedra has the vertices of a cube, but not its name.
     SliceSet slice = sliceOf(verticesOf("cube"));
     ASSERT_EQ(nameOfSlice(slice), "cube");
     slice.edges.clear();
@@ -424,7 +432,7 @@ TEST(SectionNamePair, areNotThoseOfCompounds) {
         }
     }
     ASSERT_EQ(slice.edges.size(), 12U);
-    EXPECT_EQ(nameOfSlice(slice), "");  // even if it had six faces
+    EXPECT_EQ(nameOfSlice(slice), "");  // it would have no name even if it had six faces
     slice.faceBegin[1] = 8;
     EXPECT_EQ(nameOfSlice(slice), "");
 }

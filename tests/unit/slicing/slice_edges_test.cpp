@@ -44,7 +44,7 @@ TEST(SliceEdges, areNotMoreThanCountedIfVerticesLieInHyperplanes) {
     }
 }
 
-// Pentagrams have several edges in one slice.
+// Slices with more edges than the limit are refused. Pentagrams can have several edges in one slice.
 TEST(SliceEdges, areRefusedBeyondTheLimit) {
     std::mt19937 random(32);
     for (const auto* name : {"24-cell", "small stellated 120-cell"}) {

@@ -34,7 +34,8 @@ TEST_P(Slices, inRandomOrientationAreClosedConvexPolyhedra) {
     }
 }
 
-// Quarter and eighth turns put vertices, edges, 2-faces and cells into hyperplanes, up to rounding errors.
+// Slices through vertices, edges, 2-faces and cells are valid polyhedra. Quarter and eighth turns put these elements
+// into hyperplanes, up to rounding errors.
 TEST_P(Slices, throughVerticesEdgesFacesAndCellsAreSound) {
     std::mt19937 random(12);
     const int trials = p.cells.size() > 100 ? 30 : 400;
@@ -106,8 +107,8 @@ TEST(Sections, ofTheTesseractVertexFirst) {
     const polytopes::Polytope& p = named("8-cell");
     const geometry::Rotation orientation = ontoW({1, 1, 1, 1});
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, 2)), (ElementsOfSlice{1, 0, 0}));
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1.5)), (ElementsOfSlice{4, 6, 4}));    // tetrahedron
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1)), (ElementsOfSlice{4, 6, 4}));      // through four vertices
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1.5)), (ElementsOfSlice{4, 6, 4}));  // tetrahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1)), (ElementsOfSlice{4, 6, 4}));    // a section through four vertices
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, 0.5)), (ElementsOfSlice{12, 18, 8}));  // truncated tetrahedron
     const SliceSet middle = cutAt(p, orientation, 0);
     EXPECT_EQ(sliceCounts(middle), (ElementsOfSlice{6, 12, 8}));  // a regular octahedron through six vertices
@@ -121,7 +122,8 @@ TEST(Sections, ofThe16CellAtZeroIsAnOctahedronOfSixVertices) {
     for (const auto source : s.vertexSource) EXPECT_GE(source, p.edges.size());
     for (const auto source : s.edgeSource) EXPECT_GE(source, p.faces.size());
     for (const auto source : s.faceSource) EXPECT_GE(source, p.cells.size());
-    EXPECT_EQ(sliceCounts(cutAt(p, ontoW({1, 1, 1, 1}), std::sqrt(2) / 2)), (ElementsOfSlice{4, 6, 4}));  // a cell
+    // The section is a cell.
+    EXPECT_EQ(sliceCounts(cutAt(p, ontoW({1, 1, 1, 1}), std::sqrt(2) / 2)), (ElementsOfSlice{4, 6, 4}));
 }
 
 TEST(Sections, ofThe24Cell) {
@@ -129,7 +131,7 @@ TEST(Sections, ofThe24Cell) {
     EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 0)), (ElementsOfSlice{14, 24, 12}));  // rhombic dodecahedron
     EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1)), (ElementsOfSlice{8, 12, 6}));    // cube
     const geometry::Rotation cellFirst = ontoW({1, 1, 0, 0});
-    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, std::sqrt(2))), (ElementsOfSlice{6, 12, 8}));  // a cell
+    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, std::sqrt(2))), (ElementsOfSlice{6, 12, 8}));  // the section is a cell
     EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, 0)), (ElementsOfSlice{12, 24, 14}));           // cuboctahedron
 }
 
@@ -149,11 +151,12 @@ TEST(Sections, ofThe600CellVertexFirstHaveTheKnownLayers) {
         }
     }
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, r * phi / 2)),
-              (ElementsOfSlice{12, 30, 20}));  // an icosahedron of 2-faces of the polytope
+              (ElementsOfSlice{12, 30, 20}));  // an icosahedron; its faces are 2-faces of the polytope
 }
 
-// The third and sixth figures of Kageyama's paper: after R_yw(π/2) two vertices lie in w = 0, and after four steps of
-// the double rotation a 2-face does. Rounding leaves their w near 1e−16, with either sign.
+// The sections in the third and sixth figures of Kageyama's paper are exact. After R_yw(π/2), two vertices lie in w =
+// 0; after four steps of the double rotation, a 2-face lies in w = 0. Because of rounding, their w are near 1e−16, with
+// either sign.
 TEST(Sections, ofThePapersPanelsAreExact) {
     const polytopes::Polytope& p = named("5-cell");
     geometry::Rotation quarter;
@@ -179,7 +182,7 @@ TEST(Sections, ofThePapersPanelsAreExact) {
 
 TEST(Symmetry, ofThePolytopePreservesTheSlices) {
     std::mt19937 random(15);
-    // Multiplication by a vertex, as a unit quaternion, maps the 24-cell and the 600-cell to themselves; quarter turns
+    // Multiplication by a vertex, as a unit quaternion, maps the 24-cell and the 600-cell to themselves. Quarter turns
     // map the tesseract and the 16-cell to themselves.
     for (const auto name : {"8-cell", "16-cell", "24-cell", "600-cell"}) {
         const polytopes::Polytope& p = named(name);

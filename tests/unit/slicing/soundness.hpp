@@ -27,7 +27,8 @@ inline ElementsOfSlice sliceCounts(const slicing::SliceSet& s, int i = 0) {
     return {s.vertexCount(i), s.edgeCount(i), s.faceCount(i)};
 }
 
-/// Expects that the loops traverse every slice edge as often in one direction as in the other, and are closed.
+/// Expects that the loops of the slices' faces are closed, and traverse every slice edge as often in one direction as
+/// in the other.
 inline void expectClosed(const slicing::SliceSet& s) {
     for (int slice = 0; slice < s.planes.count; ++slice) {
         std::map<std::uint32_t, int> passes;
@@ -46,8 +47,8 @@ inline void expectClosed(const slicing::SliceSet& s) {
     }
 }
 
-/// Expects that a slice is a closed convex polyhedron with correct incidences. The slice must have a volume. `slack` is
-/// how far a vertex may lie beyond the plane of a face.
+/// Expects that slice number `slice` is a closed convex polyhedron with a positive volume and correct incidences. A
+/// vertex may lie beyond the plane of a face by at most `slack`.
 inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice, double slack = 1e-8) {
     const ElementsOfSlice c = sliceCounts(s, slice);
     ASSERT_EQ(c.vertices + c.faces, c.edges + 2) << c;
@@ -69,7 +70,7 @@ inline void expectClosedConvexSolid(const slicing::SliceSet& s, int slice, doubl
             ++sides;
             normal += glm::cross(corner(s, slice, i) - center, corner(s, slice, next) - center);
         }
-        // The normal points outward, and no vertex of the slice lies beyond the plane of the face.
+        // The normal of the face must point outward, and no vertex of the slice may lie beyond the plane of the face.
         const double size = glm::length(normal);
         if (size < 1e-9) continue;
         ASSERT_GT(glm::dot(normal, corner(s, slice, begin) - center), 0);
@@ -123,6 +124,8 @@ inline void expectCorrectSources(const polytopes::Polytope& p, const slicing::Sl
     }
 }
 
+/// Expects that all slices of the convex polytope `p` in `s` have correct source numbers and, if they have a volume,
+/// are closed convex polyhedra.
 inline void expectAllSound(const polytopes::Polytope& p, const slicing::SliceSet& s) {
     for (int i = 0; i < s.planes.count; ++i) {
         expectCorrectSources(p, s, i);

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by tests: single slices, volumes.
+// Helpers for tests of slices: objects, single slices and their volumes.
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +14,12 @@
 
 namespace oval4d::support {
 
-/// Returns an object that refers to `polytope`, which must outlive it.
+/// Returns an Object that refers to `polytope`. `polytope` must outlive the Object.
 inline slicing::Object objectOf(const polytopes::Polytope& polytope) {
     return slicing::PolytopePtr(slicing::PolytopePtr(), &polytope);
 }
 
-/// Returns the rectified 5-cell. Cells of type 0 are octahedra, those of type 1 are tetrahedra.
+/// Returns the rectified 5-cell. Its cells of type 0 are octahedra, and those of type 1 are tetrahedra.
 inline polytopes::Polytope rectifiedFiveCell() {
     const polytopes::Branch three{3, 1};
     const auto diagram = polytopes::Diagram::linear(three, three, three, {false, true, false, false});
@@ -30,7 +30,7 @@ inline polytopes::Polytope rectifiedFiveCell() {
     return polytope;
 }
 
-/// Returns the slice at this w of `p` rotated by `orientation`, as the only slice of a set.
+/// Returns the slice at `w` of `p`, rotated by `orientation`, as the only slice of a set.
 inline slicing::SliceSet cutAt(const polytopes::Polytope& p, const geometry::Rotation& orientation, double w) {
     slicing::SliceSet out;
     slicing::CellComplexSlicer slicer;
@@ -39,11 +39,12 @@ inline slicing::SliceSet cutAt(const polytopes::Polytope& p, const geometry::Rot
     return out;
 }
 
+/// Returns the position of a corner of slice number `slice`. `at` is the index of the corner in SliceSet::corners.
 inline glm::dvec3 corner(const slicing::SliceSet& s, int slice, std::uint32_t at) {
     return s.vertices[s.vertexBegin[slice] + s.corners[at]];
 }
 
-/// Returns the signed volume of a slice: the integral of the winding number of its faces.
+/// Returns the signed volume of slice number `slice`: the integral of the winding number of its faces.
 inline double volumeOf(const slicing::SliceSet& s, int slice) {
     double sum = 0;
     for (std::uint32_t f = s.faceBegin[slice]; f < s.faceBegin[slice + 1]; ++f) {
@@ -56,9 +57,10 @@ inline double volumeOf(const slicing::SliceSet& s, int slice) {
     return sum;
 }
 
-/// Returns the hypervolume as the integral of the slices' volumes over w. Between two neighboring w of vertices, the
-/// volume of the section is a cubic polynomial in w, which Simpson's rule integrates exactly. The rule also evaluates
-/// the degenerate sections through vertices. The result is therefore correct only if these sections are correct, too.
+/// Returns the hypervolume of `p` as the integral over w of the volumes of its slices. Between the w of two neighboring
+/// vertices, the volume of the section is a cubic polynomial in w, which Simpson's rule integrates exactly. The rule
+/// also evaluates the degenerate sections through vertices. Therefore the result is correct only if these sections are
+/// correct, too.
 inline double hypervolumeBySlices(const polytopes::Polytope& p, const geometry::Rotation& orientation) {
     std::vector<double> levels;
     for (const auto& v : p.vertices) levels.push_back(orientation(v).w);

@@ -1,5 +1,5 @@
 #pragma once
-// Surfaces for tests, as meshes of quads.
+// Surfaces for tests, as meshes of quadrilaterals.
 
 #include <cmath>
 #include <cstdint>
@@ -14,8 +14,9 @@
 
 namespace oval4d::support {
 
-/// Makes a mesh of `columns` × `rows` quads. `place` returns the vertex of a column and a row; `number` maps a column
-/// from 0 to `columns` and a row from 0 to `rows` to the index of a vertex, so that it says how the sides are joined.
+/// Makes a mesh of `columns` × `rows` quadrilaterals. `place` returns the position of the vertex in a column and a row.
+/// `number` maps a column from 0 to `columns` and a row from 0 to `rows` to the index of a vertex. So `number`
+/// determines how the sides of the mesh are joined.
 template <typename Place, typename Number>
 slicing::SurfacePtr surfaceOf(const std::string& name, std::uint32_t columns, std::uint32_t rows,
                               std::uint32_t vertexCount, Place place, Number number) {
@@ -32,8 +33,8 @@ slicing::SurfacePtr surfaceOf(const std::string& name, std::uint32_t columns, st
         geometry::makeSurfaceMesh(name, std::move(vertices), std::move(faces)));
 }
 
-/// Returns the product of two regular polygons with these numbers of sides, in the planes xy and zw. Both have the
-/// circumradius √½, so all vertices lie on the Clifford torus, and the quads are flat.
+/// Returns the product of two regular polygons with `sides` and `otherSides` sides, in the planes xy and zw. Both
+/// polygons have the circumradius √½. So all vertices lie on the Clifford torus, and the quadrilaterals are flat.
 inline slicing::SurfacePtr cliffordTorus(std::uint32_t sides, std::uint32_t otherSides) {
     const auto place = [=](std::uint32_t i, std::uint32_t j) {
         const double a = 2 * std::numbers::pi * (i % sides) / sides;
@@ -44,8 +45,8 @@ inline slicing::SurfacePtr cliffordTorus(std::uint32_t sides, std::uint32_t othe
                      [=](std::uint32_t i, std::uint32_t j) { return i % sides * otherSides + j % otherSides; });
 }
 
-/// Returns a Klein bottle, which R⁴ contains without self-intersections. `columns` and `rows` are numbers of quads
-/// along and around the tube. The quads are not flat.
+/// Returns a Klein bottle, which R⁴ contains without self-intersections. `columns` and `rows` are the numbers of
+/// quadrilaterals along and around the tube. The quadrilaterals are not flat.
 inline slicing::SurfacePtr kleinBottle(std::uint32_t columns, std::uint32_t rows) {
     const auto place = [=](std::uint32_t i, std::uint32_t j) {
         const double u = 2 * std::numbers::pi * i / columns, v = 2 * std::numbers::pi * j / rows;
@@ -53,14 +54,15 @@ inline slicing::SurfacePtr kleinBottle(std::uint32_t columns, std::uint32_t rows
         return glm::dvec4(r * std::cos(u), r * std::sin(u), std::sin(v) * std::cos(u / 2),
                           std::sin(v) * std::sin(u / 2));
     };
-    // After once around, the tube is joined to its mirror image: u = 2π and v are the point of u = 0 and −v.
+    // After one turn, the tube is joined to its mirror image: the point with u = 2π and v is the point with u = 0 and
+    // −v.
     return surfaceOf("Klein bottle", columns, rows, columns * rows, place, [=](std::uint32_t i, std::uint32_t j) {
         return i < columns ? i * rows + j % rows : (rows - j % rows) % rows;
     });
 }
 
-/// Returns the graph of the complex function z², (x, y, Re z², Im z²), for x and y from −1 to 1. Its boundary consists
-/// of 4 · `steps` edges.
+/// Returns the graph of the complex function z²: the points (x, y, Re z², Im z²) for x and y from −1 to 1. Its boundary
+/// consists of 4 · `steps` edges.
 inline slicing::SurfacePtr graphOfSquare(std::uint32_t steps) {
     const auto place = [=](std::uint32_t i, std::uint32_t j) {
         const double x = 2.0 * i / steps - 1, y = 2.0 * j / steps - 1;

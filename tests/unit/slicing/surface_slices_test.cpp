@@ -1,4 +1,4 @@
-// Slices of surfaces in R⁴.
+// Tests of the slices of surfaces in R⁴.
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ SliceSet cut(const Object& object, const Rotation& turn, const Hyperplanes& plan
     return slices;
 }
 
-/// Returns how many edges end at each vertex of slice i.
+/// Returns, for each vertex of slice i, how many edges end at it.
 std::vector<int> degreesIn(const SliceSet& slices, int i) {
     std::vector<int> degrees(slices.vertexCount(i));
     for (auto e = slices.edgeBegin[i]; e < slices.edgeBegin[i + 1]; ++e) {
@@ -62,7 +62,7 @@ TEST(SurfaceSlices, OfTheUnturnedTorusAreTwoPolygons) {
     const Hyperplanes planes{-3, 7, 0.2};
     const SliceSet slices = cut(cliffordTorus(12, 40), {}, planes);
     for (int i = 0; i < planes.count; ++i) {
-        if (planes.w(i) == 0) continue;  // there, vertices lie in the hyperplane
+        if (planes.w(i) == 0) continue;  // at w = 0, vertices lie in the hyperplane
         EXPECT_EQ(slices.vertexCount(i), 24U);
         EXPECT_EQ(slices.edgeCount(i), 24U);
         EXPECT_EQ(slices.faceCount(i), 0U);
@@ -75,7 +75,8 @@ TEST(SurfaceSlices, OfTheUnturnedTorusAreTwoPolygons) {
     }
 }
 
-/// Along an edge of the mesh, one of the two angles is constant, and the other one passes along a side of a polygon.
+/// Slices of the Clifford torus lie on the torus. Along an edge of the mesh, one of the two angles is constant, and the
+/// other one passes along a side of a polygon.
 TEST(SurfaceSlices, LieOnTheCliffordTorus) {
     std::mt19937 random(31);
     constexpr std::uint32_t kSides = 24, kOtherSides = 30;
@@ -135,7 +136,7 @@ TEST(SurfaceSlices, EndAtTheBoundary) {
     }
 }
 
-/// A rotation that leaves w alone turns each slice in place.
+/// A rotation that does not change w turns each slice in place.
 TEST(SurfaceSlices, TurnWithTheSurface) {
     std::mt19937 random(34);
     const SurfacePtr bottle = kleinBottle(14, 10);
@@ -151,7 +152,7 @@ TEST(SurfaceSlices, TurnWithTheSurface) {
     }
 }
 
-/// The symmetries of the torus map its slices to themselves.
+/// The slices of the torus have its symmetries: the symmetries map the slices to themselves.
 TEST(SurfaceSlices, HaveTheSymmetriesOfTheTorus) {
     std::mt19937 random(35);
     const SurfacePtr torus = cliffordTorus(10, 14);
@@ -168,8 +169,8 @@ TEST(SurfaceSlices, HaveTheSymmetriesOfTheTorus) {
     }
 }
 
-/// The integral of the lengths over w is the sum over the 2-faces of area times the slope of w on the 2-face (the
-/// coarea formula).
+/// The lengths of the slices satisfy the coarea formula. Their integral over w is a sum over the 2-faces: of area times
+/// the slope of w on the 2-face.
 TEST(SurfaceSlices, HaveTheLengthsOfTheCoareaFormula) {
     std::mt19937 random(36);
     const SurfacePtr torus = cliffordTorus(11, 8);
@@ -180,7 +181,7 @@ TEST(SurfaceSlices, HaveTheLengthsOfTheCoareaFormula) {
         const SliceSet slices = cut(torus, turn, planes);
         double integral = 0, expected = 0;
         for (int i = 0; i < planes.count; ++i) integral += planes.spacing * lengthOf(slices, i);
-        for (std::size_t f = 0; f < torus->faces.size(); ++f) {  // rectangles
+        for (std::size_t f = 0; f < torus->faces.size(); ++f) {  // the 2-faces are rectangles
             const auto loop = torus->faces[f];
             const glm::dvec4 a = turn(torus->vertices[loop[1]] - torus->vertices[loop[0]]);
             const glm::dvec4 b = turn(torus->vertices[loop[3]] - torus->vertices[loop[0]]);
@@ -191,7 +192,7 @@ TEST(SurfaceSlices, HaveTheLengthsOfTheCoareaFormula) {
 }
 
 TEST(SurfaceSlices, ShowTheEdgesOfFacesInTheHyperplane) {
-    // With four sides each, in this orientation, the torus consists of 16 squares of a tesseract.
+    // If both polygons have four sides, the torus in this orientation consists of 16 squares of a tesseract.
     const double eighth = std::numbers::pi / 4;
     const Rotation turn(geometry::Turn{Plane::xy, eighth, eighth});
     const SliceSet slices = cut(cliffordTorus(4, 4), turn, {-1, 3, 0.5});
@@ -207,12 +208,12 @@ TEST(SurfaceSlices, ShowTheEdgesOfFacesInTheHyperplane) {
 }
 
 TEST(SurfaceSlices, OfFacesThatAreNotFlat) {
-    // The real and the imaginary axis are the zeros of Im z².
+    // The zeros of Im z² are the real and the imaginary axis.
     const SliceSet axes = cut(graphOfSquare(2), {}, {0, 1, 1});
     EXPECT_EQ(axes.vertexCount(0), 5U);
     EXPECT_EQ(axes.edgeCount(0), 4U);
     EXPECT_NEAR(lengthOf(axes, 0), 4 * std::sqrt(2), 1e-12);
-    // A saddle is cut twice, or touched in two corners.
+    // The hyperplane cuts a saddle twice, or touches it in two corners.
     geometry::JaggedArray face;
     face.add(std::vector<std::uint32_t>{0, 1, 2, 3});
     const auto saddle = [&](double low) {
@@ -286,7 +287,7 @@ TEST(Surface, HasPointsAsPlanarSections) {
         EXPECT_TRUE(section.boundary.empty());
         for (const std::uint32_t source : section.pointSource) EXPECT_LT(source, elementCounts(torus)[2]);
     }
-    // The plane xz: y = 0.3 on the circle in xy, and w = 0.1 on the circle in zw.
+    // In the plane xz, y is 0.3 on the circle in xy, and w is 0.1 on the circle in zw.
     EXPECT_EQ(sections[1].points.size(), 4U);
     for (const glm::dvec2& p : sections[1].points) {
         EXPECT_NEAR(std::abs(p.x), std::sqrt(0.5 - 0.09), 1e-2);
@@ -346,7 +347,7 @@ TEST(Surface, BytesBringItBack) {
     EXPECT_THROW(read(parts, 47), std::runtime_error);
     for (std::size_t size = 0; size < parts.size(); size += 37)
         EXPECT_THROW(read(std::string_view(parts).substr(0, size)), std::runtime_error);
-    bottle.faces.items.back() = 48;  // the index of a vertex
+    bottle.faces.items.back() = 48;  // an invalid vertex index
     parts.clear();
     writeObjectContent(std::make_shared<const SurfaceMesh>(bottle), writer, files);
     EXPECT_THROW(read(parts), std::runtime_error);

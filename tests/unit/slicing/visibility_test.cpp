@@ -21,7 +21,7 @@ TEST(VisibilityBySource, IsThatOfTheMostVisibleCell) {
          {OfType{kHidden, kFull}, {kFull, kHidden}, {kFaded, kFull}, {kFaded, kHidden}, {kHidden, kHidden}}) {
         VisibilityBySource found;
         findVisibilities(object, ofType, found);
-        // The expected values come from a search through all cells for each element.
+        // The expected visibilities come from a search through all cells for each element.
         const auto greatest = [&](auto&& holds) {
             Visibility most = Visibility::hidden;
             for (std::size_t c = 0; c < polytope.cells.size(); ++c) {

@@ -29,7 +29,7 @@ namespace {
 
 using fields::Inside;
 
-// An array with random samples between −1 and 1, of which some are NaN.
+// Returns an array with random samples between −1 and 1. The fraction `holes` of the samples are NaN.
 fields::Field randomArray(const fields::Shape& shape, const fields::Box& box, std::mt19937& random, double holes = 0) {
     std::uniform_real_distribution<float> value(-1, 1);
     std::uniform_real_distribution<double> chance(0, 1);
@@ -55,9 +55,10 @@ ClosedSurface exactSlice(ClosedSurfaceSlicer& slicer, double w, double level, In
     return surface;
 }
 
-// The part of a simplex in which a linear function is below the level. An edge between a corner `below` and one above
-// is cut where the function has the value of the level, which divides the simplex in two; the volumes of both parts are
-// proportional to the lengths of the parts of the edge.
+// Returns the fraction of a simplex in which a linear function is below the level. `below` and `above` are the values
+// at the corners below and above the level. An edge between two such corners is cut where the function has the value of
+// the level. This cut divides the simplex in two simplices, whose volumes are proportional to the lengths of the parts
+// of the edge.
 double shareBelow(std::vector<double> below, std::vector<double> above, double level) {
     if (above.empty()) return 1;
     if (below.empty()) return 0;
@@ -73,7 +74,7 @@ struct Cut {
     std::vector<double> values;
 };
 
-// The simplices of the subdivision of an array's lattice, found from the definition: the points of a cell whose
+// Returns the simplices of the subdivision of an array's lattice, found from the definition: the points of a cell whose
 // fractional coordinates have the same order form a simplex. Simplices with a corner without a value are left out.
 std::vector<Cut> simplicesOf(const fields::Field& field, const geometry::Rotation& orientation) {
     std::vector<Cut> simplices;
@@ -125,8 +126,8 @@ double bodyVolume(const std::vector<Cut>& simplices, double level, Inside inside
     return sum;
 }
 
-// The values of w between which the volume of the slices is a polynomial of degree 3: those of the vertices of the
-// body's simplices.
+// Returns the values of w between which the volume of the slices is a polynomial of degree 3: those of the vertices of
+// the simplices that form the body.
 std::vector<double> breakpoints(const std::vector<Cut>& simplices, double level) {
     std::vector<double> all;
     for (const Cut& s : simplices) {
@@ -143,8 +144,8 @@ std::vector<double> breakpoints(const std::vector<Cut>& simplices, double level)
     return all;
 }
 
-// The integral of the slices' volumes over w is the 4-volume of the body, which follows from the volumes of the
-// simplices. Gauss's formula with two points is exact for polynomials of degree 3.
+// The volumes of the slices add up to that of the body: their integral over w is the 4-volume of the body. The 4-volume
+// is computed from the volumes of the simplices. Gauss's formula with two points is exact for polynomials of degree 3.
 TEST(ClosedSurfaceSlicer, VolumesAddUpToThatOfTheBody) {
     std::mt19937 random(30);
     for (int trial = 0; trial < 8; ++trial) {
@@ -173,7 +174,8 @@ TEST(ClosedSurfaceSlicer, VolumesAddUpToThatOfTheBody) {
     }
 }
 
-// Sums of waves on small lattices, of which the surfaces have many components and tunnels.
+// The surfaces of all fields are closed manifolds. Sums of waves on small lattices have surfaces with many components
+// and tunnels.
 TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
     std::mt19937 random(31);
     std::uniform_int_distribution<std::size_t> samples(2, 6);
@@ -185,7 +187,7 @@ TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
             randomArray(shape, {glm::dvec4(-1), glm::dvec4(1, 1, 1, 1.5)}, random, holes ? 0.05 : 0);
         ClosedSurfaceSlicer slicer(field, trial % 5 == 0 ? geometry::Rotation() : support::randomRotation(random));
         for (const double level : {-0.5, 0.0, 0.4}) {
-            // w = 0 is in the middle of the lattice, and often contains lattice points.
+            // The hyperplane w = 0 is in the middle of the lattice, and often contains lattice points.
             for (const double w : {-0.3, 0.0, 0.7}) {
                 const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
                 const ClosedSurface surface = exactSlice(slicer, w, level, inside);
@@ -203,7 +205,8 @@ TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
     EXPECT_GT(triangles, 100'000U);
 }
 
-// The interpolation of a linear function is the function itself, which has one gradient.
+// Points of the surface have the values and gradients of the function. The interpolation of a linear function is the
+// function itself, which has only one gradient.
 TEST(ClosedSurfaceSlicer, PointsHaveValuesAndGradients) {
     std::mt19937 random(38);
     const glm::dvec4 slope(0.7, -1.1, 0.4, 0.9);
@@ -289,7 +292,8 @@ TEST(ClosedSurfaceSlicer, ConstantAndSmallFields) {
     EXPECT_TRUE(exactSlice(slicer, 0, 1).triangles.empty());
 }
 
-// A lattice of which one sample has no value: the pentatopes around it are missing.
+// Where samples have no value, the surface has caps. If one sample of a lattice has no value, the pentatopes around it
+// are missing from the body.
 TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     for (const float hole : {NAN, kInfinity, -kInfinity}) {
@@ -310,7 +314,7 @@ TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
             EXPECT_EQ(measured.components, 1U);
             EXPECT_EQ(measured.euler, 4) << "a cube with a cavity";
             EXPECT_LT(measured.volume, 64);
-            EXPECT_GT(measured.volume, 56);  // the hole is within 8 cells
+            EXPECT_GT(measured.volume, 56);  // the missing part is within 8 cells of the lattice
             EXPECT_EQ(measured.area, 0);
             ASSERT_TRUE(measured.centroid);
             EXPECT_LT(glm::length(*measured.centroid), 0.25);
@@ -318,7 +322,8 @@ TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
     }
 }
 
-// The function is infinite at the origin, which is a point of the lattice in the middle of the body.
+// A pole of a formula belongs to the body. The function is infinite at the origin, which is a lattice point in the
+// middle of the body.
 TEST(ClosedSurfaceSlicer, PolesOfFormulasBelongToTheBody) {
     const double w = 0.01, radius = std::sqrt(0.25 - w * w),
                  expected = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
@@ -337,8 +342,8 @@ TEST(ClosedSurfaceSlicer, PolesOfFormulasBelongToTheBody) {
 }
 
 TEST(ClosedSurfaceSlicer, EllipsoidsConverge) {
-    // x²/a² + y²/b² + z²/c² + w²/d² < 1, rotated: the slice at w is an ellipsoid of the 3-volume
-    // 4/3 π abcd/h (1 − w²/h²)^(3/2), with h, the extent along w.
+    // The rotated ellipsoid x²/a² + y²/b² + z²/c² + w²/d² < 1 has the extent h along w. Its slice at w is an ellipsoid
+    // with the volume 4/3 π abcd/h (1 − w²/h²)^(3/2).
     const glm::dvec4 axes(0.9, 0.7, 0.8, 0.6);
     const fields::Field field =
         formula("(x/0.9)^2 + (y/0.7)^2 + (z/0.8)^2 + (w/0.6)^2 < 1", {glm::dvec4(-1), glm::dvec4(1)});
@@ -357,7 +362,7 @@ TEST(ClosedSurfaceSlicer, EllipsoidsConverge) {
             EXPECT_EQ(measured.components, 1U);
             errors[i] = std::abs(measured.volume / expected - 1);
         }
-        // The error of linear interpolation is of the second order.
+        // The error of linear interpolation is of second order in the size of the lattice cells.
         EXPECT_LT(errors[1], errors[0] / 3);
         EXPECT_LT(errors[2], errors[1] / 3);
         EXPECT_LT(errors[2], 0.005);
@@ -388,12 +393,12 @@ TEST(ClosedSurfaceSlicer, TheInteractiveSurfacesConvergeToIt) {
     }
 }
 
-// The object's axes may be any linear images of the function's.
+// The object's axes may be any linear images of the function's axes.
 TEST(ClosedSurfaceSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
     std::mt19937 random(35);
     fields::Field field = randomArray({4, 4, 4, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
     glm::dmat4 sheared(1);
-    sheared[3][0] = 0.5;  // a moving frame: x' = x + t / 2
+    sheared[3][0] = 0.5;  // a moving frame of reference: x' = x + t / 2
     sheared[1][1] = 2;
     field.toFunction = glm::inverse(sheared);
     const geometry::Rotation orientation = support::randomRotation(random);
@@ -436,7 +441,7 @@ TEST(ClosedSurfaceSlicer, IsBoundedAndCancelable) {
     done = slicer.slice(0, {.mustStop = [&] { return ++asked == 2; }}, surface);
     ASSERT_FALSE(done);
     EXPECT_EQ(asked, 2);
-    EXPECT_TRUE(slicer.slice(0, {}, surface));  // works again
+    EXPECT_TRUE(slicer.slice(0, {}, surface));  // after an error, the slicer works again
     EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
 }
 

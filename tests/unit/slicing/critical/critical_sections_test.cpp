@@ -91,7 +91,8 @@ TEST(CriticalSections, EachLevelHasItsOwn) {
     }
 }
 
-// The field is above 0 between the balls of radii 0.5 and 1.
+// The w at which a cavity opens or closes is found. The field is above 0 between the balls of radii 0.5 and 1, so the
+// sections near the middle have a cavity.
 TEST(CriticalSections, ShellAroundABallHasACavity) {
     SKIP_IF_SANITIZED();
     const FieldPtr shell = formulaObject("(1 - (x^2 + y^2 + z^2 + w^2)) * (x^2 + y^2 + z^2 + w^2 - 0.25)");
@@ -104,7 +105,8 @@ TEST(CriticalSections, ShellAroundABallHasACavity) {
                    2e-5);
 }
 
-// The distance of the ring's points from the plane xy is at most b + r, and at least b − r.
+// The critical sections of a tiger along its axis are known: the distance of its points from the plane xy is at most b
+// + r, and at least b − r.
 TEST(CriticalSections, TigerAlongItsAxis) {
     expectSections(criticalOf(formulaObject(kTigerAlongW)), kTigerSections, 2e-4);
 }
@@ -115,9 +117,9 @@ TEST(CriticalSections, ArrayOfTheTiger) {
     expectSections(criticalOf(array), kTigerSections, 0.02);
 }
 
-// The tiger's surface is a torus of dimension 3 with the points ((a + r cos φ) e^iα, (b + r sin φ) e^iβ). The height
-// w = u · (x, y) + v · (z, w) has its critical points where α and β are in the directions of ±u and ±v, and φ in that
-// of (±|u|, ±|v|): w = ±a|u| ± b|v| ± r.
+// The critical sections of a rotated tiger are known. Its surface is a 3-dimensional torus with the points ((a + r cos
+// φ) e^iα, (b + r sin φ) e^iβ). The height is w = u · (x, y) + v · (z, w). It has its critical points where α and β are
+// the directions of ±u and ±v, and φ is the direction of (±|u|, ±|v|). There, w = ±a|u| ± b|v| ± r.
 TEST(CriticalSections, RotatedTiger) {
     SKIP_IF_SANITIZED();
     std::mt19937 random(2);
@@ -146,7 +148,8 @@ TEST(CriticalSections, RotatedTiger) {
     }
 }
 
-// Heat spreads from two points. Halfway between them, the temperature is 2 t^(−3/2) exp(−1 / 4t).
+// The time at which two regions of heat merge is found. Heat spreads from two points; halfway between them, the
+// temperature is 2 t^(−3/2) exp(−1 / 4t).
 TEST(CriticalSections, HeatKernelsMerge) {
     SKIP_IF_SANITIZED();
     constexpr double kLevel = 5, kFirst = 0.03, kLast = 0.5;
@@ -173,7 +176,8 @@ TEST(CriticalSections, HeatKernelsMerge) {
     }
 }
 
-// Also in sections that are turned in space, which does not change w.
+// In an array, too, the time at which two regions of heat merge is found, with an error of at most a thousandth. This
+// also holds if the sections are turned in space, which does not change w.
 TEST(CriticalSections, HeatKernelsInAnArrayMergeToAThousandth) {
     SKIP_IF_SANITIZED();
     const HeatKernels heat;
@@ -204,7 +208,7 @@ TEST(CriticalSections, OppositeOrientationsAgree) {
     const FieldPtr field = formulaObject("x^2 + 2*y^2 + (z^2 + w^2 - 1)^2 + 0.3*z*w - 0.3 + 0.1*x + 0.05*w");
     std::mt19937 random(4);
     const geometry::Rotation orientation = support::randomRotation(random);
-    const geometry::Rotation half(geometry::Turn{geometry::Plane::zw, std::acos(-1), {}});  // takes w to −w
+    const geometry::Rotation half(geometry::Turn{geometry::Plane::zw, std::acos(-1), {}});  // maps w to −w
     const CriticalSections up = criticalOf(field, {}, orientation), down = criticalOf(field, {}, half * orientation);
     ASSERT_FALSE(up.all.empty());
     ASSERT_EQ(up.all.size(), down.all.size());

@@ -11,7 +11,7 @@ namespace {
 
 using fields::Inside;
 
-// A rotation in space, which does not change w.
+// Returns a rotation in space (x, y, z), which does not change w.
 geometry::Rotation turnedInSpace() {
     return geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.4, {}}) *
            geometry::Rotation(geometry::Turn{geometry::Plane::yz, 1.1, {}});
@@ -43,7 +43,8 @@ TEST(LocalChange, HeatKernelsInAnArrayMerge) {
     }
 }
 
-// A ball appears at w = −1: the body, or what is outside of the body.
+// The search finds the w at which a ball appears (w = −1), both if the ball is the body and if it is what is outside of
+// the body.
 TEST(LocalChange, BallsAppear) {
     const fields::Field ball = sampledField(
         testField([](const glm::dvec4& p) { return glm::dot(p, p) - 1; }, 6, {glm::dvec4(-1.5), glm::dvec4(1.5)}), 25);

@@ -13,7 +13,7 @@
 namespace oval4d::slicing {
 namespace {
 
-/// The section of the box −1 … 1 by w = 0.
+/// Returns the section by w = 0 of the box in which all coordinates are from −`reach` to `reach`.
 FieldSection cubeSection(double reach = 1) {
     FieldSection section;
     for (int axis = 0; axis < 3; ++axis) {
@@ -123,7 +123,7 @@ TEST(SliceFog, OfAFieldIsSampledInItsHyperplanes) {
             const glm::dvec4 q = field.center + orientation.inverse()(glm::dvec4(place, planes.w(i)));
             EXPECT_NEAR(at(fog, p), std::clamp(1 + (f(q) + 5) / 10 * 254, 1.0, 255.0), 0.51);
         });
-        // The walls bound the slice of the domain: its vertices lie on three of them.
+        // The walls bound the slice of the domain: each vertex of this slice lies on three walls.
         for (std::size_t v = 0; v < out.vertexCount(i); ++v) {
             const glm::dvec3& vertex = out.vertices[out.vertexBegin[static_cast<std::size_t>(i)] + v];
             int touched = 0;

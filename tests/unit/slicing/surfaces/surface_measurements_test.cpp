@@ -10,7 +10,8 @@
 namespace oval4d::slicing {
 namespace {
 
-// Adds a cube with this corner and side, facing inward if `inward`.
+// Adds to `surface` a cube with this lower corner and this side. If `inward` is true, the surface of the cube faces
+// inward.
 void addCube(ClosedSurface& surface, const glm::dvec3& corner, double side, bool inward = false) {
     const auto first = static_cast<std::uint32_t>(surface.points.size());
     for (int i = 0; i < 8; ++i) surface.points.push_back(corner + side * glm::dvec3(i & 1, i >> 1 & 1, i >> 2));
@@ -29,7 +30,7 @@ void addCube(ClosedSurface& surface, const glm::dvec3& corner, double side, bool
 TEST(SurfaceMeasurements, OfACube) {
     ClosedSurface surface;
     addCube(surface, {1, 2, 3}, 2);
-    surface.firstCap = 10;  // one of its sides is a cap
+    surface.firstCap = 10;  // the first cap triangle: one of the cube's sides is a cap
     const auto measured = measureSurface(surface);
     EXPECT_NEAR(measured.volume, 8, 1e-12);
     EXPECT_NEAR(measured.area, 20, 1e-12);
@@ -44,8 +45,8 @@ TEST(SurfaceMeasurements, CavitiesAreNoComponents) {
     ClosedSurface surface;
     addCube(surface, {0, 0, 0}, 4);
     addCube(surface, {1, 1, 1}, 2, true);
-    addCube(surface, {1.5, 1.5, 1.5}, 1);  // a body in the cavity
-    addCube(surface, {1e6, 0, 0}, 1e-3);   // far away and small
+    addCube(surface, {1.5, 1.5, 1.5}, 1);  // a smaller body in the cavity
+    addCube(surface, {1e6, 0, 0}, 1e-3);   // a small body far away
     const auto measured = measureSurface(surface);
     EXPECT_NEAR(measured.volume, 64 - 8 + 1, 1e-6);
     EXPECT_EQ(measured.components, 3U);
