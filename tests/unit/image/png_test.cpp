@@ -1,4 +1,4 @@
-// PNG files, decoded with libpng and checked chunk by chunk.
+// Tests of PNG files: they are decoded with libpng, and checked chunk by chunk.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ struct Chunk {
     std::uint32_t crc, crcFound;
 };
 
-/// The CRC of the PNG specification, computed bit by bit.
+/// Returns the CRC that the PNG specification defines, computed bit by bit.
 std::uint32_t crcOf(std::span<const std::uint8_t> bytes) {
     std::uint32_t crc = 0xffffffff;
     for (const std::uint8_t byte : bytes) {
@@ -92,7 +92,7 @@ TEST(Png, RandomSizesAndContentsReadBack) {
     }
 }
 
-/// An image like those that oval4d draws: boxes of uniform or slowly changing colors on a background.
+/// Returns an image like those that oval4d draws: boxes with uniform or slowly changing colors on a background.
 Image paint(int width, int height, std::mt19937& random) {
     Image image = makeImage(width, height, Kind::flat, random);
     for (int box = 0; box < 6; ++box) {
@@ -127,7 +127,7 @@ TEST(Png, ThousandsOfPicturesReadBack) {
     }
 }
 
-/// Large images are encoded in two bands.
+/// Large images, which are encoded in two parts, can be decoded.
 TEST(Png, LargePicturesReadBack) {
     std::mt19937 random(9);
     PngEncoder encoder;
@@ -159,7 +159,7 @@ TEST(Png, LongThinImagesReadBack) {
     }
 }
 
-/// An image with every alpha, whose colors are multiplied by it.
+/// Returns an image in which alpha has all values. The colors are multiplied by alpha.
 Image transparentImage(int width, int height, std::mt19937& random) {
     Image image = makeImage(width, height, Kind::noise, random);
     for (std::size_t i = 0; i < image.pixels.size(); i += 4) {
@@ -184,7 +184,7 @@ TEST(Png, TransparentImagesReadBack) {
             const int alpha = read.pixels[i | 3U];
             if (i % 4 == 3) {
                 ASSERT_EQ(alpha, image.pixels[i]);
-            } else {  // colors in the file are not multiplied by alpha
+            } else {  // the colors in the file are not multiplied by alpha
                 ASSERT_NEAR(read.pixels[i] * alpha / 255.0, image.pixels[i], 0.51) << "byte " << i;
             }
         }
@@ -256,7 +256,7 @@ TEST(Png, RefusesImagesThatLackPixels) {
     EXPECT_THROW(PngEncoder().encode(Image{2, 2, Bytes(15)}, "", file), std::invalid_argument);
 }
 
-/// The Paeth predictor as the PNG specification defines it.
+/// Returns the Paeth predictor that the PNG specification defines.
 int paeth(int left, int above, int upperLeft) {
     const int sum = left + above - upperLeft;
     const int toLeft = std::abs(sum - left), toAbove = std::abs(sum - above), toUpperLeft = std::abs(sum - upperLeft);

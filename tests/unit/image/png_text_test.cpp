@@ -30,14 +30,15 @@ TEST(PngText, IsThatOfTheEncoder) {
 
 TEST(PngText, IsFoundBehindOtherChunks) {
     std::string file = pictureWith("the state");
-    constexpr std::size_t kHeader = 8 + 25;  // the signature and IHDR
+    constexpr std::size_t kHeader = 8 + 25;  // the length of the signature and the IHDR chunk
     file.insert(kHeader, std::string("\0\0\0\x05iTXtother\0\0\0\0", 4 + 4 + 5 + 4));
     file.insert(kHeader, std::string("\0\0\0\0tEXt\0\0\0\0", 12));
     ASSERT_TRUE(stateTextIn(file));
     EXPECT_EQ(*stateTextIn(file), "the state");
 }
 
-// A chunk that claims to be longer than the file, in particular, is not read beyond the end of the file.
+// If only a part of a file is given, the result is nothing or the whole text. In particular, a chunk that claims to be
+// longer than the file is not read beyond the end of the file.
 TEST(PngText, OfPartsOfAFileIsNothingOrTheWholeText) {
     const std::string state = "some text", file = pictureWith(state);
     for (std::size_t size = 0; size < file.size(); ++size) {

@@ -1,4 +1,4 @@
-// Weighted fair queueing, simulated in virtual time: a job takes as long as the test says.
+// Tests of weighted fair queueing, simulated in virtual time: a job takes as long as the test says.
 
 #include "parallel/fair_queue.hpp"
 
@@ -29,7 +29,8 @@ class Simulation {
   public:
     explicit Simulation(std::size_t threads, FairQueue::Limits limits = {}) : queue_(threads, limits), free_(threads) {}
 
-    /// Posts a job with an estimated and an actual duration; calls `done` when it ends. Returns false if it is refused.
+    /// Posts a job with an estimated and an actual duration. Calls `done` when the job ends. Returns false if the job
+    /// is refused.
     bool post(const JobQueuePtr& jobQueue, Seconds estimate, Seconds takes, std::function<void()> done = {}) {
         const auto job = [this, jobQueue, takes, done = std::move(done)](std::size_t) {
             begun_ = {takes, done, jobQueue};
@@ -39,7 +40,7 @@ class Simulation {
     bool post(const JobQueuePtr& jobQueue, Seconds takes, std::function<void()> done = {}) {
         return post(jobQueue, takes, takes, std::move(done));
     }
-    /// Schedules a function to be called at this time.
+    /// Schedules a call of `act` at the virtual time `when`.
     void at(Seconds when, std::function<void()> act) { events_.emplace(when, std::move(act)); }
 
     void run(Seconds until) {
@@ -60,7 +61,7 @@ class Simulation {
         return used_.contains(jobQueue.get()) ? used_.at(jobQueue.get()) : Seconds(0);
     }
     std::size_t running() const { return running_; }
-    /// The time that all threads together have spent on completed jobs.
+    /// Returns the time that all threads together have spent on completed jobs.
     Seconds busy() const {
         Seconds sum{0};
         for (const auto& [jobQueue, used] : used_) sum += used;
@@ -100,17 +101,18 @@ class Simulation {
     Job begun_;
 };
 
-/// Posts jobs to a job queue forever, each as soon as the previous one ends.
+/// Posts jobs of the duration `takes` to a job queue forever: each as soon as the previous one ends.
 void always(Simulation& in, const JobQueuePtr& jobQueue, Seconds takes) {
     EXPECT_TRUE(in.post(jobQueue, takes, [&in, jobQueue, takes] { always(in, jobQueue, takes); }));
 }
 
-/// Like always(), but with a new job queue for each job, like a client that opens a session for each picture.
+/// Posts jobs of the duration `takes` forever, each in a new job queue, like a client that opens a session for each
+/// picture. Each job is posted as soon as the previous one ends.
 void alwaysNew(Simulation& in, const FairQueue::ClientFlowPtr& client, Seconds takes) {
     EXPECT_TRUE(in.post(newJobQueue(client), takes, [&in, client, takes] { alwaysNew(in, client, takes); }));
 }
 
-/// The latencies of jobs that are posted every `period` until `until`: their waiting time plus their duration.
+/// The latencies (waiting time plus duration) of jobs that are posted every `period` until the time `until`.
 class Latencies {
   public:
     Latencies(Simulation& in, JobQueuePtr jobQueue, Seconds takes, Seconds period, Seconds until) : takes_(takes) {
@@ -157,7 +159,7 @@ TEST(FairQueue, WhoHasHadLessIsNext) {
     EXPECT_EQ(order, (std::vector<std::string>{"greedy", "greedy", "greedy", "modest", "greedy", "greedy"}));
 }
 
-/// A client that opens a session for each picture gains no advantage over one that keeps its session.
+/// A client that opens a session for each picture gains no advantage over a client that keeps its session.
 TEST(FairQueue, NewLanesAreNotAhead) {
     for (const bool same : {false, true}) {
         Simulation pool(1);
@@ -167,23 +169,27 @@ TEST(FairQueue, NewLanesAreNotAhead) {
         const Latencies seen(pool, kept, 2800us, 103ms, 20s);
         pool.run(20s);
         EXPECT_GE(seen.count(), 190U);
-        // The running job, one that was just about to begin, and its own duration.
+        // The worst latency: the rest of the running job, a job that was just about to begin, and the duration of the
+        // job itself.
         EXPECT_LE(seen.worst(), 30.8ms + 1us);
         EXPECT_LE(seen.median(), 24.1ms);
     }
 }
 
-/// The same with jobs that count as long, where one thread serves both long and short jobs.
+/// A client with a new job queue for each long job gains no advantage either. One thread serves both long and short
+/// jobs.
 TEST(FairQueue, NewLanesWithLongJobsAreNotAhead) {
     Simulation pool(1);
     for (int i = 0; i < 6; ++i) alwaysNew(pool, newClient(), 25ms);
     const Latencies seen(pool, newJobQueue(), 5ms, 103ms, 20s);
     pool.run(20s);
     EXPECT_GE(seen.count(), 190U);
-    EXPECT_LE(seen.worst(), 80ms + 1us);  // the running job, two that were just about to begin, and its own duration
+    // The running job, two jobs that were just about to begin, and the duration of the job itself.
+    EXPECT_LE(seen.worst(), 80ms + 1us);
 }
 
-/// The same if the jobs repeatedly take longer than estimated.
+/// A client with a new job queue for each job gains no advantage even if its jobs repeatedly take longer than
+/// estimated.
 TEST(FairQueue, NewLanesAreChargedByWhatTheirClientsTook) {
     Simulation pool(1);
     const FairQueue::ClientFlowPtr attacker = newClient();
@@ -226,7 +232,7 @@ TEST(FairQueue, SessionsShareEquallyByTimeNotByJobs) {
     EXPECT_NEAR(pool.usedBy(large).count(), 30, 1);
 }
 
-/// A long job begins in time although ten clients flood the pool with short jobs.
+/// A long job begins in time, even if ten clients flood the pool with short jobs.
 TEST(FairQueue, LongJobsAreNotStarved) {
     for (const std::size_t threads : {1U, 2U, 4U}) {
         Simulation pool(threads);
@@ -240,11 +246,12 @@ TEST(FairQueue, LongJobsAreNotStarved) {
         ASSERT_TRUE(pool.post(jobQueue, 1s, [&] { done = pool.now(); }));
         pool.run(30s);
         EXPECT_GT(done, 0s);
-        EXPECT_LE(done, 5s + 11s + 1s);  // at worst, on one thread, each of the ten others gets the same time first
+        EXPECT_LE(done, 5s + 11s + 1s);  // on one thread, each of the ten other clients may first get the same time
     }
 }
 
-/// A long job is not starved by other long jobs either, while short jobs of another client occupy a thread.
+/// A long job of a new client waits for at most one long job of each other client, even while short jobs of another
+/// client occupy a thread.
 TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
     Simulation pool(2);
     for (int i = 0; i < 4; ++i) {
@@ -258,7 +265,7 @@ TEST(FairQueue, ALongJobOfANewClientWaitsForOneOfEachOtherAtMost) {
     pool.run(200s);
     EXPECT_GT(done, 0s);
     EXPECT_LE(done, 100s + 7s);
-    EXPECT_LE(seen.worst(), 1s + 20ms);  // only at the start, before a thread is reserved for short jobs
+    EXPECT_LE(seen.worst(), 1s + 20ms);  // happens only at the start, before a thread is reserved for short jobs
 }
 
 TEST(FairQueue, AThreadIsKeptForShortJobsWhileSomebodyHasSome) {
@@ -267,7 +274,8 @@ TEST(FairQueue, AThreadIsKeptForShortJobsWhileSomebodyHasSome) {
         const JobQueuePtr quick = newJobQueue();
         ASSERT_TRUE(pool.post(quick, 5ms));
         pool.run(10ms);
-        for (int i = 0; i < 40; ++i) always(pool, newJobQueue(), 2s);  // job queues whose durations are not known yet
+        // The durations of jobs in these job queues are not known yet.
+        for (int i = 0; i < 40; ++i) always(pool, newJobQueue(), 2s);
         const Latencies seen(pool, quick, 5ms, 500ms, 30s);
         pool.run(30s);
         EXPECT_GE(seen.count(), 58U);
@@ -289,7 +297,7 @@ TEST(FairQueue, LongJobsHaveAllThreadsWhenNobodyElseIsThere) {
     ASSERT_TRUE(pool.post(quick, 5ms));
     pool.run(pool.now() + 1s);
     EXPECT_EQ(pool.running(), 3U);
-    quick = nullptr;  // the session is closed
+    quick = nullptr;  // destroys the job queue, as if the session was closed
     pool.run(pool.now() + 1s);
     EXPECT_EQ(pool.running(), 4U);
 }
@@ -304,7 +312,7 @@ TEST(FairQueue, VeryLongJobsAlwaysLeaveAThread) {
         EXPECT_EQ(seen.count(), 9U);
         EXPECT_LE(seen.worst(), 5ms + 1us);
     }
-    Simulation one(1);  // the only thread executes all jobs
+    Simulation one(1);  // the only thread runs all jobs, also very long ones
     for (int i = 0; i < 4; ++i) always(one, newJobQueue(), 2s);
     one.run(100s);
     EXPECT_NEAR(one.busy().count(), 100, 2);
@@ -335,7 +343,7 @@ TEST(FairQueue, ShortJobsOfALaneWithLongOnesKeepNoThread) {
     EXPECT_NEAR(pool.busy().count(), 20, 0.2);
 }
 
-/// A job queue that was idle for an hour gets the same share as a new one: idle time gives no credit.
+/// Idle time gives no credit: a job queue that was idle for an hour gets the same share as a new job queue.
 TEST(FairQueue, TimeIsNotSavedUp) {
     Simulation pool(1);
     const JobQueuePtr silent = newJobQueue(), busy = newJobQueue();
@@ -348,12 +356,13 @@ TEST(FairQueue, TimeIsNotSavedUp) {
     EXPECT_NEAR((pool.usedBy(busy) - before).count(), 5, 0.1);
 }
 
-/// Debts are forgotten when nothing waits: a job queue that had all the time before gets its share again.
+/// If no job is waiting, earlier differences are forgotten: a job queue that had all the time before gets its fair
+/// share again.
 TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
     Simulation pool(1);
     const JobQueuePtr one = newJobQueue(), other = newJobQueue();
     ASSERT_TRUE(pool.post(other, 10ms));
-    ASSERT_TRUE(pool.post(one, 10ms, 1000s));  // takes much longer than estimated
+    ASSERT_TRUE(pool.post(one, 10ms, 1000s));  // the job takes much longer than estimated
     pool.run(2000s);
     for (int i = 0; i < 3; ++i) {
         always(pool, one, 10ms);
@@ -364,7 +373,7 @@ TEST(FairQueue, NobodyOwesWhenNobodyWaits) {
     EXPECT_NEAR(pool.usedBy(other).count(), 5, 0.5);
 }
 
-/// While its long jobs wait, a client earns no advantage for short jobs.
+/// A client whose long jobs wait gains no advantage for its short jobs.
 TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
     Simulation pool(2);
     const JobQueuePtr victim = newJobQueue();
@@ -381,7 +390,7 @@ TEST(FairQueue, WaitingWithLongJobsGivesNoLeadForShortOnes) {
     const Latencies seen(pool, victim, 5ms, 1s, 90s);
     pool.run(100s);
     EXPECT_EQ(seen.count(), 29U);
-    EXPECT_LE(seen.worst(), 2 * 11 * 5ms);  // two short jobs of each client, not a second of them
+    EXPECT_LE(seen.worst(), 2 * 11 * 5ms);  // the time of two short jobs of each client
 }
 
 TEST(FairQueue, MoreThanMayWaitAreRefused) {
@@ -406,7 +415,7 @@ TEST(FairQueue, ClearsWithAllThatWaits) {
     EXPECT_TRUE(queue.push(job, jobQueue, 1s, {}));
     EXPECT_TRUE(queue.push(job, newJobQueue(), 1s, {}));
     EXPECT_EQ(queue.clear().size(), 3U);
-    EXPECT_EQ(owned.use_count(), 2);  // here, and in `job`
+    EXPECT_EQ(owned.use_count(), 2);  // one owner is here, and one is in `job`
     EXPECT_EQ(queue.waiting(), 0U);
     EXPECT_FALSE(queue.popStartableJob({}));
     EXPECT_TRUE(queue.push(job, jobQueue, 1ms, {}));

@@ -1,4 +1,4 @@
-// Two jobs that run at the same time.
+// Tests of ForkJoin, which runs two jobs at the same time.
 
 #include <array>
 #include <atomic>
@@ -17,7 +17,7 @@ namespace {
 
 using oval4d::parallel::ForkJoin;
 
-/// Returns the threads that executed the first and the second job.
+/// Returns the threads that ran the first and the second job.
 std::array<std::thread::id, 2> threadsOf(ForkJoin& forkJoin) {
     std::array<std::thread::id, 2> threads;
     forkJoin.invoke([&] { threads[0] = std::this_thread::get_id(); }, [&] { threads[1] = std::this_thread::get_id(); });

@@ -6,12 +6,12 @@
 
 namespace oval4d::support {
 
-/// A clock for tests, whose time changes only when a test advances it. Thread-safe.
+/// A clock for tests. Its time changes only when a test advances the clock. Thread-safe.
 class VirtualClock {
   public:
     void advance(std::chrono::nanoseconds by) { sinceEpoch_ += by.count(); }
 
-    /// Returns a function that returns the time as a time of `Clock`.
+    /// Returns a function that returns the virtual time, as a time point of `Clock`.
     template <typename Clock>
     std::function<typename Clock::time_point()> now() const {
         return [this] {
@@ -21,7 +21,8 @@ class VirtualClock {
     }
 
   private:
-    static constexpr std::chrono::nanoseconds kStart = std::chrono::hours(1000);  // long after default time points
+    // Long after time points that are default-constructed.
+    static constexpr std::chrono::nanoseconds kStart = std::chrono::hours(1000);
     std::atomic<std::chrono::nanoseconds::rep> sinceEpoch_ = kStart.count();
 };
 

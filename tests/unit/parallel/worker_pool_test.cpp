@@ -1,4 +1,4 @@
-// The pool of threads that execute jobs.
+// Tests of the pool of threads that run jobs.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ class WorkerPools : public testing::Test {
         EXPECT_TRUE(pool.post(std::move(job), in, cost));
     }
 
-    /// Returns options of a pool in which only the jobs of busy() take time.
+    /// Returns the options of a pool in which only the jobs of busy() take (virtual) time.
     WorkerPool::PoolOptions options(std::size_t threads) const {
         return {.threads = threads, .now = clock_.now<FairQueue::Clock>()};
     }
@@ -41,7 +41,7 @@ class WorkerPools : public testing::Test {
         return [this, time](std::size_t) { clock_.advance(time); };
     }
 
-    /// Returns a job that records its name.
+    /// Returns a job that records the name `name`.
     WorkerPool::Job saying(std::string name) {
         return [this, name](std::size_t) {
             const std::lock_guard lock(mutex_);
@@ -49,7 +49,7 @@ class WorkerPools : public testing::Test {
         };
     }
 
-    /// Waits until all jobs posted so far in these job queues have been executed.
+    /// Waits until all jobs that were posted so far in these job queues have ended.
     static void drain(WorkerPool& pool, const std::vector<JobQueue>& jobQueues) {
         for (const JobQueue& each : jobQueues) {
             std::promise<void> done;
@@ -69,7 +69,8 @@ class WorkerPools : public testing::Test {
     std::vector<std::string> said_;
 };
 
-/// Keeps a worker busy until the gate is opened. The job owns what it needs, so it may outlive the gate.
+/// A gate that keeps a worker busy until it is opened. The job shares the state of the gate, so it may outlive the
+/// gate.
 class Gate {
   public:
     WorkerPool::Job job() {
@@ -111,7 +112,7 @@ TEST_F(WorkerPools, EachWorkerHasANumberAndBeginsWithTheFirstJob) {
     post(pool, one.job(), jobQueue());
     post(pool, two.job(), jobQueue());
     one.awaitBegun();
-    two.awaitBegun();  // both workers are busy
+    two.awaitBegun();  // both workers are now busy
     {
         const std::lock_guard lock(mutex);
         std::ranges::sort(begun);
@@ -138,7 +139,7 @@ TEST_F(WorkerPools, LongJobsLeaveAWorkerToShortOnes) {
     Gate gate;
     post(pool, gate.job(), one, 1s);
     gate.awaitBegun();
-    post(pool, saying("long"), two, 1s);  // one worker is free, but reserved for short jobs
+    post(pool, saying("long"), two, 1s);  // the second worker is free, but reserved for short jobs
     for (int i = 0; i < 5; ++i) {
         post(pool, saying("quick"), quick);
         drain(pool, {quick});
@@ -155,12 +156,12 @@ TEST_F(WorkerPools, LongJobsUseAllWorkersWhenNobodyElseIsThere) {
     post(pool, first.job(), jobQueue(), 200ms);
     post(pool, second.job(), jobQueue(), 200ms);
     first.awaitBegun();
-    second.awaitBegun();  // returns only if both run at the same time
+    second.awaitBegun();  // returns only if both jobs run at the same time
     first.open();
     second.open();
 }
 
-/// After a job queue's jobs took longer than announced, the pool uses its own estimate.
+/// If the jobs of a job queue took longer than estimated, the pool corrects the estimates of its next jobs.
 TEST_F(WorkerPools, LearnsHowLongJobsTake) {
     WorkerPool pool(options(2));
     const JobQueue slow = jobQueue(), other = jobQueue(), quick = jobQueue();

@@ -1,4 +1,5 @@
-// What affects the picture of a session's state comes to the rasterizer process.
+// Tests of requests for pictures: all data that affect the picture of a session's state arrive in the rasterizer
+// process (which draws the picture).
 
 #include <gtest/gtest.h>
 

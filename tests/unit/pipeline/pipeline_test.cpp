@@ -30,7 +30,7 @@ scene::PictureRequest pictureOf(const slicing::Object& object) {
     return picture;
 }
 
-// Returns the answers at points all over the picture, `step` pixels apart, one after another.
+// Returns the answers at points all over the picture, one after another. The points are `step` pixels apart.
 std::string answersAt(Pipeline& pipeline, const scene::PictureRequest& picture, int step = 40) {
     std::string answers;
     for (int x = step / 2; x < kViewport.width; x += step) {
@@ -79,7 +79,7 @@ TEST(Pipeline, NamesTheFocusSectionOnce) {
     slicing::SliceSet slices;
     pipeline.slice(picture, slices);
     EXPECT_EQ(other.nameFocusSection(picture, &slices).names, names) << "without cutting the focus slice again";
-    section.names = {"kept", "known"};  // names that would not be found
+    section.names = {"kept", "known"};  // names that the pipeline would not find
     pipeline.keepFocusSection(section);
     picture.look.orbit.zoom = 2;
     EXPECT_EQ(pipeline.nameFocusSection(picture).names, section.names);
@@ -126,8 +126,8 @@ TEST(Pipeline, LeavesOutWhatLiesBehindOtherCellsUpToTheLimit) {
     }
 }
 
-// A point of a field is found on one ray, without the surfaces of the picture, and contours are kept for the next
-// point.
+// Pointing at a field evaluates the function along one ray, without extracting the surfaces of the picture. Contours
+// are kept for the next point.
 TEST(Pipeline, PointsAtAFieldAlongOneRay) {
     std::atomic<int> evaluations = 0;
     const auto ball = [&evaluations](const glm::dvec4& p) {

@@ -1,4 +1,4 @@
-// The messages with which the server orders pictures from a rasterizer process.
+// Tests of the messages with which the server requests pictures from a rasterizer process (which draws them).
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,8 @@
 namespace oval4d::raster {
 namespace {
 
-// tests/unit/pipeline/picture_request_test.cpp checks that requests come as they were.
+// A message that was cut short is refused. (tests/unit/pipeline/picture_request_test.cpp checks that complete requests
+// arrive unchanged.)
 TEST(RasterizerMessages, BytesCutShortAreRefused) {
     scene::PictureRequest picture;
     picture.source = picture.object = polytopes::fiveCell();

@@ -1,4 +1,4 @@
-// Pixels in memory shared between processes.
+// Tests of pixels in memory that two processes share.
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -32,7 +32,7 @@ TEST(Channel, LongMessagesArriveWholeWithTheirFile) {
     SharedPixels pixels;
     const auto written = pixels.resize(1'000'000);
     written[999'999] = 42;
-    const std::string text(5'000'000, 'x');  // much more than a socket's buffer holds
+    const std::string text(5'000'000, 'x');  // much more than the buffer of a socket can hold
     std::thread sending([&] {
         EXPECT_EQ(sender.send(MessageType::draw, text, pixels.file()), TransferResult::complete);
         EXPECT_EQ(sender.send(MessageType::ready), TransferResult::complete);
@@ -65,7 +65,7 @@ TEST(Channel, FilesThatNobodyWantsAreDropped) {
     EXPECT_EQ(sender.send(MessageType::draw, "1", pixels.file()), TransferResult::complete);
     EXPECT_EQ(receiver.receive(type, body), TransferResult::complete);
     EXPECT_EQ(body, "1");
-    const int after = dup(0);  // the lowest free descriptor: shows whether one leaked
+    const int after = dup(0);  // the lowest free descriptor; it is greater if a descriptor has leaked
     EXPECT_EQ(after, before + 1);
     close(after);
 }

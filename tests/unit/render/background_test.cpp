@@ -1,4 +1,4 @@
-// Pictures on every background.
+// Tests of pictures on every background.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ struct GroundExample {
     scene::Look look;
 };
 
-/// Returns pictures with all parts: translucent and opaque faces, the projection, parallel coordinates as lines and as
-/// a density strip, and the matrix.
+/// Returns scenes that together have all parts: translucent and opaque faces, the projection, parallel coordinates as
+/// lines and as a density strip, and the matrix.
 std::vector<GroundExample> examples() {
     using scene::ProjectionKind;
     return {{"24-cell", {.parts = {}, .orbit = {}, .projection = {.kind = ProjectionKind::perspective}}},
@@ -46,7 +46,7 @@ TEST_P(Backgrounds, AreSeenWhereNothingIsDrawn) {
     }
 }
 
-// Put on white, a transparent picture looks like one with a white background.
+// A transparent picture that is placed on white looks like a picture with a white background.
 TEST_P(Backgrounds, ATransparentPictureOnWhiteIsTheWhiteOne) {
     Renderer renderer(fontFile(), GetParam());
     for (const GroundExample& example : examples()) {

@@ -1,5 +1,5 @@
-// Compares rendered pictures with stored ones. With OVAL4D_UPDATE_GOLDEN=1 in the environment, the test replaces the
-// stored pictures instead: look at them before you commit them.
+// Compares rendered pictures with stored pictures. If OVAL4D_UPDATE_GOLDEN=1 is in the environment, the test replaces
+// the stored pictures instead. Look at the new pictures before you commit them.
 
 #include <gtest/gtest.h>
 
@@ -16,14 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Tolerances, since other versions of Mesa and FreeType place edges and letters slightly differently.
+// The greatest difference of a channel, and the mean difference, that count as equal. Other versions of Mesa and
+// FreeType draw edges and letters slightly differently.
 constexpr int kMaxDifference = 96;
 constexpr double kMeanDifference = 0.6;
 
 struct Golden {
     const char* file;
     const char* polytope;
-    unsigned seed;  ///< of the random orientation; 0 means the initial orientation
+    unsigned seed;  ///< the seed of the random orientation; 0 means the initial orientation
     scene::Look look;
 };
 
@@ -41,7 +42,7 @@ void write(const fs::path& file, const image::Image& image) {
     std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
 }
 
-/// Returns an image of the absolute difference, four times amplified.
+/// Returns an image of the absolute differences, multiplied by four.
 image::Image differenceOf(const image::Image& a, const image::Image& b) {
     image::Image image = a;
     for (std::size_t i = 0; i < a.pixels.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by the tests of rendering: scenes to draw, and access to pixels.
+// Helpers of the tests of rendering: scenes to draw, and access to pixels.
 
 #include <algorithm>
 #include <array>
@@ -24,7 +24,7 @@ namespace oval4d::render {
 
 using Rgb = std::array<int, 3>;
 
-/// Returns the color of the pixel in column x of row y; rows count from the bottom.
+/// Returns the color of the pixel in column x of row y. Rows are counted from the bottom.
 inline Rgb pixelAt(const image::Image& image, int x, int y) {
     const std::uint8_t* p = &image.pixels[(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                            static_cast<std::size_t>(x)) *
@@ -40,7 +40,7 @@ inline int difference(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-/// A polytope with its slices and the scene that shows them; the focus slice is at w = 0.
+/// A polytope with its slices, and the scene that shows the slices. The focus slice is at w = 0.
 struct Subject {
     std::shared_ptr<const polytopes::Polytope> polytope;
     slicing::SliceSet slices;
@@ -57,7 +57,7 @@ struct Subject {
     Subject(const Subject&) = delete;
     Subject& operator=(const Subject&) = delete;
 
-    /// Removes the parallel coordinates, the axes and the labels, so that the scene shows only the slices.
+    /// Removes the parallel coordinates, the axes and the labels from the scene, so that it shows only the slices.
     void slicesOnly() {
         scene.look.parts.coordinates = false;
         scene.axes.length = 0;
@@ -71,8 +71,8 @@ struct Subject {
     }
 };
 
-/// A slice that a test builds from vertices, edges and faces. The camera looks from z = 10 along −z; at the center of
-/// the picture, one unit of the slice is 100 pixels.
+/// A slice that a test builds from vertices, edges and faces, and the scene that shows it. The camera looks from z = 10
+/// along −z. At the center of the picture, one unit of the slice is 100 pixels.
 struct HandMade {
     static constexpr int kSize = 201;
     static constexpr double kUnit = 100;
@@ -139,7 +139,7 @@ inline image::Image readPng(std::span<const std::uint8_t> file) {
     png.format = PNG_FORMAT_RGBA;
     image::Image image{static_cast<int>(png.width), static_cast<int>(png.height),
                        std::vector<std::uint8_t>(PNG_IMAGE_SIZE(png))};
-    // A negative stride stores the rows from the bottom up.
+    // With a negative stride, the rows are stored from the bottom up.
     if (png_image_finish_read(&png, nullptr, image.pixels.data(), -4 * image.width, nullptr) == 0) return {};
     return image;
 }

@@ -1,4 +1,4 @@
-// The projection of the whole object covers no slice, wherever the viewer moves the camera.
+// Tests that the projection of the whole object covers no slice, wherever the viewer moves the camera.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@
 namespace oval4d::render {
 namespace {
 
-/// Renderers that draw without OpenGL, where that is possible, and with it.
+/// Returns two renderers: one that draws without OpenGL where possible, and one that draws with OpenGL.
 std::vector<std::unique_ptr<Renderer>> bothRenderers() {
     std::vector<std::unique_ptr<Renderer>> made;
     for (const ShapeBackend backend : {ShapeBackend::fastest, ShapeBackend::open_gl})
@@ -26,13 +26,13 @@ std::vector<std::unique_ptr<Renderer>> bothRenderers() {
     return made;
 }
 
-/// The pixels at which a picture has both an opaque part of a slice and a part of the projection.
+/// Counts the pixels at which a picture shows both an opaque part of a slice and a part of the projection.
 struct Overlap {
     std::size_t pixels = 0;
-    std::size_t changed = 0;  ///< how many of them differ from the picture without the projection
+    std::size_t changed = 0;  ///< the number of these pixels that differ from the picture without the projection
 };
 
-/// Adds the pixels of the picture of a scene, which must have a transparent background, to `out`.
+/// Adds the overlap in the picture of a scene to `out`. The scene must have a transparent background.
 void addOverlap(scene::Scene& scene, Renderer& renderer, Overlap& out) {
     image::Image both, slices, projection;
     renderer.draw(scene, both);
@@ -80,7 +80,8 @@ TEST_P(ProjectionBehindSlices, CoversNoPolytopesSlices) {
     const auto renderers = bothRenderers();
     std::vector<Overlap> overlaps(renderers.size());
     for (const scene::ViewRow& view : scene::kViews) {
-        if (view.value == scene::View::matrix) continue;  // like View::single, beside panels that cover both
+        // The matrix is like View::single, but its panels cover the slice and the projection.
+        if (view.value == scene::View::matrix) continue;
         for (const scene::Viewport viewport : kShapes) {
             scene::Look look = randomLook(random);
             look.view = view.value;
@@ -93,7 +94,7 @@ TEST_P(ProjectionBehindSlices, CoversNoPolytopesSlices) {
     for (const Overlap& overlap : overlaps) expectUncovered(overlap);
 }
 
-// Convex slices, and slices that are drawn with a depth buffer.
+// The 24-cell has convex slices. The slices of the star are drawn with a depth buffer.
 INSTANTIATE_TEST_SUITE_P(Pictures, ProjectionBehindSlices, testing::Values("24-cell", "small stellated 120-cell"));
 
 TEST(ProjectionBehindSlicesOfFields, CoversNoSurfaces) {

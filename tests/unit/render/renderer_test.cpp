@@ -1,4 +1,4 @@
-// Whole pictures: the order of surfaces, symmetry, unusual viewpoints and sizes.
+// Tests of whole pictures: the order of surfaces, symmetry, unusual viewpoints and sizes.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,8 @@ class Pictures : public testing::Test {
     }
 };
 
-/// Casts a ray from the eye through the center of a pixel, and blends all faces that it hits from far to near.
+/// Computes the color of a pixel without the code under test: casts a ray from the eye through the center of the pixel,
+/// and blends all faces that the ray hits, from far to near.
 class RayCaster {
   public:
     explicit RayCaster(const Subject& subject) : subject_(subject) {
@@ -37,7 +38,7 @@ class RayCaster {
 
     struct Result {
         glm::dvec3 color;
-        double nearestEdge;  ///< approximately, in pixels
+        double nearestEdge;  ///< the approximate distance from the nearest edge, in pixels
     };
 
     Result cast(int x, int y) const {
@@ -143,7 +144,7 @@ INSTANTIATE_TEST_SUITE_P(Pictures, Transparency,
                                          std::tuple("16-cell", scene::View::single, 6u, 12.0)));
 
 TEST_F(Pictures, MirroredSceneGivesMirroredSilhouette) {
-    // The unrotated tesseract's slices are cubes, so the oval is its own mirror image. The lighting is not symmetric,
+    // The slices of an unrotated tesseract are cubes, so the oval is its own mirror image. The light is not symmetric,
     // so only silhouettes are compared.
     scene::Look look;
     Subject subject("8-cell", {}, 21, look, {400, 300});
@@ -191,7 +192,7 @@ TEST_F(Pictures, ShowNothingOfEarlierPictures) {
     const std::vector<Later> examples{
         {"no projection", View::oval, {}, {}},
         {"inside the oval", View::oval, {}, {ProjectionKind::perspective, 1.05}},
-        // Far from the view axis, the picture of a sphere is a long ellipse.
+        // Far from the view axis, the image of a sphere is a long ellipse.
         {"above the view axis", View::oval, {0, 0.6, 0.2}, {ProjectionKind::orthogonal, 3}},
         {"far above the view axis", View::oval, {0, 0.9, 0.15}, {ProjectionKind::perspective, 1000}},
         {"beside a slice", View::single, {0.3, 0, 0.4}, {ProjectionKind::perspective, 1000}},
@@ -207,7 +208,7 @@ TEST_F(Pictures, ShowNothingOfEarlierPictures) {
         return Subject("24-cell", randomRotation(12), 21, look, viewport);
     };
     for (const ShapeBackend backend : {ShapeBackend::fastest, ShapeBackend::open_gl}) {
-        std::vector<image::Image> wanted;  // each by a renderer that has drawn nothing else
+        std::vector<image::Image> wanted;  // each drawn by a renderer that has drawn nothing else
         for (const Later& example : examples) {
             Renderer fresh(fontFile(), backend);
             wanted.push_back(subjectOf(example).draw(fresh));
@@ -264,7 +265,7 @@ TEST_F(Pictures, OfEverySizeAndViewAreDrawn) {
 }
 
 TEST_F(Pictures, FromAnyPlaceAreDrawn) {
-    // The viewpoint may be between the slices or behind them.
+    // The viewpoint may also be between the slices or behind them.
     for (const double azimuth : {0.0, 2.0, 3.14159})
         for (const double elevation : {-1.4, 0.0, 1.4})
             for (const double zoom : {0.05, 1.0, 30.0}) {
@@ -308,7 +309,7 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     int count = 0;
     for (int row = 1; row + 1 < DensityPlot::kRows; ++row)
         for (int column = 3; column + 3 < DensityPlot::kColumns; ++column) {
-            // Columns that the axes cover.
+            // Skips the columns that the axes cover.
             if (column % DensityPlot::kGap < 3 || column % DensityPlot::kGap > DensityPlot::kGap - 3) continue;
             const double opacity = subject.scene.plotTones[DensityPlot::index(row, column)] / 255.0;
             const auto gap = static_cast<std::size_t>(column / DensityPlot::kGap);
@@ -331,7 +332,8 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     EXPECT_EQ(pixelAt(empty, xOf(20), yOf(5)), rgbOf(style.background));
 }
 
-// The line of a vertex joins its coordinates on the axes.
+// Over a density strip, the lines of the highlighted vertices are shown. The line of a vertex joins its coordinates on
+// the axes.
 TEST_F(Pictures, ShowTheLinesOfTheHighlightedVerticesOverTheDensity) {
     const scene::Viewport viewport{1920, 1080};
     const geometry::Rotation orientation = randomRotation(22);

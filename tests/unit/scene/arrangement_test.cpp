@@ -1,4 +1,4 @@
-// The views: their table, and how each of them arranges the slices.
+// Tests of the views: the table of views, and how each view arranges the slices.
 
 #include <cmath>
 #include <cstddef>
@@ -16,7 +16,8 @@ namespace {
 
 using namespace oval4d;
 
-/// Returns a room with this aspect ratio and the height of the picture. The axes symbol takes a part of it.
+/// Returns a room with this aspect ratio (width / height) and the height of the picture. The symbol of the axes takes a
+/// part of the room.
 scene::AvailableSpace roomOf(double aspect, bool hasProjection = false) {
     return {glm::dvec2(aspect, 1), {glm::dvec2(0.9 * aspect, 1), glm::dvec2(aspect, 0.9)}, hasProjection};
 }

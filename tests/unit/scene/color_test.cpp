@@ -1,4 +1,4 @@
-// Colors of cells, and the visibility of elements if cell types are hidden or faded.
+// Tests of the colors of cells, and of the visibility of elements if cell types are hidden or faded.
 
 #include <algorithm>
 #include <array>
@@ -59,7 +59,7 @@ TEST(CellPainter, PlainIsOne) {
 }
 
 TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
-    const auto& polytope = named("8-cell");  // one cell at w = −1, one at w = 1, six at 0
+    const auto& polytope = named("8-cell");  // one cell lies at w = −1, one at w = 1, and six at w = 0
     scene::CellPainter cellColors;
     std::vector<Color> colors;
     for (const double turned : {0.0, std::numbers::pi}) {
@@ -83,7 +83,7 @@ TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
 }
 
 TEST(CellPainter, ByLightDependOnTheNormalAlone) {
-    const auto& polytope = named("8-cell");  // its normals are the eight directions of the axes
+    const auto& polytope = named("8-cell");  // the normals of its cells are the eight directions of the axes
     std::vector<glm::dvec4> normals;
     std::vector<double> offsets;
     slicing::findCellHyperplanes(objectOf(polytope), normals, offsets);
@@ -105,7 +105,8 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
         EXPECT_GT(brightness(toward), brightness(away) + 20) << axis;
         lit.at(axis) = toward;
     }
-    // After a quarter turn from y to z, each cell has the color of the cell whose place it has taken.
+    // A quarter turn from y to z moves cells to the places of other cells. Each cell must then have the color of the
+    // cell whose place it has taken.
     const geometry::Rotation quarter(geometry::Turn{geometry::Plane::yz, std::numbers::pi / 2, {}});
     cellColors.updateCellColors(objectOf(polytope), Coloring::light, Scheme::dark, quarter, colors);
     EXPECT_EQ(colors.at(cellToward({0, 1, 0, 0})), lit[2]);
@@ -139,7 +140,7 @@ TEST(Contrast, IsThatOfTheGuidelines) {
     EXPECT_DOUBLE_EQ(scene::contrast(kWhite, kBlack), 21);
     EXPECT_DOUBLE_EQ(scene::contrast(kBlack, kWhite), 21);
     EXPECT_DOUBLE_EQ(scene::contrast(0x123456, 0x123456), 1);
-    EXPECT_NEAR(scene::contrast(0x767676, kWhite), 4.54, 0.005);  // the lightest gray of WCAG's examples
+    EXPECT_NEAR(scene::contrast(0x767676, kWhite), 4.54, 0.005);  // the lightest gray of the examples of WCAG
 }
 
 TEST(Colors, OfALightGroundHoldOnWhite) {

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by the tests of scenes: the scenes of polytopes, and the places of their parts in the picture.
+// Helpers of the tests of scenes: they compose scenes of polytopes, and find the places of their parts in the picture.
 
 #include <cmath>
 #include <string_view>
@@ -18,12 +18,12 @@
 
 namespace oval4d::scene {
 
-/// Viewports of many shapes, for tests of the layout.
+/// Viewports of many shapes and sizes, for tests of the layout.
 inline const std::vector<Viewport> kWindows{{1280, 720}, {1920, 1080}, {2560, 1440}, {3000, 800},
                                             {640, 640},  {375, 667},   {320, 568},   {667, 375}};
 
-/// Returns a scene without its slices. By default, the hyperplanes of the outermost slices touch the circumscribed
-/// sphere.
+/// Returns the scene of a polytope, without its slices. By default, the hyperplanes of the outermost slices touch the
+/// circumscribed sphere.
 inline Scene composed(std::string_view name, int count = 21, Viewport viewport = {}, Look look = {}, int focus = 0,
                       double spacing = 0) {
     const auto& p = support::named(name);
@@ -36,30 +36,31 @@ inline Scene composed(std::string_view name, int count = 21, Viewport viewport =
     return s;
 }
 
-/// Returns pixel coordinates, measured from the upper left corner.
+/// Returns the place in the picture of a point in world space, in pixels from the upper left corner.
 inline glm::dvec2 project(const Scene& s, const glm::dvec3& world) {
     const double aspect = double(s.viewport.width) / s.viewport.height;
     const glm::dvec4 clip = s.camera.projection(aspect) * s.camera.view() * glm::dvec4(world, 1);
     return {(clip.x / clip.w + 1) / 2 * s.viewport.width, (1 - clip.y / clip.w) / 2 * s.viewport.height};
 }
 
-/// Returns the radius, in pixels, of the circle as which a sphere approximately appears on the screen. `center` and
-/// `radius` are in world space.
+/// Returns the approximate radius, in pixels, of a sphere in the picture. `center` and `radius` are in world space.
 inline double radiusOnScreen(const Scene& s, const glm::dvec3& center, double radius) {
     const double depth = -(s.camera.view() * glm::dvec4(center, 1)).z;
     return radius / depth * s.viewport.height / (2 * std::tan(s.camera.fieldOfView / 2));
 }
 
-/// A label with its plate on the screen, in pixels from the upper left corner. The text is in DejaVu Sans.
+/// The box of a label with its plate in the picture, in pixels from the upper left corner. The text is in DejaVu Sans.
 struct LabelBox {
     double left, right, top, bottom;
 
     LabelBox(const Scene& s, const SlicePlacement& placement) {
-        double width = 0;  // in font sizes
+        double width = 0;  // the width of the text, as a multiple of the font size
         for (const char c : placement.label) {
-            const bool continuation = (c & 0xC0) == 0x80;  // of the sign U+2212, whose width is 0.838
+            // A later byte of the UTF-8 character U+2212, whose first byte counts 0.838.
+            const bool continuation = (c & 0xC0) == 0x80;
             const bool narrow = c == '.' || c == ',' || c == ' ';
-            const bool letter = 'a' <= c && c <= 'z' && c != 'w';  // the mean width in a name is at most 0.6
+            // The mean width of the letters in a name is at most 0.6.
+            const bool letter = 'a' <= c && c <= 'z' && c != 'w';
             if (!continuation) width += narrow ? 0.318 : letter ? 0.6 : '0' <= c && c <= '9' ? 0.636 : 0.838;
         }
         const double size = style().textHeight * placement.labelSize * s.viewport.height, digits = 0.729 * size;
@@ -81,8 +82,8 @@ struct LabelBox {
     }
 };
 
-/// Expects the focus slice to have a label, and no label to overlap another. Returns the labels that are drawn, with
-/// that of the focus slice first.
+/// Expects that the focus slice has a label, and that no label overlaps another. Returns the labels that are drawn,
+/// with that of the focus slice first.
 inline std::vector<LabelBox> expectLabelsApart(const Scene& s) {
     std::vector<LabelBox> boxes;
     for (const bool focus : {true, false}) {

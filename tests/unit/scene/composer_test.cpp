@@ -1,4 +1,4 @@
-// What a scene contains: the colors of its cells and the parts of the projection.
+// Tests of the contents of scenes: the colors of cells, and the parts of the projection.
 
 #include <algorithm>
 #include <cstddef>
@@ -69,7 +69,7 @@ TEST(ObjectProjection, hasTheSectionOfTheFocusOrOfAllHyperplanes) {
 TEST(ObjectProjection, colorsTheSectionThatIsACellByItsNeighbors) {
     scene::Look look;
     look.projection.kind = scene::ProjectionKind::perspective;
-    const Scene s = composed("8-cell", 3, {}, look, 1, 1);  // w = 1 holds a whole cell
+    const Scene s = composed("8-cell", 3, {}, look, 1, 1);  // the hyperplane w = 1 contains a whole cell
     const slicing::SliceSet& elements = s.projection.elements;
     ASSERT_EQ(s.projection.faceCells.size(), elements.faceSource.size());
     ASSERT_EQ(elements.faceCount(1), 6U);

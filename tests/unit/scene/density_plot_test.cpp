@@ -56,13 +56,15 @@ TEST(DensityPlot, DoesNotDependOnTheOrderOfVertices) {
 }
 
 TEST(DensityPlot, OneVertexIsALineFromAxisToAxis) {
-    const glm::dvec4 point(1, -1, 0, 0.5);  // relative to a circumradius of 1: the ends, the middle, and halfway
+    // With the circumradius 1, these coordinates are at the two ends of an axis, in its middle, and halfway between the
+    // middle and an end.
+    const glm::dvec4 point(1, -1, 0, 0.5);
     const DensityPlot density = densityOf({point});
     for (int k = 0; k < 4; ++k)
         EXPECT_EQ(weightAt(density, kMiddleRow - static_cast<int>(point[k] * kMiddleRow), k * DensityPlot::kGap),
                   DensityPlot::kLineWeight)
             << "axis " << k;
-    // The mean row of every column lies on the line, to within half a row.
+    // The mean row of every column lies on the line of the vertex, to within half a row.
     for (int column = 0; column < DensityPlot::kColumns; ++column) {
         const int gap = std::min(column / DensityPlot::kGap, 2);
         const double t = double(column - gap * DensityPlot::kGap) / DensityPlot::kGap;
@@ -90,7 +92,7 @@ TEST(DensityPlot, OfACentrallySymmetricPolytopeIsItsMirrorImage) {
         const auto polytope = support::shared(name);
         for (const double angle : {0.0, 0.4}) {
             const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle, 3 * angle});
-            // Built vertices are opposite only up to rounding, so use exact opposites.
+            // Opposite vertices of the polytope are opposite only up to rounding. So the test uses exact opposites.
             std::vector<glm::dvec4> points;
             for (const glm::dvec4& p : polytope->vertices) {
                 points.push_back(p);
@@ -135,11 +137,11 @@ TEST(DensityPlot, IsShownForManyVerticesOnly) {
         scene::Composer().compose(polytope, turn, slices, 0, look, {}, scene);
         return scene;
     };
-    EXPECT_FALSE(composed("600-cell", {}).showsDensity());  // 120 vertices
+    EXPECT_FALSE(composed("600-cell", {}).showsDensity());  // it has 120 vertices
     scene::Look without;
     without.parts.coordinates = false;
     EXPECT_FALSE(composed("120-cell", without).showsDensity());
-    const scene::Scene scene = composed("120-cell", {});  // 600
+    const scene::Scene scene = composed("120-cell", {});  // it has 600 vertices
     EXPECT_TRUE(scene.showsDensity());
     const auto polytope = support::shared("120-cell");
     const DensityPlot alone = densityOf(polytope->vertices, turn.matrix(), polytope->circumradius);

@@ -1,4 +1,4 @@
-// The lines of single vertices in a density strip.
+// Tests of the lines of single vertices in a density strip.
 
 #include "scene/density_strip_lines.hpp"
 
@@ -12,7 +12,7 @@
 namespace oval4d::scene {
 namespace {
 
-// Returns the vertices with lines if the highlighted element has the vertices 7, 8, 9, …
+// Returns the vertices whose lines are drawn if the highlighted element has `count` vertices: 7, 8, 9, …
 std::vector<std::uint32_t> drawnOf(std::size_t count) {
     std::vector<std::uint32_t> own(count), drawn;
     std::iota(own.begin(), own.end(), 7U);

@@ -42,12 +42,12 @@ TEST(FogTable, PointsWithoutAColorHaveThatOfTheScale) {
 
 TEST(FogTable, IsEmptyWithoutFog) { EXPECT_TRUE(tableOf({}).empty()); }
 
-// A block contains fog if a visible value lies between the least and the greatest value of its points.
+// A block contains fog if a visible value lies between the least and the greatest value of the block's points.
 TEST(FogBlocks, AreThoseWhoseValuesPassAVisibleOne) {
     FogTable table(kFogEntries, 0);
     for (std::size_t value = 100; value < 110; ++value) table[value] = 0x01ffffff;
     slicing::SliceFog fog;
-    fog.size = {10, 6, 2};  // of cells, 9 × 5 × 1: three, two and one blocks
+    fog.size = {10, 6, 2};  // the lattice has 9 × 5 × 1 cells: three, two and one blocks along the axes
     fog.values.assign(120, 50);
     const auto blocksWith = [&](glm::ivec3 at, std::uint8_t value) {
         std::vector<std::uint8_t> blocks;

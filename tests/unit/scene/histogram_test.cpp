@@ -1,4 +1,4 @@
-// The histogram of a field's values in the picture.
+// Tests of the histogram of a field's values in the picture.
 
 #include <algorithm>
 #include <memory>
@@ -21,7 +21,7 @@ slicing::Object radialField() {
     return std::make_shared<const fields::Field>(*std::move(field));
 }
 
-/// Composes pictures of a field, without its surfaces.
+/// Composes pictures of a field, without the surfaces of the field.
 struct FieldPictures {
     slicing::Object object = radialField();
     slicing::SliceSet slices;

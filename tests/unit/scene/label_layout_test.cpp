@@ -53,12 +53,12 @@ TEST(Labels, areInThePictureAndApart) {
     }
 }
 
-// Expects that no label but that of the focus slice overlaps another slice. Ignores the balls of the slices.
+// Expects that no label, except that of the focus slice, overlaps another slice. Ignores the balls of the slices.
 void expectLabelsBesideSlices(const Scene& s) {
     for (const auto& placement : s.placements) {
         if (!placement.drawn || placement.focus || placement.label.empty()) continue;
         LabelBox text(s, placement);
-        const double margin = 0.4 * (text.bottom - text.top);  // of the plate behind the text, and more
+        const double margin = 0.4 * (text.bottom - text.top);  // the margin of the plate behind the text, and more
         text.left += margin, text.right -= margin, text.top += 0.5 * margin, text.bottom -= 0.5 * margin;
         for (const auto& other : s.placements) {
             const double squared = s.circumradius * s.circumradius - other.w * other.w;
@@ -165,7 +165,8 @@ TEST(Labels, areApartFromEverySide) {
 }
 
 TEST(Axes, areCoveredByNoLabelThatIsMovedThere) {
-    // Some of these orbits bring the ends of the oval to the upper left corner.
+    // Some of these camera positions bring the ends of the oval to the upper left corner, where the symbol of the axes
+    // is.
     int near = 0;
     for (double azimuth = -0.6; azimuth < 0.6; azimuth += 0.05) {
         for (const double zoom : {0.8, 1.0, 1.3}) {
@@ -200,7 +201,7 @@ TEST(Labels, areAtTheFocusAndEveryKthSlice) {
         EXPECT_GT(step, 1);
         for (std::size_t i = 1; i < offsets.size(); ++i) EXPECT_EQ(offsets[i] - offsets[i - 1], step);
         EXPECT_NE(std::ranges::find(offsets, 0), offsets.end());
-        // There is room for more labels where the slices are magnified.
+        // Where the slices are magnified, there is room for more labels.
         const std::vector<int> magnified = labeledSlices(count, 2);
         ASSERT_GT(magnified.size(), 1U);
         EXPECT_LT(magnified[1] - magnified[0], step);

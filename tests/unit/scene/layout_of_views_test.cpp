@@ -1,4 +1,4 @@
-// Where the slices stand in each view.
+// Tests of the layout of views: where the slices stand in each view.
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ TEST(Oval, keepsEverySliceInSightAndClearOfTheCoordinates) {
                     EXPECT_LT(at.y, viewport.height - strip);
                     EXPECT_LT(project(s, placement.labelAt).y, viewport.height - strip);
                 }
-                // The circumscribed sphere of the focus slice is entirely visible.
+                // The circumscribed sphere of the focus slice must be entirely visible.
                 const double radius = s.scale * s.circumradius;
                 EXPECT_GT(project(s, {0, radius, 0}).y, 0);
                 EXPECT_LT(project(s, {0, -radius, 0}).y, viewport.height - strip);
@@ -66,7 +66,7 @@ TEST(Oval, keepsEverySliceInSightAndClearOfTheCoordinates) {
 
 TEST(Oval, closes) {
     const Scene s = composed("5-cell");
-    // Both arms of the oval rise monotonically, move apart and meet again at the top.
+    // Both arms of the oval rise steadily. They move apart first, and meet again at the top.
     double widest = 0;
     for (int i = 10; i < 20; ++i) {
         EXPECT_LT(project(s, s.placements[i + 1].position).y, project(s, s.placements[i].position).y);
@@ -87,7 +87,7 @@ TEST(EvenNumbersOfSlices, standSymmetricallyAndApart) {
             ASSERT_EQ(s.placements.size(), count);
             for (std::size_t i = 0; i < count; ++i) {
                 const glm::dvec3 here = s.placements[i].position, there = s.placements[count - 1 - i].position;
-                // The last row of a grid may be shorter than the others.
+                // The last row of a grid may be shorter than the others, so it is not symmetric.
                 if (look.view != scene::View::grid) {
                     EXPECT_EQ(here, glm::dvec3(-there.x, -there.y, there.z)) << i;
                 }
@@ -117,7 +117,7 @@ TEST(Single, drawsTheFocusAloneAndLarge) {
     EXPECT_TRUE(s.placements[10].drawn);
     const double radius = s.scale * s.circumradius;
     EXPECT_GT(project(s, {0, -radius, 0}).y - project(s, {0, radius, 0}).y, 0.7 * 720);
-    // The camera looks in the direction of −z, as in the paper.
+    // The camera looks in the direction of −z, as in Kageyama's paper.
     EXPECT_NEAR(s.camera.eye.x, 0, 1e-12);
     EXPECT_NEAR(s.camera.eye.y, 0, 1e-12);
     EXPECT_GT(s.camera.eye.z, 0);
@@ -216,7 +216,7 @@ TEST(Grid, showsAllSlicesAtTheSameSizeInRowsBesideTheAxes) {
                 const double bottom = (1 - s.coordinates.zero - s.coordinates.amplitude) * height;
                 const glm::dvec2 axes(s.axes.x * height, s.axes.y * height);
                 const glm::dvec2 first = project(s, s.placements[0].position);
-                std::vector<int> rows{0};  // the number of slices in each row
+                std::vector<int> rows{0};  // per row: the number of slices
                 glm::dvec2 before = first;
                 for (const auto& slice : s.placements) {
                     const glm::dvec2 at = project(s, slice.position);

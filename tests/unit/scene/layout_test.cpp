@@ -1,4 +1,4 @@
-// The layout of pictures: the slices, the projection, the camera, the matrix and the axes.
+// Tests of the layout of pictures: the slices, the projection, the camera, the matrix and the axes.
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ using scene::radiusOnScreen;
 using scene::Scene;
 using support::named;
 
-// A negative field of view would show the picture upside down.
+// Very narrow pictures are upright: a negative field of view would show the picture upside down.
 TEST(PictureLayout, ofVeryNarrowPicturesIsUpright) {
     for (const scene::Viewport viewport : {scene::Viewport{16, 400}, {16, 1000}, {16, 8192}, {8192, 16}, {16, 16}}) {
         for (const scene::ViewRow& view : scene::kViews) {
@@ -66,7 +66,7 @@ TEST(ObjectProjection, standsInSightAndClearOfTheSlices) {
                             radiusOnScreen(s, slice.position, s.sliceRadius * std::sqrt(std::max(0.0, 1 - u * u)));
                         EXPECT_GT(glm::distance(at, project(s, slice.position)), radius + own) << count << ' ' << i;
                     }
-                    // Everything is inside the sphere, with the balls.
+                    // The whole projection, with its balls, is inside the sphere.
                     for (const glm::dvec3& vertex : s.projection.elements.vertices)
                         EXPECT_LE(glm::length(vertex) * s.projection.scale + s.projection.parts[0].ballRadius,
                                   sphere * (1 + 1e-9));

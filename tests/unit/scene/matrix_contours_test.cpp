@@ -1,4 +1,4 @@
-// The contours of a field in the matrix of planar sections.
+// Tests of the contours of a field in the matrix of planar sections.
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +27,7 @@ slicing::Object fieldOf(const std::string& formula) {
     return std::make_shared<const fields::Field>(*std::move(field));
 }
 
-/// Composes pictures of the matrix of an object.
+/// Composes pictures of the matrix of a field.
 struct MatrixPictures {
     slicing::Object object = fieldOf("sqrt(x^2+y^2+z^2+w^2)");
     slicing::SliceSet slices;
@@ -62,7 +62,7 @@ TEST(MatrixContours, FollowTheLevelsThePointAndTheObject) {
     pictures.look.field.levels = {0.7};
     for (const PlanarContours& contours : pictures.contours()) expectCircles(contours, {0.7});
     pictures.look.field.levels = {1, 1.5};
-    pictures.look.focusPoint = {0, 0, 0.6};  // beside the center in the planes xy, xw and yw
+    pictures.look.focusPoint = {0, 0, 0.6};  // the focus point is not at the center in the planes xy, xw and yw
     expectCircles(pictures.contours()[0], {0.8, std::sqrt(2.25 - 0.36)});
     pictures.look.focusPoint = {0, 0, 0};
     pictures.object = fieldOf("2*sqrt(x^2+y^2+z^2+w^2)");
@@ -74,7 +74,7 @@ TEST(MatrixContours, FollowTheLevelsThePointAndTheObject) {
         return most;
     };
     EXPECT_NEAR(farthestW(pictures.contours()[5]), 1, 0.02);
-    const double angle = 0.5;  // turns the direction of w toward that of x, along which the ellipsoid is shorter
+    const double angle = 0.5;  // a turn of the direction of w toward that of x, along which the ellipsoid is shorter
     const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle});
     EXPECT_NEAR(farthestW(pictures.contours(slicing::Quality::full, {}, turn)[5]),
                 1 / std::sqrt(std::pow(std::cos(angle), 2) + 4 * std::pow(std::sin(angle), 2)), 0.02);

@@ -1,4 +1,4 @@
-// Which point of a field's surfaces a picture shows at a pixel.
+// Tests of picking a point of a field's surfaces at a pixel of a picture.
 
 #include "scene/pick_level.hpp"
 
@@ -26,7 +26,7 @@ namespace {
 constexpr Viewport kViewport{1280, 720};
 constexpr std::string_view kBall = "x^2+y^2+z^2+w^2";
 
-// A picture of a field.
+// A picture of a field, and what it shows at a pixel.
 struct FieldPicture {
     std::shared_ptr<const fields::Field> field;
     geometry::Rotation orientation;
@@ -47,7 +47,7 @@ struct FieldPicture {
     std::optional<PickedLevel> at(glm::dvec2 pixel) {
         return pickLevel(scene, *field, orientation, pixel, pickElement(scene, field, pixel));
     }
-    // Returns the pixel, from the upper left corner, at which a point of a slice is drawn.
+    // Returns the pixel at which the point p of a slice is drawn, counted from the upper left corner.
     glm::dvec2 pixelOf(std::size_t slice, const glm::dvec3& p) const {
         return pixelOfWorld(scene.placements[slice].position + scene.scale * p);
     }
@@ -100,9 +100,11 @@ TEST(PickLevel, FindsTheSilhouettesOfTheBalls) {
     look.parts.balls = look.parts.bars = false;
     FieldPicture picture(kBall, look, {}, kBox);
     const glm::dvec3 eye = picture.scene.camera.eye;
-    const double distance = glm::length(eye) / picture.scene.scale;  // the focus slice is at the origin
+    // The distance of the eye from the focus slice, which is at the origin, in units of the object.
+    const double distance = glm::length(eye) / picture.scene.scale;
     const glm::dvec3 toEye = glm::normalize(eye), side = glm::normalize(glm::cross(toEye, glm::dvec3(0, 1, 0)));
-    // The circle in which the tangents from the eye touch the ball.
+    // The tangents from the eye touch the ball in a circle: at the distance `along` from the center of the ball toward
+    // the eye, with the radius `across`.
     const double radius = 0.6, along = radius * radius / distance, across = std::sqrt(radius * radius - along * along);
     for (const double sign : {-1.0, 1.0}) {
         EXPECT_TRUE(picture.at(picture.pixelOf(10, along * toEye + sign * 0.99 * across * side)));
@@ -140,9 +142,11 @@ TEST(PickLevel, FindsTheEndOfWhereTheFunctionHasNoValue) {
     look.view = View::single;
     look.parts.balls = look.parts.bars = false;
     look.field.levels = {5};
-    FieldPicture picture("sqrt(x^2+y^2+z^2+w^2-0.25)", look, {}, kBox);  // less than 5 everywhere but in a ball
+    // The field is less than 5 everywhere outside a ball, in which it has no value.
+    FieldPicture picture("sqrt(x^2+y^2+z^2+w^2-0.25)", look, {}, kBox);
     look.field.levels = {0.1};
-    FieldPicture shell("sqrt(0.25-x^2-y^2-z^2-w^2)", look, {}, kBox);  // less than 0.1 in the outer shell of a ball
+    // The field is less than 0.1 in the outer shell of a ball.
+    FieldPicture shell("sqrt(0.25-x^2-y^2-z^2-w^2)", look, {}, kBox);
     const auto cap = shell.at(shell.pixelOf(10, glm::dvec3(0)));
     ASSERT_TRUE(cap);
     EXPECT_TRUE(cap->cap) << "the body ends where the function does";
@@ -213,7 +217,7 @@ TEST(PickLevel, FindsTheSurfacesOfSlicesBeforeThatOfTheProjection) {
                 EXPECT_EQ(found->in, PickedIn::slice);
                 EXPECT_EQ(found->slice, inSlice->slice);
                 EXPECT_EQ(found->point, inSlice->point);
-                // With the slice behind the eye, the projection is found.
+                // If the slice is moved behind the eye, the projection is found.
                 scene.placements[10].position = 11.0 * scene.camera.eye;
                 const auto alone = picture.at(pixel);
                 both += alone && alone->in == PickedIn::projection ? 1 : 0;

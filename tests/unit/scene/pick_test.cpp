@@ -1,4 +1,4 @@
-// What a picture shows at a point.
+// Tests of picking: which element a picture shows at a pixel.
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace {
 
 using slicing::ElementKind;
 
-// A picture and what it shows.
+// A picture, and the element that it shows at a pixel.
 struct Picture {
     slicing::Object object;
     slicing::SliceSet slices;
@@ -42,7 +42,7 @@ struct Picture {
         composer.compose(object, orientation, slices, 0, look, {1280, 720}, scene);
     }
 
-    // Returns pixel coordinates, measured from the upper left corner, and the depth.
+    // Returns the pixel of a point in world space, counted from the upper left corner, and the depth of the point.
     glm::dvec3 project(const glm::dvec3& world) const {
         const glm::dvec4 clip = scene.camera.projection(1280.0 / 720) * scene.camera.view() * glm::dvec4(world, 1);
         return {(clip.x / clip.w + 1) / 2 * 1280, (1 - clip.y / clip.w) / 2 * 720, clip.w};
@@ -55,7 +55,7 @@ TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
     for (const char* name : {"5-cell", "24-cell", "600-cell"}) {
         Picture picture(name, {}, support::randomRotation(random));
         for (std::size_t i = 0; i < picture.scene.placements.size(); ++i) {
-            // The vertex of the slice that is nearest to the eye cannot be hidden by its own slice.
+            // A slice cannot hide its own vertex that is nearest to the eye.
             std::optional<std::uint32_t> nearest;
             glm::dvec3 pixel(0, 0, 1e9);
             for (std::uint32_t v = picture.slices.vertexBegin[i]; v < picture.slices.vertexBegin[i + 1]; ++v) {
@@ -68,13 +68,14 @@ TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
             if (!nearest) continue;
             const auto hit = picture.at(pixel);
             ASSERT_TRUE(hit) << name << ", slice " << i;
-            if (hit->in != PickedIn::slice || hit->slice != i) continue;  // another slice is in front of it
+            if (hit->in != PickedIn::slice || hit->slice != i) continue;  // another slice is in front of the vertex
             EXPECT_EQ(hit->element, (slicing::Element{ElementKind::edge, picture.slices.vertexSource[*nearest]}));
         }
     }
 }
 
-// Each panel of the matrix finds the elements of its section, and its points lie in its plane.
+// At a point of a panel of the matrix, the element of the panel's section is found. The 4-D point that the panel shows
+// lies in the plane of the panel.
 TEST(Pick, FindsTheElementsOfPlanarSections) {
     std::mt19937 random(8);
     Look look;
@@ -95,7 +96,8 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
                 };
                 for (std::size_t e = 0; e < section.edges.size(); ++e) {
                     const glm::dvec2 a = section.points[section.edges[e][0]], b = section.points[section.edges[e][1]];
-                    if (glm::distance(a, b) * scale * 720 < 20) continue;  // a short edge is hidden by its points
+                    // The points at the ends of a short edge hide the edge.
+                    if (glm::distance(a, b) * scale * 720 < 20) continue;
                     const auto hit = picture.at(pixelOf(0.5 * (a + b)));
                     ASSERT_TRUE(hit) << name;
                     EXPECT_EQ(hit->in, PickedIn::matrix);
@@ -120,7 +122,7 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
         const glm::dvec2 corner = near.scene.matrix.center(3, 0) + glm::dvec2(0.49 * near.scene.matrix.panel);
         EXPECT_FALSE(near.at({720 * corner.x, 720 * (1 - corner.y), 0})) << "panels cover the slice behind them";
         EXPECT_TRUE(near.at({720 * (near.scene.matrix.left - 0.05), 360, 0}));
-        // The diagonal has names only, and left of the matrix is the slice.
+        // The panels on the diagonal have only names. The slice is to the left of the matrix.
         const glm::dvec2 diagonal = layout.center(1, 1);
         EXPECT_FALSE(matrixPointAt(picture.scene, {720 * diagonal.x, 720 * (1 - diagonal.y)}));
         EXPECT_FALSE(matrixPointAt(picture.scene, {720 * layout.left - 1, 360}));
@@ -168,7 +170,8 @@ TEST(Pick, FindsFacesBarsAndNothing) {
                     area += glm::cross(support::corner(s, focus, c) - first, support::corner(s, focus, c + 1) - first);
             }
             const glm::dvec3 world = picture.scene.scale * center;
-            if (glm::dot(area, picture.scene.camera.eye - world) <= 0) continue;  // turned away from the viewer
+            // The face is turned away from the viewer.
+            if (glm::dot(area, picture.scene.camera.eye - world) <= 0) continue;
             const auto hit = picture.at(picture.project(world));
             ASSERT_TRUE(hit);
             EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, s.faceSource[f]}));
@@ -203,7 +206,7 @@ TEST(Pick, FindsNoFaceInTheHoleOfAFace) {
     s.edgeBegin = {0, 0};
     s.faceBegin = {0, 2};
     s.cornerBegin = {0, 4, 8};
-    s.corners = {0, 1, 2, 3, 4, 7, 6, 5};  // a square, and a smaller one in the opposite direction
+    s.corners = {0, 1, 2, 3, 4, 7, 6, 5};  // a square, and a smaller square in the opposite direction inside it
     s.faceSource = {3, 3};
     EXPECT_FALSE(picture.at(picture.project(glm::dvec3(0))));
     const auto hit = picture.at(picture.project(picture.scene.scale * glm::dvec3(0.7, 0, 0)));
@@ -211,7 +214,7 @@ TEST(Pick, FindsNoFaceInTheHoleOfAFace) {
     EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, 3}));
 }
 
-// The box of a field has bars and balls, but no faces, so that its bars are found behind its front.
+// The box of a field has bars and balls, but no faces. So the bars behind the front of the box are found.
 TEST(Pick, FindsNoFacesOfTheBoxOfAField) {
     Look look;
     look.view = View::single;
@@ -260,7 +263,7 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
 TEST(Pick, FindsWhatIsInASliceBeforeTheProjectionFromEverywhere) {
     std::mt19937 random(8);
     std::uniform_real_distribution<double> elevation(-1, 1);
-    std::size_t behind = 0;  // pixels at which both are found
+    std::size_t behind = 0;  // the number of pixels at which both slices and the projection show an element
     for (const View view : {View::oval, View::single, View::strip, View::grid}) {
         for (const double azimuth : {-1.2, 0.6, 1.2}) {
             Look look;
@@ -294,8 +297,8 @@ TEST(Pick, FindsWhatIsInASliceBeforeTheProjectionFromEverywhere) {
     EXPECT_GT(behind, 20U);
 }
 
-// The height of a vertex's line in a density strip, in viewport heights from the lower edge. `along` is 0 on the axis
-// x, 1 on y, 2 on z and 3 on w.
+// Returns the height of a vertex's line in a density strip, in viewport heights from the lower edge. `along` is the
+// position in the strip: 0 on the axis x, 1 on y, 2 on z and 3 on w.
 double lineHeight(const Picture& picture, std::size_t vertex, double along) {
     const int axis = std::min(static_cast<int>(along), 2);
     const glm::dvec4 at = picture.slices.rotatedVertices[vertex] / picture.scene.circumradius;
@@ -303,7 +306,8 @@ double lineHeight(const Picture& picture, std::size_t vertex, double along) {
     return layout.zero + layout.amplitude * (at[axis] + (along - axis) * (at[axis + 1] - at[axis]));
 }
 
-// Returns the vertex that is found in a density strip at this height, in viewport heights from the lower edge.
+// Returns the vertex that is found in a density strip at the position `along` (see lineHeight()) and at this height, in
+// viewport heights from the lower edge.
 std::optional<std::size_t> vertexInStrip(Picture& picture, double along, double height) {
     const CoordinatesLayout& layout = picture.scene.coordinates;
     const double x = layout.left + layout.lineWidth / 2 + along * layout.lineStep;
@@ -322,11 +326,11 @@ TEST(Pick, FindsTheVertexWithTheNearestLineInADensityStrip) {
             const double height = lineHeight(picture, v, along);
             const auto found = vertexInStrip(picture, along, height);
             ASSERT_TRUE(found) << v << " at " << along;
-            EXPECT_LE(*found, v);  // another vertex is found only if its line is at the same place
+            EXPECT_LE(*found, v);  // a vertex with a smaller index is found if its line is at the same place
             EXPECT_NEAR(lineHeight(picture, *found, along), height, 2e-6);
         }
     }
-    // The line is the nearest at any other height, too.
+    // At any other height, the vertex with the nearest line is found.
     for (const double height : {-0.9, -0.33, 0.0, 0.41, 0.87}) {
         const double at = picture.scene.coordinates.zero + height * picture.scene.coordinates.amplitude;
         double least = 1;

@@ -1,4 +1,4 @@
-// The projection of the whole object is put behind the slices with which it overlaps in the image.
+// Tests that the projection of the whole object is put behind the slices that it overlaps in the image.
 
 #include "scene/projection_enlargement.hpp"
 

@@ -1,5 +1,5 @@
-// The filled faces of the projection: the areas of the 2-faces of the whole object, which of them are filled, and the
-// section of the focus hyperplane.
+// Tests of the filled faces of the projection: the areas of the 2-faces of the whole object, which 2-faces are filled,
+// and the section by the focus hyperplane.
 
 #include <algorithm>
 #include <array>
@@ -32,8 +32,8 @@ using scene::ProjectionKind;
 using scene::Scene;
 using support::named;
 
-/// Returns the scene of a polytope, without its slices, that shows the projection with its cells. `steps` limits the
-/// filling of faces.
+/// Returns the scene of a polytope, without its slices, that shows the projection of the whole object with its cells.
+/// `steps` limits the filling of faces.
 Scene sceneWithProjectedCells(const polytopes::Polytope& p, const geometry::Rotation& turn, scene::Look look,
                               ProjectionKind kind = ProjectionKind::orthogonal,
                               std::size_t steps = slicing::FaceFiller::kNoLimit) {
@@ -49,7 +49,7 @@ Scene sceneWithProjectedCells(const polytopes::Polytope& p, const geometry::Rota
     return s;
 }
 
-/// Returns the scene of a surface, without its slices, that shows the projection with its 2-faces.
+/// Returns the scene of a surface, without its slices, that shows the projection of the whole surface with its 2-faces.
 Scene sceneWithProjectedSurface(const slicing::SurfacePtr& surface, const geometry::Rotation& turn, scene::Look look) {
     look.projection.kind = ProjectionKind::perspective;
     look.parts.projectionFaces = true;
@@ -61,7 +61,7 @@ Scene sceneWithProjectedSurface(const slicing::SurfacePtr& surface, const geomet
     return s;
 }
 
-/// Returns the total area of the pieces of a face.
+/// Returns the total area of the pieces (convex polygons) of a filled face.
 double filledAreaOf(const slicing::FilledFaces& fill, std::size_t face) {
     double sum = 0;
     for (auto k = fill.pieceBegin[face]; k < fill.pieceBegin[face + 1]; ++k) {
@@ -74,7 +74,7 @@ double filledAreaOf(const slicing::FilledFaces& fill, std::size_t face) {
     return sum;
 }
 
-/// Returns the area that a projected loop encloses, which counts as often as the loop winds around it.
+/// Returns the area that a projected loop encloses. A region counts as often as the loop winds around it.
 double enclosedAreaOf(const slicing::SliceSet& elements, std::uint32_t loop) {
     const auto corner = [&](std::uint32_t c) { return elements.vertices[elements.corners[c]]; };
     const glm::dvec3 first = corner(elements.cornerBegin[loop]);
@@ -86,7 +86,8 @@ double enclosedAreaOf(const slicing::SliceSet& elements, std::uint32_t loop) {
 
 constexpr double kAreaOfL = 3;
 
-/// Returns the product of an L in the xy plane and a square in the zw plane, as read from a file.
+/// Returns the product of an L-shaped polygon in the xy plane and a square in the zw plane, as if the product was read
+/// from a file.
 polytopes::Polytope productOfLAndSquare() {
     const support::Polygon l{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     const support::Polygon square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
@@ -96,8 +97,8 @@ polytopes::Polytope productOfLAndSquare() {
     return std::get<polytopes::ImportedPolytope>(std::move(read)).polytope;
 }
 
-/// Expects that the four L of productOfLAndSquare() are filled, each with the area that `areaOf` returns for the w of
-/// its first vertex before the rotation.
+/// Expects that the four L-shaped 2-faces of productOfLAndSquare() are filled. The area of each is what `areaOf`
+/// returns for the w of its first vertex before the rotation.
 template <typename AreaOf>
 void expectAreasOfL(const polytopes::Polytope& p, const Scene& s, AreaOf areaOf) {
     const slicing::FilledFaces& fill = s.projection.fill;
@@ -116,25 +117,26 @@ TEST(ProjectionFill, OfANonconvexFaceFromAFileHasExactlyItsArea) {
     const polytopes::Polytope p = productOfLAndSquare();
     ASSERT_FALSE(p.convexFaces);
     expectAreasOfL(p, sceneWithProjectedCells(p, {}, {}), [](double) { return kAreaOfL; });
-    // A rotation that fixes w turns the projection as a whole.
+    // A rotation that does not change w turns the projection as a whole.
     geometry::Turn turn;
     turn[geometry::Plane::xy] = 0.7;
     turn[geometry::Plane::xz] = -1.1;
     turn[geometry::Plane::yz] = 0.4;
     expectAreasOfL(p, sceneWithProjectedCells(p, geometry::Rotation(turn), {}), [](double) { return kAreaOfL; });
-    // In the projection, a rotation in xw shortens x.
+    // In the projection, a rotation in the plane xw shortens x.
     constexpr double kAngle = 0.6;
     const geometry::Rotation inXw(geometry::Turn{geometry::Plane::xw, kAngle});
     expectAreasOfL(p, sceneWithProjectedCells(p, inXw, {}), [](double) { return kAreaOfL * std::cos(kAngle); });
-    // In perspective, what lies in a hyperplane w = c is magnified.
+    // A perspective projection magnifies what lies in a hyperplane w = c.
     const Scene s = sceneWithProjectedCells(p, {}, {}, ProjectionKind::perspective);
     const double eye = s.look.projection.eye * p.circumradius;
     expectAreasOfL(p, s, [&](double w) { return kAreaOfL * std::pow(eye / (eye - w), 2); });
 }
 
-// Of a pentagram with the circumradius 1, the loop encloses the area 5/2 sin 144°, of which the core counts twice. The
-// points inside are ten triangles between the center, a tip and an inner corner at the distance φ⁻²; their area is
-// 5 φ⁻² sin 36°. A projection is an affine map, which does not change the quotient of the two areas, 2 φ⁻².
+// A filled pentagram contains its core once, in any orientation. The loop of a pentagram with the circumradius 1
+// encloses the area 5/2 sin 144°, in which the core counts twice. The points inside form ten triangles between the
+// center, a tip and an inner corner at the distance φ⁻²; their area is 5 φ⁻² sin 36°. A projection is an affine map,
+// which does not change the quotient of the two areas, 2 φ⁻².
 TEST(ProjectionFill, OfAPentagramContainsItsCoreOnceInAnyOrientation) {
     using std::numbers::phi;
     const double quotient = 2 / (phi * phi);
@@ -179,14 +181,14 @@ TEST(ProjectionFill, LeavesOutWhatTheEyeCannotSee) {
 
 TEST(ProjectionFill, IsEmptyIfAllFacesAreConvexOrHidden) {
     scene::Look look;
-    look.parts.faces = false;  // else the section of a star is filled
+    look.parts.faces = false;  // if faces were shown, the section of a star would be filled
     for (const char* name : {"24-cell", "icosahedral 120-cell"}) {
         const Scene s = sceneWithProjectedCells(named(name), {}, look);
         EXPECT_EQ(s.projection.elements.faceCount(0), named(name).faces.size()) << name;
         EXPECT_TRUE(s.projection.fill.empty()) << name;
         EXPECT_FALSE(s.projection.drawsPieces(0)) << name;
     }
-    // The same scene, first with and then without cells.
+    // The same object without and with its cells in the projection must not leave filled faces in the scene.
     const polytopes::Polytope& p = named("small stellated 120-cell");
     slicing::SliceSet slices;
     slicing::CellComplexSlicer().slice(p, {}, {0, 1, 1}, slices);
@@ -213,7 +215,8 @@ TEST(ProjectionFill, IsRoughBeyondTheLimitWhichItSharesWithTheSlices) {
     const Scene rough = sceneWithProjectedCells(p, turn, {}, ProjectionKind::orthogonal, 0);
     EXPECT_EQ(roughFaces(rough), static_cast<std::ptrdiff_t>(p.faces.size()));
     EXPECT_EQ(rough.projection.fill.pieceBegin[p.faces.size()], 5 * p.faces.size()) << "a triangle for each side";
-    // As many steps as the projection takes are enough for it if the slices have no faces to fill, but not otherwise.
+    // The number of steps that the projection takes is enough for the projection if the slices have no faces to fill.
+    // If they have faces to fill, it is not enough.
     slicing::FilledFaces fill;
     const std::size_t limit = 100'000'000;
     const std::size_t steps =
@@ -256,7 +259,7 @@ TEST(ProjectedSurface, IsColoredByTheWOfItsFaces) {
             EXPECT_EQ(s.projection.faceCells[f], f);
             glm::dvec4 center(0);
             for (const std::uint32_t v : torus->faces[f]) center += 0.25 * torus->vertices[v];
-            // All centers are equally far from the origin.
+            // The centers of all 2-faces are equally far from the origin.
             const scene::Color expected = scene::divergingColor(turn(center).w / glm::length(center));
             for (const int shift : {0, 8, 16}) {
                 const auto channel = [shift](scene::Color color) { return static_cast<int>(color >> shift & 255U); };

@@ -1,4 +1,4 @@
-// The fixed colors of pictures keep their contrast on every background.
+// Tests of the fixed colors of pictures: they keep their contrast on every background.
 
 #include "scene/style.hpp"
 
@@ -41,7 +41,7 @@ TEST(Scheme, IsThatOfTheViewerIfTheBackgroundIsAutomatic) {
         EXPECT_EQ(schemeOn(background, Scheme::dark), Scheme::light);
 }
 
-// A composer is reused for pictures with other backgrounds.
+// The colors of a scene change with its background, even if the composer is reused.
 TEST(Composer, ChangesTheColorsWithTheBackground) {
     Composer composer;
     Scene reused;

@@ -136,7 +136,7 @@ TEST(SectionNamePair, betweenTheVerticesAreThoseOfUniformSections) {
     struct Row {
         const char* polytope;
         int first;
-        double w;  // in circumradii
+        double w;  // the w of the hyperplane, in circumradii
         const char* name;
     };
     const double octahedra = std::numbers::sqrt2 / 2;  // the w at which the sections of the 24-cell are octahedra

@@ -1,4 +1,5 @@
-// Slices whose faces cross each other, compared with rays that search for the nearest point of nonzero winding number.
+// Tests of slices whose faces cross each other: the pictures are compared with rays that search for the nearest point
+// with a winding number other than 0.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +23,7 @@ struct Sight {
     double distance = kFar;
     std::uint32_t of = 0;
     glm::dvec3 normal{0};
-    bool clear = true;  ///< no edge within two pixels, and no other face at nearly the same depth
+    bool clear = true;  ///< whether no edge is within two pixels, and no other face is at nearly the same depth
 };
 
 class Eye {
@@ -61,7 +62,7 @@ class Eye {
                subject_.scene.scale * set.vertices[set.vertexBegin[slice] + set.corners[i]];
     }
 
-    // Intersects the ray with the faces first … last − 1, which are the loops of one cell.
+    // Intersects the ray with the faces first … last − 1, the loops that were cut from one cell.
     void lookAt(std::size_t slice, std::uint32_t first, std::uint32_t last, const glm::dvec3& ray, double pixel,
                 Sight& sight, double& second) const {
         const std::vector<std::uint32_t>& begin = subject_.slices.cornerBegin;

@@ -30,7 +30,7 @@ TEST(DepthOrder, IsFromFarToNearAndThenThatOfTheList) {
         std::vector<Shape> shapes;
         for (std::size_t i = 0; i < count; ++i) {
             const auto number = static_cast<float>(random() % 2000);
-            shapes.push_back({0.01F * number - 5});  // also behind the eye, and many at the same depth
+            shapes.push_back({0.01F * number - 5});  // some shapes are behind the eye, and many are at the same depth
         }
         for (const float depth : {-0.0F, 0.0F, -0.0F, infinity, -infinity, 1e-30F, -1e-30F}) shapes.push_back({depth});
         std::vector<std::uint32_t> expected(shapes.size());

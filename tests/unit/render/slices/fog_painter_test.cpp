@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::uint32_t kRed = 0xe03020;
 
-/// A cube of fog from −1 to 1 in the middle of the picture, cut off at z = ±depth. Its values are those of a callable
-/// with three coordinates.
+/// A picture of a cube of fog from −1 to 1 in the middle of the picture, cut off at z = ±depth. The values of the fog
+/// are those of a callable with three coordinates.
 struct FogPicture : HandMade {
     template <typename Values>
     FogPicture(double depth, double step, Values valueAt) : HandMade({}) {
@@ -49,7 +49,7 @@ Rgb centerOf(const FogPicture& picture) {
     return pixelAt(picture.draw(renderer()), HandMade::kSize / 2, HandMade::kSize / 2);
 }
 
-/// The background behind a layer of red fog with this opacity.
+/// Returns the color of the background behind a layer of red fog with this opacity.
 Rgb blended(double opacity) {
     Rgb mixed = rgbOf(kRed);
     const Rgb background = rgbOf(scene::style().background);
@@ -94,10 +94,10 @@ TEST(FogPainter, AnOpacityOfOneLetsAlmostNothingThrough) {
 }
 
 TEST(FogPainter, TheTotalDoesNotDependOnTheLattice) {
-    // The opacity along the ray is not constant: the total is an integral.
+    // The opacity along the ray is not constant, so the total is an integral.
     const auto ramp = [](const glm::dvec3& p) { return std::lround(1 + 254 * std::clamp((p.z + 1) / 2, 0.0, 1.0)); };
     std::vector<slicing::FogControlPoint> points{{0, 0, kRed}, {1, 0.9, kRed}};
-    // ∫ −log(1 − a(z)) dz for a(z) = 0.9 (z + 1) / 2, numerically.
+    // The integral ∫ −log(1 − a(z)) dz for a(z) = 0.9 (z + 1) / 2, computed numerically.
     double thickness = 0;
     constexpr int kParts = 10'000;
     for (int i = 0; i < kParts; ++i) thickness += -std::log(1 - 0.9 * (i + 0.5) / kParts) * 2 / kParts;
@@ -124,7 +124,7 @@ TEST(FogPainter, EndsAtTheWallsAndHasNoneWhereThereIsNoValue) {
 }
 
 TEST(FogPainter, SolidThingsHideTheFogBehindThem) {
-    // A ball in the middle of the slab hides its rear half.
+    // A ball in the middle of the layer of fog hides the rear half of the layer.
     FogPicture picture(0.6, 0.05, kConstant);
     picture.slices.vertices = {glm::dvec3(0)};
     picture.slices.vertexBegin = {0, 1};
@@ -134,13 +134,13 @@ TEST(FogPainter, SolidThingsHideTheFogBehindThem) {
     const Rgb ball = centerOf(picture);
     picture.setOpacity(0.7);
     const Rgb seen = centerOf(picture);
-    const double opacity = 1 - std::pow(0.3, 0.6 - 0.3);  // from z = 0.6 to the ball at z = 0.3
+    const double opacity = 1 - std::pow(0.3, 0.6 - 0.3);  // the fog from z = 0.6 to the ball at z = 0.3
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_NEAR(seen[i], opacity * rgbOf(kRed)[i] + (1 - opacity) * ball[i], 4) << i;
 }
 
 TEST(FogPainter, IsSeenThroughTheEdgesOfBars) {
-    // Bars before and in the fog: where their antialiased edges are translucent, the fog behind them is seen.
+    // Bars are before the fog and in it. Where their antialiased edges are translucent, the fog behind them is seen.
     FogPicture picture(0.6, 0.05, kConstant);
     picture.slices.vertices = {{-0.7, -0.6, 0.7}, {0.7, 0.5, 0.7}, {-0.7, 0.6, 0.3}, {0.7, -0.4, 0.3}};
     picture.slices.vertexBegin = {0, 4};
@@ -150,7 +150,7 @@ TEST(FogPainter, IsSeenThroughTheEdgesOfBars) {
     picture.addEdge(2, 3);
     picture.scene.look.parts.balls = false;
     picture.setOpacity(0.95);
-    // No pixel is darker than both the fog and a bar in the shade.
+    // No pixel is darker than both the fog and a bar without direct light.
     const scene::Style& style = scene::style();
     const double darkest = style.ambient * rgbOf(style.bar)[0] - 2;
     ASSERT_GT(darkest, rgbOf(style.background)[0] + 20);

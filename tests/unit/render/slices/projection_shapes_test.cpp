@@ -1,4 +1,4 @@
-// The shapes of the projection of the whole object.
+// Tests of the shapes of the projection of the whole object.
 
 #include <algorithm>
 #include <cstddef>
@@ -33,7 +33,7 @@ TEST(ProjectionShapes, AreTheConvexPiecesOfFacesThatAreNotConvex) {
 TEST(ProjectionShapes, AreTheFacesThemselvesIfTheyAreConvex) {
     scene::Look look;
     look.parts.projectionFaces = true;
-    look.parts.faces = false;  // else the section of this star is filled
+    look.parts.faces = false;  // if faces were shown, the section of this star would be filled
     look.projection.kind = scene::ProjectionKind::orthogonal;
     const Subject subject("icosahedral 120-cell", randomRotation(42), 1, look, {320, 240});
     ProjectionShapeCollector::Layers layers;

@@ -1,4 +1,4 @@
-// Single balls, bars and faces: their pixels are compared with values computed from geometry and lighting.
+// Tests of single balls, bars and faces: their pixels are compared with values computed from geometry and light.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr int kMiddle = HandMade::kSize / 2;
 constexpr double kPi = 3.14159265358979323846;
 
-/// Returns the color of a lit surface with this normal, given in camera coordinates.
+/// Returns the color of a lit surface with this normal, in camera coordinates.
 Rgb litColor(scene::Color color, const glm::dvec3& normal) {
     const scene::Style& style = scene::style();
     const glm::dvec3 half = glm::normalize(style.light + glm::dvec3(0, 0, 1));
@@ -26,7 +26,7 @@ Rgb litColor(scene::Color color, const glm::dvec3& normal) {
     return rgb;
 }
 
-/// Returns the area in pixels that a color covers, computed from one channel as the sum of coverages.
+/// Returns the area that a color covers, in pixels: the sum of the coverages, computed from one channel.
 double area(const image::Image& image, int channelOfInterest, int full) {
     const auto c = static_cast<std::size_t>(channelOfInterest);
     const double background = rgbOf(scene::style().background)[c];
@@ -63,9 +63,10 @@ TEST_F(Shapes, BallIsALitSphere) {
 }
 
 TEST_F(Shapes, BallKeepsItsSilhouetteUnderPerspective) {
-    // The perspective image of a sphere away from the optical axis is an ellipse, elongated radially.
+    // Away from the optical axis, the perspective image of a sphere is an ellipse that is longer in the radial
+    // direction.
     HandMade hand({glm::dvec3(4, 0, 0)});
-    hand.scene.camera.fieldOfView = 2 * std::atan(0.5);  // ±5 units at distance 10
+    hand.scene.camera.fieldOfView = 2 * std::atan(0.5);  // ±5 units are visible at the distance 10
     const image::Image image = hand.draw(renderer());
     const double pixels = HandMade::kSize / 10.0;
     const double angle = std::atan2(4.0, 10.0), half = std::asin(0.5 / std::hypot(4.0, 10.0));
@@ -83,7 +84,7 @@ TEST_F(Shapes, BallKeepsItsSilhouetteUnderPerspective) {
 }
 
 TEST_F(Shapes, BallSendsAsMuchLightAtEverySize) {
-    // The total brightness that a ball adds is its area times its mean color, even if it is smaller than a pixel.
+    // The total brightness that a ball adds is its area times its mean color, even if the ball is smaller than a pixel.
     constexpr int kSteps = 200, kGreen = 1;
     const int background = rgbOf(scene::style().background)[kGreen];
     double mean = 0;
@@ -125,7 +126,7 @@ TEST_F(Shapes, ThinBarFadesInsteadOfBreakingUp) {
     HandMade hand({{-0.9, -0.31, 0}, {0.9, 0.43, 0}});
     hand.addEdge(0, 1);
     hand.scene.look.parts.balls = false;
-    hand.scene.barRadius = 0.001;  // a fifth of a pixel wide
+    hand.scene.barRadius = 0.001;  // the bar is a fifth of a pixel wide
     const image::Image image = hand.draw(renderer());
     const Rgb background = rgbOf(scene::style().background);
     for (int x = kMiddle - 60; x <= kMiddle + 60; ++x) {
@@ -162,7 +163,7 @@ TEST_F(Shapes, FaceIsTintedAndLitAlikeFromBothSides) {
 TEST_F(Shapes, FaceInTheHyperplaneTakesItsFirstCellsColor) {
     HandMade hand({{-0.8, -0.8, 0}, {0.8, -0.8, 0}, {0.8, 0.8, 0}});
     hand.addEdge(0, 1);
-    // 2-face 1 is shared by cells 1 and 2 of three; its source number follows those of the cells.
+    // The 2-face 1 is shared by the cells 1 and 2 of three cells. Its source number follows those of the cells.
     polytopes::Polytope polytope;
     for (const std::vector<std::uint32_t>& cell : {std::vector<std::uint32_t>{0}, {0, 1}, {1}})
         polytope.cells.add(cell);

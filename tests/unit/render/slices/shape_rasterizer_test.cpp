@@ -1,4 +1,5 @@
-// Shapes drawn into memory: compared with those that OpenGL draws, and with each other.
+// Tests of shapes drawn into memory without OpenGL: they are compared with those that OpenGL draws, and with each
+// other.
 
 #include <gtest/gtest.h>
 
@@ -72,8 +73,8 @@ TEST_P(ShapesInMemory, AreTheSameWithTwoThreads) {
     for (int i = 0; i < 4; ++i) EXPECT_EQ(subject.draw(two).pixels, expected.pixels);
 }
 
-// In the projection, OpenGL lets the edge of a shape hide what is behind it even in pixels of which the shape covers
-// less than half.
+// The pictures may differ at the edges of the projection. There, OpenGL lets the edge of a shape hide what is behind
+// it, even in pixels of which the shape covers less than half.
 INSTANTIATE_TEST_SUITE_P(
     All, ShapesInMemory,
     testing::Values(
@@ -114,8 +115,7 @@ INSTANTIATE_TEST_SUITE_P(
                 {640, 360},
                 0.04}));
 
-/// A picture of 64 × 64 pixels, in which a unit at the distance 10 is 32 pixels, and whose center is a corner of
-/// pixels.
+/// A picture of 64 × 64 pixels whose center is a common corner of four pixels. A unit at the distance 10 is 32 pixels.
 class Depths : public testing::Test {
   protected:
     static constexpr int kSize = 64;
@@ -160,8 +160,9 @@ TEST_F(Depths, NearerShapesHideFartherOnesThatAreDrawnLater) {
 }
 
 TEST_F(Depths, WhatIsFartherShowsThroughTheRestOfThePixelsAtAnEdge) {
-    // A face with slanted, soft edges, and one behind it with the same color, drawn later, that fills the picture.
-    // Where the nearer face covers the part c of a pixel, at most c (1 − c) ≤ 1/4 of the background may be left.
+    // A face with slanted, soft edges, and behind it a face with the same color, which is drawn later and fills the
+    // picture. Where the nearer face covers the part c of a pixel, at most c (1 − c) ≤ 1/4 of the background may remain
+    // visible.
     solid.addFace(
         std::vector<glm::vec3>{{-0.5F, -0.6F, -10}, {0.6F, -0.5F, -10}, {0.5F, 0.6F, -10}, {-0.6F, 0.5F, -10}},
         {0, 0, 1}, kBlue, 1, true);
@@ -209,7 +210,7 @@ TEST_F(Depths, PointsThatAreNotFiniteDrawNothingOutsideThePicture) {
 }
 
 TEST_F(Depths, ABarGoesThroughABall) {
-    // The bar's front is nearer than the ball's center, and farther than the ball's front.
+    // The front of the bar is nearer than the center of the ball, and farther than the front of the ball.
     solid.addBall({0, 0, -10}, 0.5F, kRed);
     solid.addBarFromFarEnd({-0.9F, 0, -10}, {0.9F, 0, -10}, 0.1F, kBlue);
     EXPECT_GT(drawnAt(32, 32)[0], drawnAt(32, 32)[2]) << "inside the ball";

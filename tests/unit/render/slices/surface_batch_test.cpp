@@ -22,7 +22,8 @@
 namespace oval4d::render {
 namespace {
 
-// The body is half of a box, so that its slices are polyhedra: their level set is flat, and so are their caps.
+// Caps in the same wall share vertices, but caps in different walls do not. The body is half of a box, so its slices
+// are polyhedra: their level set and their caps are flat.
 TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
     auto field = fields::fieldFromFormula("test", "x + y/2 + w/3");
     ASSERT_TRUE(field);
@@ -41,7 +42,7 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
     batch.collect(scene, depths);
 
     const Projection projection = Projection::of(scene.camera, scene.viewport);
-    const auto positionOf = [&](const SurfaceVertex& vertex) {  // in view coordinates
+    const auto positionOf = [&](const SurfaceVertex& vertex) {  // returns the position of a vertex in view coordinates
         const glm::vec3& c = vertex.clip;
         return glm::vec3((c.x - projection.shiftX * c.z) / projection.scaleX,
                          (c.y - projection.shiftY * c.z) / projection.scaleY, -c.z);
@@ -56,7 +57,7 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
             corners[k] = positionOf(batch.vertices()[indices[i + k]]);
         }
         const glm::vec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
-        if (glm::length(normal) < 1e-4F) continue;  // the normal of a narrow triangle is inexact
+        if (glm::length(normal) < 1e-4F) continue;  // skips narrow triangles, whose normals are inexact
         ++compared;
         for (std::size_t k = 0; k < 3; ++k)
             different += glm::length(batch.vertices()[indices[i + k]].normal - glm::normalize(normal)) > 0.02F ? 1 : 0;
@@ -95,7 +96,8 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTh
         batch.collect(scene, depths, selection);
         std::set<std::array<float, 3>> points;
         for (const SurfaceVertex& vertex : batch.vertices()) {
-            const bool isOuterRim = vertex.color >> 24U == 0;  // of a fringe
+            // Whether the vertex is on the outer side of a fringe, where the opacity is 0.
+            const bool isOuterRim = vertex.color >> 24U == 0;
             if (!isOuterRim) points.insert(std::array{vertex.clip.x, vertex.clip.y, vertex.clip.z});
         }
         return points;

@@ -1,4 +1,5 @@
-// Surfaces drawn into memory: compared with those that OpenGL draws, and with mathematics.
+// Tests of surfaces drawn into memory without OpenGL: they are compared with those that OpenGL draws, and with
+// mathematics.
 
 #include "render/slices/surface_rasterizer.hpp"
 
@@ -37,7 +38,7 @@ struct SurfaceExample {
 
 std::ostream& operator<<(std::ostream& out, const SurfaceExample& example) { return out << example.name; }
 
-/// The slices of a field whose bodies have holes and reach the boundary of its domain, and their scene.
+/// The slices of a field whose bodies have holes and reach the boundary of its domain, and the scene of these slices.
 struct FieldSubject {
     slicing::SliceSet slices;
     scene::Scene scene;  // refers to `slices`
@@ -113,8 +114,8 @@ scene::Look lookOf(const scene::ShownParts& parts, std::vector<double> levels, s
     return look;
 }
 
-// With OpenGL, the edge of a bar hides translucent surfaces behind it even in pixels of which the bar covers less than
-// half.
+// The pictures may differ at the edges of bars. With OpenGL, the edge of a bar hides translucent surfaces behind it,
+// even in pixels of which the bar covers less than half.
 INSTANTIATE_TEST_SUITE_P(
     All, SurfacesInMemory,
     testing::Values(
@@ -149,7 +150,7 @@ INSTANTIATE_TEST_SUITE_P(
         SurfaceExample{"low", lookOf(kOnlySurfaces, {0}), {301, 11}, 2e-3},
         SurfaceExample{"one", lookOf(kOnlySurfaces, {0}), {33, 1}, 0.04, 1}));
 
-/// Triangles in a picture of 201 × 201 pixels, whose middle is seen from z = 10 along −z.
+/// Triangles in a picture of 201 × 201 pixels. The eye is at z = 10 and looks along −z at the middle of the picture.
 class Triangles : public testing::Test {
   protected:
     static constexpr int kSize = HandMade::kSize;
@@ -162,7 +163,7 @@ class Triangles : public testing::Test {
         surface = &picture.slices.surfaces.emplace_back();
     }
 
-    /// Adds a level. The next triangles belong to it. A level with an opacity below 1 is translucent.
+    /// Adds a level, to which the triangles that are added next belong. A level with an opacity below 1 is translucent.
     void addLevel(scene::Color color, double opacity) {
         picture.scene.surfaces.levels.push_back({picture.scene.surfaces.levels.size(), color, opacity, false});
     }
@@ -196,7 +197,7 @@ class Triangles : public testing::Test {
         return {kSize, kSize, {pixels.begin(), pixels.end()}};
     }
 
-    /// Returns the point whose projection is the center of this pixel, at this distance from the eye.
+    /// Returns the point at this distance from the eye that is projected to the center of the pixel (x, y).
     static glm::vec3 pointAt(double x, double y, double distance) {
         const double scale = distance / 10 / HandMade::kUnit;
         return {(x + 0.5 - kSize / 2.0) * scale, (y + 0.5 - kSize / 2.0) * scale, 10 - distance};
@@ -206,7 +207,7 @@ class Triangles : public testing::Test {
     slicing::SliceSurface* surface = nullptr;
 };
 
-// The corners of some triangles are at centers of pixels.
+// Triangles that share edges cover each pixel once, even if some corners are at centers of pixels.
 TEST_F(Triangles, ThatShareEdgesCoverEachPixelOnce) {
     addLevel(kRed, 0.4);
     std::mt19937 random(5);
@@ -242,7 +243,8 @@ TEST_F(Triangles, ThatShareEdgesCoverEachPixelOnce) {
     EXPECT_EQ(pixelAt(image, 5, 100), rgbOf(scene::style().background));
 }
 
-// All triangles of a fan around a point are thin, and many contain no center of a pixel.
+// Thin triangles cover each pixel once. The triangles of a fan around a point are all thin, and many contain no center
+// of a pixel.
 TEST_F(Triangles, ThatAreThinCoverEachPixelOnce) {
     addLevel(kRed, 0.4);
     constexpr int kCount = 3000;
@@ -266,7 +268,7 @@ TEST_F(Triangles, ThatAreThinCoverEachPixelOnce) {
 }
 
 TEST_F(Triangles, IntersectWhereTheyHaveTheSameDepth) {
-    // Two large triangles: one at the distance 10, one in the plane z = x.
+    // Two large triangles: one at the distance 10 from the eye, and one in the plane z = x.
     addLevel(kRed, 1);
     addTriangle({-5, -5, 0}, {5, -5, 0}, {0, 8, 0});
     addLevel(kBlue, 1);
@@ -295,10 +297,11 @@ TEST_F(Triangles, AreHiddenBehindOpaqueOnesAndSeenThroughTranslucentOnes) {
     EXPECT_GT(onlyBlue[2], onlyBlue[0]);
 }
 
-// A plane that goes from in front of the eye to behind it: the part with w > 0 is drawn.
+// Triangles are cut off behind the eye. Of a plane that extends from in front of the eye to behind it, the part with a
+// positive clip coordinate w is drawn.
 TEST_F(Triangles, AreCutOffBehindTheEye) {
     addLevel(kRed, 1);
-    // The plane y = −1 below the eye, from z = −40 to z = 30; the eye is at z = 10.
+    // The plane y = −1 below the eye, from z = −40 to z = 30. The eye is at z = 10.
     addTriangle({-500, -1, -40}, {500, -1, -40}, {0, -1, 30});
     const image::Image image = draw();
     // The ray through the pixel meets the plane at the distance d: 1 / d = −(y of the pixel) / (10 · unit).
