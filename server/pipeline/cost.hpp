@@ -10,8 +10,8 @@
 namespace oval4d::pipeline {
 
 /// An estimated time in seconds, correct within a factor of three on one core of a processor of 2020. The estimate
-/// depends on the number of elements of the object (for a field, on the time to evaluate its function), the number of
-/// slices, the size of the picture and the quality.
+/// depends on the object, the number of slices, the size of the picture and the quality. Of the object, the number of
+/// elements counts; of a field, the time to evaluate its function.
 using EstimatedSeconds = std::chrono::duration<double>;
 
 /// Returns the estimated time of Pipeline::drawPng() for this picture.

@@ -44,8 +44,8 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
 }
 
 // Divides the extent of the object along w into `count` equal intervals, and returns the hyperplanes in the middles of
-// the intervals. If slices are thick, as those of a point cloud, the intervals are slightly longer, because a slice
-// does not contain the points at the upper end of its interval.
+// the intervals. The slices of a point cloud are thick, and do not contain the points at the upper ends of their
+// intervals. So if slices are thick, the intervals are slightly longer.
 geometry::Hyperplanes fittingHyperplanes(int count, const scene::PictureRequest& picture) {
     const double larger = slicing::propertiesOf(picture.object).slicesAreThick ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(picture.object, picture.orientation);

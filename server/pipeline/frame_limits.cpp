@@ -12,8 +12,8 @@ scene::Viewport usualViewport(const FrameLimits& limits) {
     const int height = std::max(limits.minSide, std::min(usual.height, limits.maxHeight));
     const double pixels = static_cast<double>(width) * height;
     const double scale = std::min(1.0, std::sqrt(static_cast<double>(limits.maxPixels) / pixels));
-    // Returns the greatest length, at most `side`, that one side of a picture may have if the other side has the length
-    // `length` and the picture has at most maxPixels pixels. The result is at least minSide.
+    // Returns the greatest length of one side of a picture whose other side has the length `length`, so that the
+    // picture has at most maxPixels pixels. The result is at most `side`, but at least minSide.
     const auto beside = [&limits](int length, int side) {
         return std::max(limits.minSide, static_cast<int>(std::min<std::int64_t>(side, limits.maxPixels / length)));
     };

@@ -90,9 +90,9 @@ struct Arrangement {
     /// Returns an upper bound of the distance from the focus slice to any other slice.
     double maxDistanceFromFocus() const { return depth + halfWidth + halfHeight; }
     /// Returns the radius of a sphere that is assumed to contain the slice with the parameter u, as a fraction of the
-    /// circumradius. In a grid, a row, a column or a single place, the result is 1. On a parabola, the sphere is the
-    /// section of the object's circumscribed sphere, as if the hyperplanes of the first and the last slice (u = ±1)
-    /// just touched the circumscribed sphere. The parabola has just enough room for such slices.
+    /// circumradius. In a grid, a row, a column or a single place, the result is 1. On a parabola, the sphere is a
+    /// section of the object's circumscribed sphere. The hyperplanes of the first and the last slice (u = ±1) are
+    /// assumed to touch the circumscribed sphere. The parabola has just enough room for such slices.
     double relativeSliceRadiusAt(double u) const { return depth == 0 ? 1 : std::sqrt(1 - u * u); }
 };
 
@@ -107,9 +107,9 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
 /// `shown`; the caller must then call projectionInside().
 ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
 
-/// Places the projection of the whole object in the middle of the oval, on the axis of the parabola. The place is the
-/// point where the largest circle on the screen fits between the slices and below `top`, a height on the plane at
-/// distance 1 from the eye.
+/// Places the projection of the whole object in the middle of the oval, on the axis of the parabola. At this point, the
+/// largest circle on the screen fits between the slices and below `top`. `top` is a height on the plane at distance 1
+/// from the eye.
 ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
                                      double top);
 

@@ -194,9 +194,9 @@ void Composer::removeHighlightColor(Scene& out) {
     if (cell < out.cellColors.size()) out.cellColors[cell] = color;
 }
 
-// Finds the name of the section in the focus slice. If the slice has no name, its label shows the name of the convex
-// hull of those vertices of the polytope that lie in the hyperplane, if this hull is a solid. The
-// label of a field shows the moment or the place of the slice in the box instead.
+// Finds the name of the section in the focus slice. If the slice has no name, its label may show another name: that of
+// the convex hull of the polytope's vertices in the hyperplane, if this hull is a solid. The label of a field
+// shows the moment or the place of the slice in the box instead.
 void Composer::nameSection(const Object& object, const geometry::Rotation& orientation, int focus, Scene& out) {
     const SliceSet& slices = *out.slices;
     const int slice = focus - slices.planes.first;

@@ -88,10 +88,10 @@ struct ProjectionPlacement {
     bool operator==(const ProjectionPlacement&) const = default;
 };
 
-/// The layout of the matrix of planar sections in the picture. The panel in row i and column j, from the upper left,
-/// shows the section by the plane of the axes i and j (0 … 3 for x, y, z, w), with axis j to the right and axis i
-/// upward. The panels on the diagonal show the names of the axes. All lengths are fractions of the viewport's height.
-/// Positions are measured from the viewport's lower left corner.
+/// The layout of the matrix of planar sections in the picture. Rows and columns are counted from the upper left; axes
+/// are numbered 0 … 3 for x, y, z, w. The panel in row i and column j shows the section by the plane of the axes i and
+/// j. Axis j points to the right, and axis i upward. The panels on the diagonal show the names of the axes. All lengths
+/// are fractions of the viewport's height. Positions are measured from the viewport's lower left corner.
 struct SectionMatrixLayout {
     bool shown = false;
     double left = 0, bottom = 0;  ///< the lower left corner of the matrix

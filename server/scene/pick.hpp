@@ -55,7 +55,7 @@ inline constexpr double kHitRadius = 3;
 /// upper left corner. The z of the direction is −1.
 glm::dvec3 viewRayThrough(const Scene& scene, glm::dvec2 point);
 
-/// Returns whether slices are hidden at the point (x, y), in pixels from the upper left corner, because the point is in
+/// Returns whether slices are hidden at the point (x, y), in pixels from the upper left corner. Slices may be hidden in
 /// the part of the picture that belongs to the parallel coordinates (see Scene::clearsCoordinatesArea()).
 bool isClearedOfSlices(const Scene& scene, glm::dvec2 point);
 

@@ -22,9 +22,9 @@ namespace oval4d::slicing {
 /// - Slice edges that shrink to points, and slice faces that shrink to edges or points, are removed. If a removed face
 ///   still has two edges, these become one edge.
 ///
-/// A vertex counts as lying in the hyperplane if it is close to the hyperplane (see kOnPlaneTolerance). Therefore, if a
-/// cell is inclined to the hyperplane by only a tiny angle, the set of its vertices in the hyperplane need not be the
-/// vertex set of a single edge or 2-face. The resulting slice is closed even then.
+/// A vertex counts as lying in the hyperplane if it is close to the hyperplane (see kOnPlaneTolerance). A cell may be
+/// inclined to the hyperplane by only a tiny angle. Then its vertices in the hyperplane need not be the vertices of a
+/// single edge or 2-face. The resulting slice is closed even then.
 ///
 /// The polytope must have vertices on both sides of the hyperplane; otherwise the slice just above the hyperplane would
 /// miss elements that lie in it. Reuses its memory.

@@ -39,10 +39,10 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
 void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
     const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
-    // If each loop whose entry in cellSigns is −1 is reversed, the loops of all 2-faces have the same direction in the
-    // hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces toward +w. To
-    // find it, these loops are divided into triangles with the corners a, b and c. The direction is counterclockwise if
-    // `volume`, the sum of det(a, b, c), is positive, else clockwise.
+    // First, each loop whose entry in cellSigns is −1 is reversed. Then the loops of all 2-faces have the same
+    // direction in the hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces
+    // toward +w. To find it, these loops are divided into triangles with the corners a, b and c. The direction is
+    // counterclockwise if `volume`, the sum of det(a, b, c), is positive, else clockwise.
     double volume = 0;
     for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
         const auto loop = p.faces[p.cells.items[at]];

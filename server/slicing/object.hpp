@@ -111,7 +111,7 @@ glm::dvec4 vertexInFile(const Object& object, std::size_t index);
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation);
 
 /// Returns the radius of the balls drawn at slice vertices, as a fraction of the circumradius. For a cell complex, the
-/// radius grows with the mean edge length, so that balls neither hide the slices of a 120-cell nor look too small in
+/// radius grows with the mean edge length. So balls do not hide the slices of a 120-cell, and do not look too small in
 /// slices of a 5-cell. For a surface, the radius is at least 0.016, however fine its mesh. For a point cloud, the
 /// radius is smaller if there are more points. For a field, the radius is constant. Takes time linear in the number of
 /// edges.

@@ -20,9 +20,9 @@ namespace oval4d::slicing {
 
 /// The section of an object by a plane: points, and edges between them.
 ///
-/// The source number of a point or an edge says from which element of the object it was cut, as in SliceSet. For a
-/// polytope with E edges, F 2-faces and C cells, `pointSource` is the index of the 2-face that was cut, or F + e if
-/// polytope edge e was cut, or F + E + v if polytope vertex v lies in the plane. `edgeSource` is the index of the cell
+/// The source number of a point or an edge says from which element of the object it was cut, as in SliceSet. Let the
+/// polytope have E edges, F 2-faces and C cells. `pointSource` is the index of the 2-face that was cut, or F + e if
+/// edge e of the polytope was cut, or F + E + v if vertex v lies in the plane. `edgeSource` is the index of the cell
 /// that was cut, or C + f if the plane cuts 2-face f in a segment. For a point cloud, `pointSource` is the index of the
 /// point; there are no edges.
 struct PlanarSection {

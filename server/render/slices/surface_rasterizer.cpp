@@ -21,9 +21,9 @@ using Blending = SurfaceRasterizer::Blending;
 using LitVertex = SurfaceRasterizer::LitVertex;
 
 constexpr std::size_t kLanes = 8;
-// While eight triangles are drawn, the first corners of the eight triangles that begin this many indices later are
-// loaded into the cache (prefetched), because another core may have written them. The other corners are often close to
-// the first corners in memory.
+// How many indices ahead corners are loaded into the cache (prefetched). While eight triangles are drawn, the first
+// corners of eight later triangles are prefetched, because another core may have written them. The other corners are
+// often close to the first corners in memory.
 constexpr std::size_t kAhead = 2 * 3 * kLanes;
 
 static_assert(sizeof(LitVertex) == 8 * sizeof(float));

@@ -250,8 +250,9 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
     }
 }
 
-// Adds the level set in a tetrahedron. The level set is a triangle if only one corner is inside the body or only one is
-// outside, a quadrilateral if two corners are inside, and nothing if all corners or none are inside.
+// Adds the level set in a tetrahedron. If one or three of the four corners are inside the body, the level set is a
+// triangle. If two corners are inside, it is a quadrilateral. If all corners or none are inside, the level set is
+// empty.
 void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
     const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };
@@ -274,7 +275,7 @@ void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetr
 
 // Adds the gradient of the interpolated function in a pentatope, where it is constant, to the sums of gradients at the
 // points of the triangles. Each triangle in the pentatope adds the gradient at its three corners. The weight is the
-// area of the triangle, but at least kLeastWeight, so that the sum is not 0 at a point whose triangles all have the
+// area of the triangle, but at least kLeastWeight. So the sum is not 0 even at a point whose triangles all have the
 // area 0. The triangles in the pentatope are those with the index `first` and greater ones.
 void ClosedSurfaceSlicer::addGradients(const CutPentatope& cut, std::size_t first) {
     constexpr double kLeastWeight = 1e-100;

@@ -1,11 +1,11 @@
 #pragma once
 // The subdivision of 4-D lattice cells into simplices, and the sections of these simplices by hyperplanes.
 //
-// The corners of a cell are numbered 0 … 15: bit a of the number is set at the upper end of axis a. The Freudenthal
-// (Kuhn) subdivision has one pentatope (4-simplex) for each chain of corners from 0 to 15 in which each corner has all
-// bits of the corner before it, and one more bit (H. Freudenthal, Annals of Mathematics 43, 1942). All cells are
-// subdivided in the same way, so that neighboring cells share whole facets. The corners of every simplex of the lattice
-// have an order in which no coordinate decreases.
+// The corners of a lattice cell are numbered 0 … 15: bit a of the number is set if the corner is at the upper end of
+// the cell along axis a. A chain is a sequence of corners from 0 to 15 in which each corner has all bits of the corner
+// before it, and one more bit. The Freudenthal (Kuhn) subdivision has one pentatope (4-simplex) for each chain (H.
+// Freudenthal, Annals of Mathematics 43, 1942). All cells are subdivided in the same way, so that neighboring cells
+// share whole facets. The corners of every simplex of the lattice have an order in which no coordinate decreases.
 
 #include <array>
 #include <cstddef>

@@ -25,7 +25,7 @@ namespace oval4d::slicing {
 /// Extracts the surfaces of slices by dual marching cubes on a cubic lattice. Skips blocks of the lattice that
 /// certainly contain no surface. A cube through which the surface passes gets one point per patch (see CubeCase).
 /// Newton's method moves this point onto the level set. Where the surface leaves the domain, the method also moves the
-/// point onto the walls of the domain (see FieldSection), so that caps (see SliceSurface) are flat, and their rims
+/// point onto the walls of the domain (see FieldSection). So caps (see SliceSurface) are flat, and their rims are
 /// sharp.
 ///
 /// Lattice points just beyond a wall are moved onto the wall before the function is sampled (as in F. Labelle, J.

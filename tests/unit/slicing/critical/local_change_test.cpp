@@ -43,8 +43,8 @@ TEST(LocalChange, HeatKernelsInAnArrayMerge) {
     }
 }
 
-// The search finds the w at which a ball appears (w = −1), both if the ball is the body and if it is what is outside of
-// the body.
+// The search finds the w at which a ball appears: −1. The ball is the body in one case, and the region outside of the
+// body in the other case.
 TEST(LocalChange, BallsAppear) {
     const fields::Field ball = sampledField(
         testField([](const glm::dvec4& p) { return glm::dot(p, p) - 1; }, 6, {glm::dvec4(-1.5), glm::dvec4(1.5)}), 25);
