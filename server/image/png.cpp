@@ -123,8 +123,8 @@ void PngEncoder::encode(const ImageView& image, std::string_view state, std::vec
     append(out, kSignature, sizeof kSignature);
 
     std::size_t chunk = beginChunk(out, "IHDR");
-    const std::uint8_t colorType = image.hasAlpha ? 6 : 2;                      // RGBA or RGB
-    std::uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, colorType, 0, 0, 0};  // 8 bits, not interlaced
+    const std::uint8_t colorType = image.hasAlpha ? 6 : 2;  // the PNG color type: RGBA (6) or RGB (2)
+    std::uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, colorType, 0, 0, 0};  // 8 bits per channel, not interlaced
     store32(header, static_cast<std::uint32_t>(image.width));
     store32(header + 4, static_cast<std::uint32_t>(image.height));
     append(out, header, sizeof header);

@@ -152,7 +152,7 @@ class FairQueue {
     struct DueJob {
         Job job;
         JobQueuePtr jobQueue;
-        Seconds estimate, cost;  ///< the estimate that was given to push(), and the corrected estimate
+        Seconds estimate, cost;  ///< `estimate` was given to push(); `cost` is the corrected estimate; both in seconds
         JobClass jobClass;
     };
 
@@ -197,7 +197,7 @@ class FairQueue {
 
     struct QueuedJob {
         Job job;
-        Seconds estimate, cost;  // the estimate that was given to push(), and the corrected estimate
+        Seconds estimate, cost;  // `estimate` was given to push(); `cost` is the corrected estimate; both in seconds
         JobClass jobClass;
     };
 
@@ -219,7 +219,7 @@ class FairQueue {
     bool longJobsMustWait(Clock::time_point now);
     void pruneRecentShortJobQueues(Clock::time_point now);
 
-    const std::size_t maxLongRunning_;  // the number of threads that are not reserved
+    const std::size_t maxLongRunning_;  // the number of threads that are not reserved for short jobs
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
     PerClass<ClassScheduler> classes_;

@@ -52,7 +52,7 @@ double exactSurfaceSeconds(const scene::PictureRequest& picture, double slices) 
         const double samples = static_cast<double>(fields::sampleCount(field->array->shape()));
         cells = std::pow(samples, 0.25);
     }
-    constexpr double kSecondsPerCell = 5e-5;  // for each lattice cell that the surface crosses
+    constexpr double kSecondsPerCell = 5e-5;  // the time for each lattice cell that the surface crosses
     return kSecondsPerCell * cells * cells * slices * static_cast<double>(picture.look.field.levels.size());
 }
 

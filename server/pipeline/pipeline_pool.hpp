@@ -19,7 +19,7 @@ class PipelinePool {
     using Job = std::function<void(Pipeline&)>;
 
     struct PoolOptions {
-        std::size_t threads = 1;                   ///< the number of workers
+        std::size_t threads = 1;                   ///< the number of worker threads
         parallel::WorkerPool::Limits limits = {};  ///< the maximum numbers of waiting jobs
         PictureWorkLimits pictures = {};
         /// Called once by each worker, to make the rasterizer of its pipeline. `stop` is the token through which
@@ -40,7 +40,7 @@ class PipelinePool {
 
   private:
     std::vector<std::unique_ptr<Pipeline>> pipelines_;  // one pipeline for each worker
-    parallel::WorkerPool workers_;                      // declared last, because the threads use the other members
+    parallel::WorkerPool workers_;                      // declared last, because its threads use the other members
 };
 
 }  // namespace oval4d::pipeline

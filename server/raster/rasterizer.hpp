@@ -79,7 +79,7 @@ class LocalRasterizer : public Rasterizer {
     parallel::ForkJoin* forkJoin_;
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     std::size_t occlusionSteps_ = slicing::OcclusionFinder::kDefaultSteps;
-    std::optional<render::Renderer> renderer_;  // created on first use
+    std::optional<render::Renderer> renderer_;  // created when it is first used
     Workspace workspace_;
 };
 

@@ -14,7 +14,7 @@ namespace oval4d::raster {
 /// Limits on the work and memory of a rasterizer process (draws pictures for the server).
 struct RasterizerLimits {
     std::size_t fillSteps = 0;  ///< the maximum number of steps in one picture (see slicing::FaceFiller::fill())
-    /// the maximum size of the cache of objects, in bytes; the latest object may exceed it
+    /// The maximum size of the cache of objects, in bytes; the latest object may exceed it.
     std::size_t objectBytes = 0;
     /// The maximum number of steps in one picture (see slicing::OcclusionFinder::find()).
     std::size_t occlusionSteps = slicing::OcclusionFinder::kDefaultSteps;

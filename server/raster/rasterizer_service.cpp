@@ -116,7 +116,7 @@ class RasterizerService {
         // Closed at the end of this function: a mapping does not need its descriptor.
         const fields::FileHandle file(descriptor);
         auto mapped = fields::MappedFile::map(file.descriptor());
-        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // null if mapping fails
+        mapped_.push_back(mapped ? std::move(*mapped) : nullptr);  // if mapping the file fails, the entry is null
     }
 
     void takeObject() {

@@ -121,7 +121,7 @@ struct Renderer::Impl {
         SurfaceRasterizer rasterizer;
 
         void prepare(const scene::Scene& scene, SurfaceBatch::Selection selection) {
-            DepthRange depths;  // collect() writes this range, but only drawing with OpenGL reads it
+            DepthRange depths;  // a range of depths that collect() writes, but only drawing with OpenGL reads
             batch.collect(scene, depths, selection);
             rasterizer.projectAndLight(scene.viewport, scene.style(), batch);
         }
@@ -137,7 +137,7 @@ struct Renderer::Impl {
     parallel::ThreadOwnerAssertion owner;
     OffscreenGlContext context;          // declared first, because the members that follow need a current context
     const bool shapesInMemory;           // whether shapes are drawn without OpenGL where this is possible
-    parallel::ForkJoin* const forkJoin;  // null if one thread draws pictures
+    parallel::ForkJoin* const forkJoin;  // null if only one thread draws pictures
     ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
     SurfaceProgram surfaceProgram;
@@ -434,7 +434,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     if (strokes.patches().empty()) return;
     impl_->shapeRasterizer.beginOver(scene.viewport, scene.style(), pixels);
     impl_->shapeRasterizer.add(strokes, ShapeRasterizer::DepthUse::unused);
-    impl_->shapeRasterizer.finish(nullptr);  // a second thread is not used, because waking it would take longer
+    impl_->shapeRasterizer.finish(nullptr);  // on one thread, because waking a second thread would take longer
 }
 
 }  // namespace oval4d::render

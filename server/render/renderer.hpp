@@ -21,8 +21,8 @@ std::string fontFile();
 /// The way in which the slices, the projection of the whole object and the axes symbol are drawn. In pictures with fog,
 /// or narrower than ShapeRasterizer::kMinWidth, they are always drawn with OpenGL.
 enum class ShapeBackend : std::uint8_t {
-    fastest,  ///< with a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
-    open_gl,  ///< always with OpenGL
+    fastest,  ///< draw with a ShapeRasterizer if this processor has AVX2 and FMA, else with OpenGL
+    open_gl,  ///< always draw with OpenGL
 };
 
 /// Draws scenes with its own GL context. Only the thread that created a renderer may use and destroy it. Several

@@ -14,7 +14,7 @@ namespace oval4d::render {
 /// 255 in the buffer becomes 0 … 1 in the shader.
 struct Attribute {
     int components;      ///< the number of components: 1 … 4
-    GLenum type;         ///< GL_FLOAT or GL_UNSIGNED_BYTE
+    GLenum type;         ///< the type of each component: GL_FLOAT or GL_UNSIGNED_BYTE
     std::size_t offset;  ///< the offset of the attribute in the vertex structure, in bytes
 };
 

@@ -86,7 +86,7 @@ Arrangement columnOf(int count, double reach) {
     made.labelDrop = 0;
     made.focusLabelDrop = kColumnFocusDrop;
     made.labelsAreBeside = true;
-    made.labelColumns = 2;  // one column for the slices, and one for their labels
+    made.labelColumns = 2;  // the room is divided into one column for the slices and one for their labels
     return made;
 }
 

@@ -77,7 +77,7 @@ struct Arrangement {
     /// is farther down than the others. If a grid is narrower than the room, the number is that of the columns that the
     /// room could hold, which may be a fraction.
     double labelColumns = 0;
-    SliceGrid grid = {};  ///< the grid in which the slices stand; its `count` is 0 if they stand on a curve
+    SliceGrid grid = {};  ///< the grid in which the slices stand; its `count` is 0 if the slices stand on a curve
 
     /// Returns the position of the slice with the parameter u, which is −1 for the first slice and 1 for the last. No
     /// coordinate is −0, because messages would show the minus sign. In a grid, a parameter between those of two slices

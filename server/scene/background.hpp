@@ -17,9 +17,9 @@ inline constexpr auto kSchemes =
 /// not change.
 enum class Background : std::uint8_t {
     automatic = 0,    ///< dark or light, as the viewer prefers; dark if the preference is unknown; "auto" in messages
-    dark = 1,         ///< nearly black
-    light = 2,        ///< nearly white, like the page in its light scheme
-    white = 3,        ///< like paper
+    dark = 1,         ///< a nearly black background
+    light = 2,        ///< a nearly white background, like that of the page in its light scheme
+    white = 3,        ///< a white background, like paper
     transparent = 4,  ///< transparent in PNG files, otherwise white; all other colors are those for `white`
 };
 inline constexpr auto kBackgrounds =

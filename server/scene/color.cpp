@@ -97,7 +97,7 @@ constexpr int kScaleSteps = 255;
 using ColorScale = std::array<Color, kScaleSteps>;
 // Returns a color scale that is blue at −1, gray at 0 and amber at 1.
 ColorScale divergingScale(Scheme scheme) {
-    constexpr double kBlue = 4.5, kAmber = 1.25;  // hues in radians
+    constexpr double kBlue = 4.5, kAmber = 1.25;  // the hues of blue and amber, in radians
     ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double t = 2.0 * i / (kScaleSteps - 1) - 1, reach = std::abs(t);

@@ -153,7 +153,8 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     out.scale = out.sliceRadius / info.circumradius;
     findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
-    std::size_t fillSteps = draws ? fillSteps_ : 0;  // a projection that is not drawn is filled roughly
+    // If the projection is not drawn, it is filled roughly, without any steps.
+    std::size_t fillSteps = draws ? fillSteps_ : 0;
     if (draws && out.needsDepthBuffer && !isField && look.parts.faces)
         fillSteps = filler_.fill(slices, info.circumradius, out.fill, fillSteps);
     out.fillCells.clear();

@@ -27,7 +27,7 @@ namespace oval4d::scene {
 /// The purpose for which a scene is composed.
 enum class ScenePurpose : std::uint8_t {
     drawing,  ///< to be drawn or written
-    /// only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or histograms
+    /// Only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or histograms.
     pointing,
 };
 
@@ -111,7 +111,7 @@ class Composer {
     slicing::FaceFiller filler_;
     std::uint64_t object_ = 0;       // the serial number of the object in the last call
     bool objectChanged_ = false;     // whether the object has changed since the last call of compose()
-    double relativeBallRadius_ = 0;  // slicing::relativeBallRadius() of this object
+    double relativeBallRadius_ = 0;  // slicing::relativeBallRadius() of the object in the last call
     slicing::VisibilityBySource visibilities_;
     slicing::Projector projector_;
     slicing::PlanarSlicer planarSlicer_;
@@ -121,9 +121,9 @@ class Composer {
     CellTypeFilter filter_;
     slicing::SectionNamer sectionNamer_;
     std::optional<slicing::NamedSection> section_;
-    LayoutInput layoutInput_;           // the data for the next layout; a member so that its memory is reused
-    LayoutInput laidOut_;               // the data that determine the layout that the scene has
-    const Scene* laidOutIn_ = nullptr;  // the scene that has this layout; null before the first layout
+    LayoutInput layoutInput_;           // the data for the next layout; stored as a member so that its memory is reused
+    LayoutInput laidOut_;               // the data from which the current layout of the scene was computed
+    const Scene* laidOutIn_ = nullptr;  // the scene that was laid out from laidOut_; null before the first layout
     std::optional<slicing::Element> highlight_;
     slicing::PartsShowingElement highlightSources_;  // the slice vertices and slice edges that show highlight_
     // The index of the cell that has the highlight color in the scene, and the color that it has otherwise.
@@ -133,8 +133,9 @@ class Composer {
     slicing::CoordinateValueHistograms histogram_;
     // The serial number of the object whose density plot or histogram was measured last.
     std::uint64_t densityObject_ = 0;
-    geometry::Rotation densityTurn_;       // the orientation of the object at this measurement
-    std::vector<double> histogramLevels_;  // the levels of the field at this measurement
+    // The orientation of the object when its density plot or histogram was measured last.
+    geometry::Rotation densityTurn_;
+    std::vector<double> histogramLevels_;  // the levels of the field when its histogram was measured last
 };
 
 }  // namespace oval4d::scene

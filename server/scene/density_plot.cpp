@@ -13,9 +13,9 @@ constexpr int kMaxLevel =
     static_cast<int>(DensityPlot::kLineWeight) * (DensityPlot::kRows - 1) / 2;  // the number of bins per circumradius
 constexpr int kBins = 2 * kMaxLevel + 1;
 
-// Rounds a float to an integer when it is added to the float, because the last bit of the sum has the value 1. Halves
-// are rounded to the even integer, so opposite numbers remain opposite.
-constexpr float kRounder = 12582912.0F;  // 1.5 · 2²³
+// A number that rounds a float to an integer when it is added to the float, because the last bit of the sum has the
+// value 1. Halves are rounded to the even integer, so opposite numbers remain opposite.
+constexpr float kRounder = 12582912.0F;  // the value is 1.5 · 2²³
 
 std::uint32_t binOf(float level) {
     return std::bit_cast<std::uint32_t>(level + kRounder) - (std::bit_cast<std::uint32_t>(kRounder) - kMaxLevel);

@@ -110,7 +110,7 @@ class LabelLayout {
     const Arrangement& arrangement_;
     InitialViewSpace space_;
     double width_ = 0;  // the width of the longest number in a label, as a multiple of the font size
-    // the width of the section's name in the focus slice's label, as a multiple of the font size
+    // The width of the section's name in the focus slice's label, as a multiple of the font size.
     double nameWidth_ = 0;
     std::vector<SlicePlacement>& placements_;
 };

@@ -27,7 +27,7 @@ struct SlicePlacement {
     std::string label;
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
     double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight
-    bool focus = false;     ///< whether this is the focus slice
+    bool focus = false;     ///< whether the slice is the focus slice
     bool drawn = true;      ///< whether the slice is drawn: see showsAllSlices()
     bool operator==(const SlicePlacement&) const = default;
 };
@@ -47,11 +47,11 @@ struct CoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column, axis or panel
     double zero = 0;        ///< the height of the zero line of the top row, or of the middle of the axes or panels
-    double rowStep = 0;     ///< the distance from the zero line of a row down to that of the next row
+    double rowStep = 0;     ///< the distance from the zero line of a row down to the zero line of the next row
     double columnStep = 0;  ///< for lines: the distance from one vertex to the next in its row
-    double lineStep = 0;    ///< the distance from one of the four lines, axes or panels to the next
+    double lineStep = 0;    ///< the distance from one of the four lines, axes or panels to the next one
     double lineWidth = 0;   ///< the width of all lines and axes
-    /// for lines: the length that represents the circumradius; else: half the height of the plot
+    /// For lines: the length that represents the circumradius; else: half the height of the plot.
     double amplitude = 0;
     bool named = true;  ///< whether there are labels: P0, P1, … below the vertices, or x, y, z, w below the axes
     bool isDensityStrip = false;  ///< whether a density strip is drawn
@@ -82,7 +82,7 @@ struct ProjectionPlacement {
     bool shown = false;
     glm::dvec3 position{0};  ///< the center of the projection, in world space
     double radius = 1;       ///< the radius of a sphere that contains the projection with its balls
-    /// the radius of the object's circumscribed sphere, before the perspective magnifies the object
+    /// The radius of the object's circumscribed sphere, before the perspective magnifies the object.
     double objectRadius = 1;
     double ballRadius = 0, barRadius = 0;  ///< the radii of the balls and bars of the whole object
     bool operator==(const ProjectionPlacement&) const = default;
@@ -137,8 +137,8 @@ struct LayoutObjectInfo {
     std::size_t vertices = 0;
     bool isField = false;
     double originW = 0;  ///< the w of geometry::ObjectInfo::originInFile, which labels add to w
-    /// slicing::relativeBallRadius(): the radius of balls at the thickness 1, as a fraction of the object's
-    /// circumradius
+    /// Slicing::relativeBallRadius(): the radius of balls at the thickness 1, as a fraction of the object's
+    /// circumradius.
     double relativeBallRadius = 0;
     bool operator==(const LayoutObjectInfo&) const = default;
 };

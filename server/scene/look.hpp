@@ -24,7 +24,7 @@ namespace oval4d::scene {
 /// these numbers must not change.
 enum class View : std::uint8_t {
     oval = 0,    ///< all slices, on the oval
-    single = 1,  ///< only the focus slice
+    single = 1,  ///< only the focus slice is shown
     matrix = 2,  ///< the focus slice, beside the matrix of planar sections
     strip = 3,   ///< all slices, at the same size in a straight row
     column = 4,  ///< all slices, at the same size in a straight column
@@ -35,7 +35,7 @@ struct ViewRow {
     std::string_view name;  ///< the name in messages, queries and on the command line
     View value;
     bool showsAllSlices;  ///< whether the view shows all slices, not only the focus slice
-    /// whether exported drawings of the view are in portrait format (taller than wide)
+    /// Whether exported drawings of the view are in portrait format (taller than wide).
     bool isExportedInPortrait = false;
 };
 inline constexpr auto kViews = text::completeTable<ViewRow>(

@@ -130,7 +130,7 @@ class Picker {
 
   private:
     struct Sizes {
-        double ball, bar;  // the radii of balls and bars in world units; 0 if they are not drawn
+        double ball, bar;  // the radii of balls and bars in world units; 0 if balls or bars are not drawn
         bool faces;
     };
 

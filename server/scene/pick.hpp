@@ -26,7 +26,7 @@ struct PickedElement {
     slicing::Element element;
     PickedIn in = PickedIn::slice;
     std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet; otherwise without meaning
-    /// in slices and in the projection: the distance from the eye along the camera's axis, in world units
+    /// In slices and in the projection: the distance from the eye along the camera's axis, in world units.
     double depth = 0;
 };
 

@@ -30,7 +30,7 @@ namespace oval4d::scene {
 struct ProjectionPartLook {
     double ballRadius = 0, barRadius = 0;  ///< radii in world units; balls or bars with the radius 0 are not drawn
     Color ballColor = 0, barColor = 0;
-    double faceOpacity = 0;  ///< 0 … 1
+    double faceOpacity = 0;  ///< the opacity of faces, 0 … 1
     bool operator==(const ProjectionPartLook&) const = default;
 };
 
@@ -44,7 +44,7 @@ struct ObjectProjection {
     std::vector<std::uint32_t> faceCells;
     std::vector<ProjectionPartLook> parts;  ///< the look of each part of `elements`
     double scale = 1;                       ///< world units per unit of the object
-    /// whether only elements of cells turned away from the eye were left out: see slicing::Projector::lacksSteps()
+    /// Whether only elements of cells turned away from the eye were left out: see slicing::Projector::lacksSteps().
     bool onlyTurnedAwayLeftOut = false;
     /// The filled faces of those parts of `elements` of which pieces (convex polygons) are drawn instead of polygons.
     /// These are part 0 if its polygons need not be convex, and the section of the focus slice if Scene::fill has the
@@ -55,7 +55,7 @@ struct ObjectProjection {
     /// The surface of the focus slice of a field, at its place in the projection.
     struct FocusSurface {
         std::size_t slice;  ///< the index of the focus slice in SliceSet::surfaces
-        /// the scale of the surface, as the projection magnifies its hyperplane: world units per unit of the object
+        /// The scale of the surface, as the projection magnifies its hyperplane: world units per unit of the object.
         double scale;
     };
     std::optional<FocusSurface> focusSurface;  ///< empty if no surfaces are drawn
@@ -102,7 +102,7 @@ struct HistogramAxes {
 /// The complete description of a picture: its layout, its slices, and how everything is drawn.
 struct Scene : PictureLayout {
     const slicing::SliceSet* slices = &slicing::kNoSlices;  ///< never null; must outlive the scene
-    std::string title;                                      ///< the object's name
+    std::string title;                                      ///< the name of the object
     double circumradius = 1;                                ///< the object's circumradius, in the object's units
     Look look;
     Viewport viewport;

@@ -49,7 +49,7 @@ struct SurfaceLook {
         bool caps = false;   ///< whether the caps of the surface are drawn
     };
     std::vector<LevelLook> levels;  ///< from the innermost to the outermost; empty if no surfaces are shown
-    /// with Coloring::w: per slice, a color that replaces the colors of the levels; otherwise empty
+    /// With Coloring::w: per slice, a color that replaces the colors of the levels; otherwise empty.
     std::vector<Color> sliceColors;
     PointColoring pointColoring = PointColoring::none;  ///< the coloring of the points of level sets
     PointColoring capColoring = PointColoring::none;    ///< the coloring of the points of caps: none or value

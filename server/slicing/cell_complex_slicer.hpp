@@ -136,7 +136,7 @@ class CellComplexSlicer {
     // the slice vertex of each slot.
     std::vector<std::uint32_t> slotBegin_, slotPoint_;
     std::vector<std::uint32_t> lyingEdges_;  // the edges of the complex that lie in a hyperplane
-    // per edge of the complex that lies in a hyperplane: the slice edge that it becomes
+    // Per edge of the complex that lies in a hyperplane: the slice edge that it becomes.
     std::vector<std::uint32_t> sliceEdgeOf_;
     // The crossings of all 2-faces; those of 2-face f begin at faceCrossingBegin_[f].
     std::vector<FaceCrossing> faceCrossings_;

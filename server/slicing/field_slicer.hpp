@@ -48,7 +48,8 @@ class FieldSlicer {
 
     parallel::ForkJoin* forkJoin_;
     CellComplexSlicer domains_;
-    std::array<SurfaceExtractor, 2> extractors_;  // one for each of two threads; so is sections_
+    // One extractor for each of two threads; sections_ has one section for each of them.
+    std::array<SurfaceExtractor, 2> extractors_;
     std::array<FieldSection, 2> sections_;
 };
 

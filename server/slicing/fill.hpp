@@ -63,7 +63,7 @@ class FaceFiller {
     // A side of a loop, from its lower to its upper end, in the coordinates (x, y) of the plane of the face.
     struct LoopSide {
         glm::dvec2 low, high;
-        double slope;               // dx/dy
+        double slope;               // the slope of the side, dx/dy
         int winding;                // the change of the winding number across the side, from left to right
         std::uint32_t from, to;     // the levels of the lower and the upper end: indices into levels_
         double middle;              // x at half the height of the current strip (the region between two levels)
@@ -107,16 +107,17 @@ class FaceFiller {
     void close(const ConvexPiece& piece, double top, FilledFaces& out) const;
 
     std::size_t stepsLeft_ = 0;
-    double epsilon_ = 0;  // lengths of at most this count as 0
+    double epsilon_ = 0;  // lengths up to this value are treated as 0
     FaceFrame faceFrame_{};
     std::vector<glm::dvec3> points_;  // the corners of the loops of the current face
     std::vector<LoopSide> sides_;
     std::vector<double> levels_;  // each height y at which a side begins, ends or crosses another, in ascending order
     std::vector<std::uint32_t> waiting_;  // the indices of all sides, sorted by their lower levels
-    // the indices of the sides in the current strip (between two levels), from left to right
+    // The indices of the sides in the current strip (between two levels), from left to right.
     std::vector<std::uint32_t> active_;
-    std::vector<ConvexPiece> open_;       // the pieces that may continue in the next strip
-    std::vector<PieceAtLevel> arrivals_;  // one entry for each open piece from below the current strip, left to right
+    std::vector<ConvexPiece> open_;  // the pieces that may continue in the next strip
+    // The places where open pieces from below arrive at the current strip, from left to right.
+    std::vector<PieceAtLevel> arrivals_;
 };
 
 }  // namespace oval4d::slicing

@@ -51,7 +51,7 @@ using Object = std::variant<PolytopePtr, CloudPtr, FieldPtr, SurfacePtr>;
 enum class SliceContent : std::uint8_t {
     solids,         ///< the sections of cells: a slice has vertices, edges and faces
     curves,         ///< the sections of the 2-faces of an object without cells: a slice has vertices and edges
-    points,         ///< points of the object
+    points,         ///< points of the object (of a point cloud)
     level_surfaces  ///< the surfaces and the fog of a field, in the section of its domain
 };
 
@@ -60,8 +60,8 @@ struct ObjectKindProperties {
     std::string_view noun;  ///< what messages call the object, such as "polytope"
     bool isPlural;          ///< whether `noun` is a plural
     SliceContent slices;    ///< what the slices are made of
-    /// whether a slice contains all points from half a spacing below its hyperplane, included, to half a spacing above
-    /// it, not included; if false, a slice is the section by its hyperplane
+    /// Whether a slice contains all points from half a spacing below its hyperplane, included, to half a spacing above
+    /// it, not included; if false, a slice is the section by its hyperplane.
     bool slicesAreThick;
     bool sectionsHaveNames;  ///< whether SectionNamer names sections of the object
 };

@@ -269,7 +269,8 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
     for (std::size_t i = 0; i < outline_.size(); ++i) {
         const glm::dvec2 corner = outline_[i], side = outline_[(i + 1) % outline_.size()] - corner;
         const double turn = crossProduct(along, side);
-        if (std::abs(turn) <= ProjectedCells::kTinyShift * length * glm::length(side)) continue;  // parallel
+        // The side is parallel to the line.
+        if (std::abs(turn) <= ProjectedCells::kTinyShift * length * glm::length(side)) continue;
         const double place = crossProduct(corner - from, side) / turn;
         const double onSide = crossProduct(corner - from, along) / turn;
         if (place > 0 && place < 1 && onSide >= -kBesideLine && onSide <= 1 + kBesideLine) places_.push_back(place);

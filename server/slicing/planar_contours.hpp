@@ -26,7 +26,7 @@ namespace oval4d::slicing {
 struct PlanarContours {
     std::vector<glm::dvec2> points;  ///< the coordinates of the points along the two axes, in the units of the object
     std::vector<std::uint32_t> begin{0};  ///< per line: the index of its first point; then the number of points
-    std::vector<std::uint32_t> level;     ///< per line: the index in FieldSettings::levels of its level
+    std::vector<std::uint32_t> level;     ///< per line: the index of its level in FieldSettings::levels
 
     std::size_t lineCount() const { return level.size(); }
     /// Returns the points of line i: at least two.
@@ -106,7 +106,7 @@ class PlanarContourTracer {
     std::vector<glm::dvec2> polygon_, cutPolygon_;
     std::vector<glm::dvec3> points_;  // the points at which the function is evaluated; z is 0
     std::vector<float> values_;       // per point of points_: the value of the function
-    // per lattice point: its index in points_, or kNone if it lies outside the domain
+    // Per lattice point: its index in points_, or kNone if it lies outside the domain.
     std::vector<std::uint32_t> latticePoints_;
     // The lattice squares, cut by the domain. cellCorners_ has the indices in points_ of the corners of all cells, and
     // cellBegin_ the index in cellCorners_ of each cell's first corner.

@@ -33,7 +33,7 @@ struct PlanarSection {
     std::vector<std::uint32_t> pointSource;
     /// Per point: the relative radius and the opacity of its ball, as in SliceSet.
     std::vector<float> ballScale, ballOpacity;
-    std::vector<std::array<std::uint32_t, 2>> edges;  ///< per edge: its two points
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< per edge: the indices of its two points
     std::vector<std::uint32_t> edgeSource;
     /// If the edges form one closed polygon: the indices of its points in their order around the polygon. Otherwise
     /// empty.

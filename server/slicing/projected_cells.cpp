@@ -19,7 +19,7 @@ constexpr double kBoxMargin = 1e-7;    // the margin around the bounding boxes o
 constexpr double kLeastExtent = 1e-9;  // a cell whose extent in a direction is less than this hides nothing
 
 constexpr double kLeastSlope = 1e-9;  // the least upward component of the normal of a cell that can hide something
-// as a fraction of a segment: a shorter part of the segment does not count as visible
+// As a fraction of a segment: a shorter part of the segment does not count as visible.
 constexpr double kVisibleGap = 1e-6;
 
 // The corners of a regular tetrahedron with the center 0. For any direction, at least one of these corners is less than

@@ -111,8 +111,8 @@ class ProjectedCells {
     bool exhausted_ = false;
 
     std::uint64_t object_ = 0;  // the serial number of the object to which the next four members belong
-    // the boundaries of all cells; as seen from outside the cells, the triangles are all counterclockwise or all
-    // clockwise
+    // The boundaries of all cells; as seen from outside the cells, the triangles are all counterclockwise or all
+    // clockwise.
     std::vector<Triangle> triangles_;
     // Per cell: the index of its first triangle; then the number of triangles.
     std::vector<std::uint32_t> triangleBegin_;
@@ -129,7 +129,7 @@ class ProjectedCells {
     std::size_t lastHiding_ = 0;             // the index of the last occluder that hid a whole segment
 
     std::vector<double> cuts_;  // where a cell begins or ceases to hide a segment, from 0 to 1
-    // the hidden parts of a segment: their starts and ends, from 0 to 1
+    // The hidden parts of a segment: their starts and ends, from 0 to 1.
     std::vector<std::pair<double, double>> covered_;
 };
 

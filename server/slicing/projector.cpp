@@ -22,7 +22,7 @@ using geometry::kNone;
 // Projector::project()).
 struct ElementSelection {
     const DrawnElements* unhidden;    // the selected elements; if null, `facing` selects elements
-    const std::vector<bool>* facing;  // per cell: whether its elements are selected; if null, all are
+    const std::vector<bool>* facing;  // per cell: whether its elements are selected; if null, all elements are selected
     bool face(const geometry::CellComplex& p, std::size_t f) const {
         if (unhidden != nullptr) return unhidden->faces[f];
         return facing == nullptr || (*facing)[p.faceCells[f][0]] || (*facing)[p.faceCells[f][1]];

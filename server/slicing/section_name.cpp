@@ -91,7 +91,8 @@ struct SectionNamer::Shape {
         findDistancesOf(vertices);
         edges = {distances.front()[1]};
         const std::size_t edgeCount = countEdges(vertices);
-        const std::size_t faces = dimension == 3 ? edgeCount + 2 - vertices.size() : dimension - 1;  // Euler's formula
+        // For a polyhedron, by Euler's formula.
+        const std::size_t faces = dimension == 3 ? edgeCount + 2 - vertices.size() : dimension - 1;
         counts = {vertices.size(), edgeCount, faces};
     }
 
@@ -153,7 +154,7 @@ struct SectionNamer::Family {
     enum class Kind : std::uint8_t { cuboid, prism, antiprism, pyramid, bipyramid };
 
     Kind kind;
-    polytopes::RegularPolygon base;  // a square for cuboids
+    polytopes::RegularPolygon base;  // the base of the polyhedra; a square for cuboids
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
 

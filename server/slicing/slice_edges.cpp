@@ -43,7 +43,7 @@ std::size_t countInComplex(const geometry::CellComplex& complex, const geometry:
     std::vector<double> sorted = planes.listed;
     std::ranges::sort(sorted);
     const glm::dmat4 turned = orientation.matrix();
-    std::vector<HyperplaneCounts> counts;  // one entry per vertex
+    std::vector<HyperplaneCounts> counts;  // one entry per vertex of the complex
     counts.reserve(complex.vertices.size());
     const double tolerance = kOnPlaneTolerance * complex.circumradius;
     for (const glm::dvec4& vertex : complex.vertices)

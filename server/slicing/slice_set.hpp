@@ -59,8 +59,8 @@ struct SliceSet {
     std::vector<std::uint32_t> corners;  ///< the loop of each face: its vertices, counterclockwise seen from outside
     std::vector<std::uint32_t> cornerEdges;  ///< entry i is the slice edge from corner i to the next corner of the face
     std::vector<std::uint32_t> faceSource;
-    std::vector<SliceSurface> surfaces;  ///< for a field: one per slice; else empty
-    std::vector<SliceFog> fogs;          ///< for a field with fog: one per slice; else empty
+    std::vector<SliceSurface> surfaces;  ///< for a field: one entry per slice; otherwise empty
+    std::vector<SliceFog> fogs;          ///< for a field with fog: one entry per slice; otherwise empty
 
     std::size_t vertexCount(int slice) const { return vertexBegin[slice + 1] - vertexBegin[slice]; }
     std::size_t edgeCount(int slice) const { return edgeBegin[slice + 1] - edgeBegin[slice]; }

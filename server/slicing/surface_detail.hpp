@@ -13,7 +13,7 @@ namespace oval4d::slicing {
 /// objects.
 enum class Quality : std::uint8_t {
     draft,  ///< coarser surfaces, for a picture that a better one soon replaces
-    full,   ///< for any picture that is not a draft
+    full,   ///< the quality of any picture that is not a draft
     file,   ///< finer surfaces, for exported files
 };
 

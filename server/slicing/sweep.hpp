@@ -80,15 +80,16 @@ class Sweep {
     bool writeFaces(SliceCounts at, SliceSet& out) const;
 
     PlanesBelowVertices planesBelow_;
-    SliceCounts size_;  // the result of maxSize()
+    SliceCounts size_;  // the result of maxSize(): an upper bound of the total size of the slices
     int first_ = 0;     // the number that the slice in the hyperplane with the index 0 has in `out`
     ActiveList edges_, faces_, cells_;
-    std::vector<PlaneRange> faceSpan_;      // per 2-face: the range of hyperplanes that cut it
-    std::vector<VerticesMet> verticesMet_;  // per hyperplane: whether vertices lie in it, or just below it
+    std::vector<PlaneRange> faceSpan_;  // per 2-face: the range of the hyperplanes that cut it
+    // Per hyperplane: whether vertices lie in it, or between it and the next lower hyperplane.
+    std::vector<VerticesMet> verticesMet_;
     // The indices of the hyperplanes at which elements may become active or inactive: 0, and the indices of all other
     // hyperplanes whose entry in verticesMet_ is not `none`. The last entry is the number of hyperplanes.
     std::vector<int> structureChanges_;
-    std::vector<Line> line_;                // per active edge: the line through it
+    std::vector<Line> line_;                // per active edge: the straight line through it
     std::vector<std::uint32_t> vertex_;     // per active edge: the index of its slice vertex within the slice
     std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: the index of its slice edge within the slice
     // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on the polytope edge edgeOfEnd_[2 f], where

@@ -38,8 +38,9 @@ class ConvexShapeCollector {
     void paintFaces(const SliceRef& slice, Side side, ShapeBatch& out);
     void paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out);
 
-    std::vector<std::uint32_t> placementOrder_;          // the indices of the visible slices, from far to near
-    std::vector<glm::vec3> points_, corners_, normals_;  // in view coordinates
+    std::vector<std::uint32_t> placementOrder_;  // the indices of the visible slices, from far to near
+    // The points and normals of the current slice and the corners of the current face, in view coordinates.
+    std::vector<glm::vec3> points_, corners_, normals_;
     std::vector<Side> faceSide_, edgeSide_, vertexSide_;
     // order_: the vertices from far to near. rank_: per vertex, its index in order_.
     std::vector<std::uint32_t> order_, rank_;

@@ -41,8 +41,9 @@ class NonconvexShapeCollector {
     void addShape(const SliceRef& slice, const SortedShape& item, const SkeletonStyle& skeleton, ShapeBatch& out);
     void addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out);
 
-    std::vector<SliceTransform> transforms_;   // one transform per slice
-    std::vector<glm::vec3> points_, corners_;  // in view coordinates
+    std::vector<SliceTransform> transforms_;  // one transform per slice
+    // The vertices of the current slice and the corners of the current face, in view coordinates.
+    std::vector<glm::vec3> points_, corners_;
     std::vector<SortedShape> faces_, skeleton_, faded_;
 };
 

@@ -33,7 +33,7 @@ struct PatchShading {
     LinearFunction u{}, v{}, halfRadius{}, nearness{};
     glm::vec3 diffuse, specular;  ///< the same as in ShapeVertex
     glm::vec3 color;              ///< R, G and B, 0 … 255
-    std::uint32_t alpha;          ///< 0 … 255
+    std::uint32_t alpha;          ///< the opacity of the patch, 0 … 255
     float bulge;                  ///< the radius of the shape, divided by its distance from the eye
 };
 
@@ -97,7 +97,7 @@ OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, in
 
 /// Eight neighboring pixels of a row.
 struct PixelsOfOneRow {
-    std::ptrdiff_t index;  ///< the index of the first of these pixels in the picture
+    std::ptrdiff_t index;  ///< the index in the picture of the first of the eight pixels
 
     OVAL4D_AVX2 __m256 depths(const float* nearness) const { return _mm256_loadu_ps(nearness + index); }
     OVAL4D_AVX2 void setDepths(float* nearness, __m256 depths) const { _mm256_storeu_ps(nearness + index, depths); }
@@ -111,7 +111,7 @@ struct PixelsOfOneRow {
 
 /// Four neighboring pixels of a row, and four of another row.
 struct PixelsOfTwoRows {
-    std::ptrdiff_t first, second;  ///< the indices in the picture of the first of these pixels in each row
+    std::ptrdiff_t first, second;  ///< the indices in the picture of the first pixel in each of the two rows
 
     OVAL4D_AVX2 __m256 depths(const float* nearness) const {
         return _mm256_set_m128(_mm_loadu_ps(nearness + second), _mm_loadu_ps(nearness + first));
@@ -142,7 +142,7 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
     const auto valueOf = [&](const LinearFunction& f, const __m256& first)
                              OVAL4D_AVX2 { return _mm256_add_ps(first, _mm256_mul_ps(offset, _mm256_set1_ps(f.x))); };
 
-    // N is the component of the normal (u, v, n) toward the eye, and q = 1 − u² − v².
+    // n is the component of the normal (u, v, n) toward the eye, and q = 1 − u² − v².
     __m256 u = zero, v = zero, q = one;
     if constexpr (isRound) {
         u = valueOf(paint.u, start.u);

@@ -20,7 +20,7 @@ struct PatchCorner {
     float x, y;       ///< the position, in pixels from the lower left corner
     float nearness;   ///< 1 / (the distance from the eye along the view axis)
     int row;          ///< the first drawn row whose center is not below the vertex, or the end of the drawn rows
-    glm::vec3 place;  ///< the same as ShapeVertex::place
+    glm::vec3 place;  ///< the same as ShapeVertex::place: u, v and half the radius of the shape
 };
 
 /// A range of rows of the picture: begin … end − 1, counted from the bottom.
@@ -33,7 +33,7 @@ struct PatchCanvas {
     static constexpr int kLanes = 8;  ///< the number of pixels or rows that are computed at a time
 
     int width = 0, height = 0;
-    RowRange rows{0, 0};              ///< the rows that are drawn
+    RowRange rows{0, 0};              ///< the range of rows that are drawn
     std::uint32_t* pixels = nullptr;  ///< the whole picture in RGBA, with the bottom row first
     float* nearness = nullptr;        ///< the depth buffer of the whole picture (see kCoverageBits)
     /// In row y, the current patch covers the pixels left[y] … right[y] − 1. The arrays have kLanes more entries than

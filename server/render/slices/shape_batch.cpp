@@ -110,7 +110,7 @@ void ShapeBatch::addBall(const glm::vec3& center, float radius, scene::Color col
 void ShapeBatch::addBarFromFarEnd(const glm::vec3& from, const glm::vec3& to, float radius, scene::Color color,
                                   float opacity) {
     if (from.z > -radius || to.z > -radius) return;
-    // N is the normal of the plane through the eye and the axis of the bar. The silhouette of the bar consists of two
+    // n is the normal of the plane through the eye and the axis of the bar. The silhouette of the bar consists of two
     // lines parallel to the axis.
     const glm::vec3 axis = to - from;
     const glm::vec3 n = glm::cross(from, to);

@@ -31,7 +31,7 @@ struct ShapeVertex {
     /// outer edges.
     glm::vec3 place;
     glm::vec3 diffuse;    ///< X·L, Y·L, Z·L, times the diffuse intensity
-    glm::vec3 specular;   ///< X·H, Y·H, Z·H
+    glm::vec3 specular;   ///< the dot products X·H, Y·H and Z·H of the axes with the half vector H
     std::uint32_t color;  ///< the color, as returned by rgba()
 };
 

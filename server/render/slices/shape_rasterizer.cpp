@@ -44,9 +44,10 @@ struct ShapeRasterizer::Impl {
     /// The patches or the triangles that one call of add() has added, or the clearing that one call of
     /// addDepthClearing() has added.
     struct AddedShapes {
-        const ShapeBatch* shapes = nullptr;  // null for triangles
+        const ShapeBatch* shapes = nullptr;  // the patches; null if triangles or a clearing were added
         DepthUse depth = DepthUse::unused;
-        const SurfaceRasterizer* surfaces = nullptr;    // null for patches
+        // The surfaces of the triangles; null if patches or a clearing were added.
+        const SurfaceRasterizer* surfaces = nullptr;
         std::span<const std::uint32_t> triangles = {};  // three indices of vertices for each triangle
         SurfaceRasterizer::Blending blending = SurfaceRasterizer::Blending::none;
         PixelArea cleared{{0, 0}, {0, 0}};  // for a clearing: where depths are cleared

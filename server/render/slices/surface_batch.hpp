@@ -79,7 +79,8 @@ class SurfaceBatch {
     std::vector<Place> order_;  // the places of the slices, from the farthest to the nearest
     std::vector<std::size_t> translucentEnds_;
     std::vector<glm::vec3> points_, normals_;  // the points and normals of the current slice, in view coordinates
-    std::vector<std::uint32_t> number_;        // per point of the slice: the index in vertices_ of its vertex, or kNone
+    // Per point of the slice: the index in vertices_ of the vertex made for the point, or kNone.
+    std::vector<std::uint32_t> number_;
     // Per point of the slice: the index in vertices_ of the vertex that was last made for a cap at this point, or
     // kNone.
     std::vector<std::uint32_t> capNumber_;
@@ -88,8 +89,9 @@ class SurfaceBatch {
     std::vector<std::uint32_t> opaqueIndices_, translucentIndices_, facing_, fringes_;
     std::size_t fringesBegin_ = 0;
     std::vector<std::uint32_t> front_;  // the indices of the triangles of the current slice and level that face the eye
-    std::vector<std::uint8_t> touchesBack_;  // per point: 1 if it belongs to a triangle that faces away from the eye
-    std::vector<RimEdge> silhouette_;        // the edges of the silhouette of the current level in the current slice
+    // Per point: 1 if the point belongs to a triangle that faces away from the eye, else 0.
+    std::vector<std::uint8_t> touchesBack_;
+    std::vector<RimEdge> silhouette_;  // the edges of the silhouette of the current level in the current slice
     // Per point of the silhouette: a vector that points away from the surface, in the picture.
     std::vector<glm::vec2> outward_;
 };

@@ -62,7 +62,7 @@ class SurfaceRasterizer {
 
     const SurfaceBatch* surfaces_ = nullptr;
     scene::Viewport viewport_;
-    std::vector<LitVertex> points_;  // one per vertex of surfaces_
+    std::vector<LitVertex> points_;  // one lit vertex for each vertex of surfaces_
 };
 
 }  // namespace oval4d::render

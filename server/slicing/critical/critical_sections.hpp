@@ -52,7 +52,7 @@ struct CriticalSection {
     SectionChange change = SectionChange::vertices;
     std::size_t vertices = 0;    ///< the number of the object's vertices or points with this w; 0 for a field
     std::size_t levelIndex = 0;  ///< for a field: the index of the level whose body changes
-    /// for a field: the topology of the section just below w, and just above it
+    /// For a field: the topology of the section just below w, and just above it.
     SectionTopology before = {}, after = {};
 };
 

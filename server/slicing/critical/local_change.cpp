@@ -16,12 +16,12 @@ constexpr int kWindowSide = LocalChangeSearch::kSide, kWindowMiddle = kWindowSid
 constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWindowSide,
                       kWindowPoints = kWindowLayer * kWindowSide;
 constexpr int kMaxSamplings = 600;  // how often one search may sample a window
-// how many of the points that change sides are tried as the middle of the next window
+// How many of the points that change sides are tried as the middle of the next window.
 constexpr std::size_t kMaxTriedPoints = 8;
 // Points less than this many lattice steps from the boundary of a window are not in its interior.
 constexpr int kWindowMargin = 2;
 constexpr double kFirstPrecision = 0.01;  // the error of w in the first window, as a fraction of SearchStart::tolerance
-// the greatest distance in w of a change in a window, divided by that in the next window
+// The greatest distance in w of a change in a window, divided by that in the next window.
 constexpr double kReachShrink = 2;
 constexpr int kNeededWindows = 3;  // the number of windows in which a change must be found to count
 

@@ -71,7 +71,7 @@ CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t
         if ((alternating >> f & 1U) != 0 && std::ranges::all_of(edges, [&](std::uint8_t e) {
                 return result.patchOfEdge[e] == result.patchOfEdge[edges[0]];
             })) {
-            result.mergingFace = f;  // a test checks that no case has two such faces
+            result.mergingFace = f;  // no case has two such faces; a test checks this
         }
     }
     return result;

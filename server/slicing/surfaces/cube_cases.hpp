@@ -29,7 +29,7 @@ struct CubeCase {
     static constexpr std::uint8_t kNoFace = 0xff;
 
     std::uint8_t patches = 0;  ///< the number of patches, 0 … 4
-    /// per edge: the index of its patch; kNoPatch if both ends are on the same side of the surface
+    /// Per edge: the index of its patch; kNoPatch if both ends are on the same side of the surface.
     std::array<std::uint8_t, 12> patchOfEdge{};
     /// The face of the cube whose corners are alternately inside and outside, and whose four edges belong to the same
     /// patch; kNoFace if there is no such face. If the face is also the mergingFace of the neighboring cube that shares

@@ -21,11 +21,12 @@ struct FieldSection {
     };
     static constexpr std::size_t kMaxWalls = 8;
 
-    glm::dvec4 origin{0};              ///< the point x = y = z = 0, in the function's coordinates
-    std::array<glm::dvec4, 3> axes{};  ///< one unit of x, of y and of z, as vectors in the function's coordinates
-    glm::dvec4 normal{0};              ///< one unit of w, as a vector in the function's coordinates
-    std::vector<HalfSpace> walls;      ///< at most kMaxWalls half-spaces, whose intersection is the slice of the domain
-    glm::dvec3 min{0}, max{0};         ///< the corners of a box that contains the slice of the domain
+    glm::dvec4 origin{0};  ///< the point x = y = z = 0, in the function's coordinates
+    /// The vectors of length 1 along x, y and z of the slice, in the function's coordinates.
+    std::array<glm::dvec4, 3> axes{};
+    glm::dvec4 normal{0};          ///< the vector of length 1 along w, in the function's coordinates
+    std::vector<HalfSpace> walls;  ///< at most kMaxWalls half-spaces, whose intersection is the slice of the domain
+    glm::dvec3 min{0}, max{0};     ///< the corners of a box that contains the slice of the domain
 };
 
 }  // namespace oval4d::slicing

@@ -18,8 +18,9 @@ struct SliceSurface {
     /// The bit of SliceSurface::levelAndCap that marks the triangles of caps.
     static constexpr std::uint8_t kCap = 0x80;
 
-    std::vector<glm::vec3> points;   ///< x, y and z of each point, in the units of the object
-    std::vector<glm::vec3> normals;  ///< per point: the outward unit normal of its level set; meaningless on caps
+    std::vector<glm::vec3> points;  ///< x, y and z of each point, in the units of the object
+    /// Per point: the outward unit normal of the point's level set; without meaning on caps.
+    std::vector<glm::vec3> normals;
     /// Per point: the distance by which the level set moves along its outward normal per unit of w. The number is
     /// positive where the body grows with w, negative where it shrinks, and infinite where the level set is tangent to
     /// the hyperplane.

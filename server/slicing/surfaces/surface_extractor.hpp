@@ -69,7 +69,7 @@ class SurfaceExtractor {
 
     struct Evaluation;
     struct LatticeBlock {
-        bool isActive = false;   // whether it may contain a surface
+        bool isActive = false;   // whether the block may contain a surface
         std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that the block may touch or lie beyond
         glm::u8vec3 needed{0};   // how many points along each axis are sampled, from the block's lower end on
         bool isSampled() const { return needed.x != 0; }
@@ -79,7 +79,7 @@ class SurfaceExtractor {
         std::uint32_t at;     // the lattice index of corner 0 of the cube
         std::uint8_t inside;  // a bit for each corner: whether the corner is inside the body
         bool joined;          // whether the case of the cube is joinedCubeCase(inside), not cubeCase(inside)
-        // for the edges from corner 0 along x, y and z: 1 if a cap crosses the edge, else 0
+        // For the edges from corner 0 along x, y and z: 1 if a cap crosses the edge, else 0.
         std::array<std::uint8_t, 3> cap;
         std::uint32_t firstPoint;  // the index in positions_ of the first of the cube's points
     };
@@ -91,7 +91,7 @@ class SurfaceExtractor {
     // A place where the surface crosses an edge of the lattice.
     struct LatticeEdgeCrossing {
         glm::dvec3 position;
-        std::uint16_t constraint;  // the constraint mask (see kWalls) of this place
+        std::uint16_t constraint;  // the constraint mask (see kWalls) of the place: on what the place must lie
     };
 
     using ExtentsTowardWalls = std::array<double, FieldSection::kMaxWalls>;
@@ -158,11 +158,11 @@ class SurfaceExtractor {
     glm::ivec3 base_{0};           // the coordinates of the lattice point (0, 0, 0), in lattice steps
     glm::ivec3 blockCount_{0};     // the number of blocks along each axis, with an inactive block at the upper end
     glm::ivec3 points_{0};         // the numbers of lattice points along each axis
-    // the lattice indices of a cube's corners, minus that of its corner 0
+    // The lattice indices of a cube's corners, minus that of its corner 0.
     std::array<std::uint32_t, 8> cornerOffsets_{};
     std::size_t capacity_ = 0;         // the number of elements of each of the next three arrays
     std::unique_ptr<float[]> values_;  // per lattice point of a sampled block: the value of the function
-    // per lattice point: a bit for each level, set if the point is inside the level's body
+    // Per lattice point: a bit for each level, set if the point is inside the level's body.
     std::unique_ptr<std::uint8_t[]> inside_;
     // Per lattice point: the index in cubes_ of the cube whose corner 0 is this point.
     std::unique_ptr<std::uint32_t[]> cubeAt_;

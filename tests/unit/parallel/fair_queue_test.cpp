@@ -246,7 +246,8 @@ TEST(FairQueue, LongJobsAreNotStarved) {
         ASSERT_TRUE(pool.post(jobQueue, 1s, [&] { done = pool.now(); }));
         pool.run(30s);
         EXPECT_GT(done, 0s);
-        EXPECT_LE(done, 5s + 11s + 1s);  // on one thread, each of the ten other clients may first get the same time
+        // On one thread, each of the ten other clients may get the same time before the long job.
+        EXPECT_LE(done, 5s + 11s + 1s);
     }
 }
 

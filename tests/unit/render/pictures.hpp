@@ -44,7 +44,7 @@ inline int difference(const Rgb& a, const Rgb& b) {
 struct Subject {
     std::shared_ptr<const polytopes::Polytope> polytope;
     slicing::SliceSet slices;
-    scene::Scene scene;  // refers to `slices`
+    scene::Scene scene;  // the scene refers to `slices`
 
     Subject(const char* name, const geometry::Rotation& orientation, int count, const scene::Look& look,
             scene::Viewport viewport)
@@ -77,7 +77,7 @@ struct HandMade {
     static constexpr int kSize = 201;
     static constexpr double kUnit = 100;
     slicing::SliceSet slices;
-    scene::Scene scene;  // refers to `slices`
+    scene::Scene scene;  // the scene refers to `slices`
 
     explicit HandMade(std::vector<glm::dvec3> vertices) {
         slices.planes = {0, 1, 1};

@@ -29,7 +29,8 @@ std::vector<std::unique_ptr<Renderer>> bothRenderers() {
 /// Counts the pixels at which a picture shows both an opaque part of a slice and a part of the projection.
 struct Overlap {
     std::size_t pixels = 0;
-    std::size_t changed = 0;  ///< the number of these pixels that differ from the picture without the projection
+    /// How many of the pixels counted in `pixels` differ from the picture without the projection.
+    std::size_t changed = 0;
 };
 
 /// Adds the overlap in the picture of a scene to `out`. The scene must have a transparent background.

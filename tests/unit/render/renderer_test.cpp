@@ -208,7 +208,7 @@ TEST_F(Pictures, ShowNothingOfEarlierPictures) {
         return Subject("24-cell", randomRotation(12), 21, look, viewport);
     };
     for (const ShapeBackend backend : {ShapeBackend::fastest, ShapeBackend::open_gl}) {
-        std::vector<image::Image> wanted;  // each drawn by a renderer that has drawn nothing else
+        std::vector<image::Image> wanted;  // each picture is drawn by a renderer that has drawn nothing else
         for (const Later& example : examples) {
             Renderer fresh(fontFile(), backend);
             wanted.push_back(subjectOf(example).draw(fresh));

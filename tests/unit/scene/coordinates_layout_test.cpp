@@ -21,7 +21,7 @@ TEST(Coordinates, holdEveryVertexInsideTheViewport) {
         EXPECT_LE(c.left + c.columnStep * c.perRow, 1280.0 / 720 + 1e-9);
         EXPECT_LE(c.left + 3 * c.lineStep + c.lineWidth, 1280.0 / 720);
         EXPECT_LE(c.isDensityStrip ? 0 : 4 * c.lineStep, c.columnStep);
-        EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // at least about one pixel wide
+        EXPECT_GT(c.lineWidth * 720, 0.7) << entry.name;  // lines must be at least about one pixel wide
         EXPECT_GE(c.zero - c.amplitude - (c.rows - 1) * c.rowStep, 0);
         EXPECT_LT(c.zero + c.amplitude, 0.3);
     }

@@ -75,7 +75,7 @@ class DirectedEdges {
         }
     }
 
-    std::vector<Edge> edges_;  // sorted
+    std::vector<Edge> edges_;  // the directed edges in ascending order
 };
 
 }  // namespace oval4d::support

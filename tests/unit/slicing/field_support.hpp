@@ -80,7 +80,8 @@ inline fields::Field testField(TestFunction::Callable f, double lipschitz, const
     return fields::makeField("test", std::make_shared<TestFunction>(std::move(f), lipschitz), box);
 }
 
-/// Returns an array with the number of samples `shape` that has the values of `field` in its box.
+/// Returns a field that is an array with `shape` samples along its axes. The samples are the values of `field` in its
+/// box.
 inline fields::Field sampledField(const fields::Field& field, const fields::Shape& shape) {
     const fields::Box& box = field.box;
     const auto at = [&](int axis, std::size_t i) {

@@ -107,9 +107,10 @@ TEST(Sections, ofTheTesseractVertexFirst) {
     const polytopes::Polytope& p = named("8-cell");
     const geometry::Rotation orientation = ontoW({1, 1, 1, 1});
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, 2)), (ElementsOfSlice{1, 0, 0}));
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1.5)), (ElementsOfSlice{4, 6, 4}));  // tetrahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1.5)), (ElementsOfSlice{4, 6, 4}));  // the slice is a tetrahedron
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, 1)), (ElementsOfSlice{4, 6, 4}));    // a section through four vertices
-    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 0.5)), (ElementsOfSlice{12, 18, 8}));  // truncated tetrahedron
+    // The slice is a truncated tetrahedron.
+    EXPECT_EQ(sliceCounts(cutAt(p, orientation, 0.5)), (ElementsOfSlice{12, 18, 8}));
     const SliceSet middle = cutAt(p, orientation, 0);
     EXPECT_EQ(sliceCounts(middle), (ElementsOfSlice{6, 12, 8}));  // a regular octahedron through six vertices
     EXPECT_NEAR(volumeOf(middle, 0), std::numbers::sqrt2 / 3 * std::pow(2 * std::numbers::sqrt2, 3), 1e-10);
@@ -128,11 +129,12 @@ TEST(Sections, ofThe16CellAtZeroIsAnOctahedronOfSixVertices) {
 
 TEST(Sections, ofThe24Cell) {
     const polytopes::Polytope& p = named("24-cell");
-    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 0)), (ElementsOfSlice{14, 24, 12}));  // rhombic dodecahedron
-    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1)), (ElementsOfSlice{8, 12, 6}));    // cube
+    // The slice is a rhombic dodecahedron.
+    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 0)), (ElementsOfSlice{14, 24, 12}));
+    EXPECT_EQ(sliceCounts(cutAt(p, geometry::Rotation(), 1)), (ElementsOfSlice{8, 12, 6}));  // the slice is a cube
     const geometry::Rotation cellFirst = ontoW({1, 1, 0, 0});
     EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, std::sqrt(2))), (ElementsOfSlice{6, 12, 8}));  // the section is a cell
-    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, 0)), (ElementsOfSlice{12, 24, 14}));           // cuboctahedron
+    EXPECT_EQ(sliceCounts(cutAt(p, cellFirst, 0)), (ElementsOfSlice{12, 24, 14}));  // the slice is a cuboctahedron
 }
 
 TEST(Sections, ofThe600CellVertexFirstHaveTheKnownLayers) {
@@ -151,7 +153,7 @@ TEST(Sections, ofThe600CellVertexFirstHaveTheKnownLayers) {
         }
     }
     EXPECT_EQ(sliceCounts(cutAt(p, orientation, r * phi / 2)),
-              (ElementsOfSlice{12, 30, 20}));  // an icosahedron; its faces are 2-faces of the polytope
+              (ElementsOfSlice{12, 30, 20}));  // the slice is an icosahedron; its faces are 2-faces of the polytope
 }
 
 // The sections in the third and sixth figures of Kageyama's paper are exact. After R_yw(π/2), two vertices lie in w =

@@ -41,7 +41,7 @@ std::ostream& operator<<(std::ostream& out, const SurfaceExample& example) { ret
 /// The slices of a field whose bodies have holes and reach the boundary of its domain, and the scene of these slices.
 struct FieldSubject {
     slicing::SliceSet slices;
-    scene::Scene scene;  // refers to `slices`
+    scene::Scene scene;  // the scene refers to `slices`
 
     FieldSubject(const SurfaceExample& example, unsigned seed) {
         auto field = fields::fieldFromFormula("test", "sin(3*x)*cos(2*y) + (z^2 - w^2)/4", fields::kFormulaBox, "x+y");
