@@ -26,7 +26,7 @@ namespace oval4d::scene {
 
 /// The purpose for which a scene is composed.
 enum class ScenePurpose : std::uint8_t {
-    drawing,  ///< to be drawn or written
+    drawing,  ///< the scene is drawn, or written to a message or file
     /// Only for pickElement(), pickLevel() and matrixPointAt(), which need no filled faces, tones or histograms.
     pointing,
 };

@@ -137,8 +137,8 @@ struct LayoutObjectInfo {
     std::size_t vertices = 0;
     bool isField = false;
     double originW = 0;  ///< the w of geometry::ObjectInfo::originInFile, which labels add to w
-    /// Slicing::relativeBallRadius(): the radius of balls at the thickness 1, as a fraction of the object's
-    /// circumradius.
+    /// The radius of balls at the thickness 1, as a fraction of the object's circumradius: the result of
+    /// slicing::relativeBallRadius().
     double relativeBallRadius = 0;
     bool operator==(const LayoutObjectInfo&) const = default;
 };

@@ -28,7 +28,8 @@ namespace oval4d::scene {
 
 /// The look of one part of the projection: the whole object, or the section of the object by one hyperplane.
 struct ProjectionPartLook {
-    double ballRadius = 0, barRadius = 0;  ///< radii in world units; balls or bars with the radius 0 are not drawn
+    /// The radii of balls and bars in world units; those with the radius 0 are not drawn.
+    double ballRadius = 0, barRadius = 0;
     Color ballColor = 0, barColor = 0;
     double faceOpacity = 0;  ///< the opacity of faces, 0 … 1
     bool operator==(const ProjectionPartLook&) const = default;
@@ -101,9 +102,10 @@ struct HistogramAxes {
 
 /// The complete description of a picture: its layout, its slices, and how everything is drawn.
 struct Scene : PictureLayout {
-    const slicing::SliceSet* slices = &slicing::kNoSlices;  ///< never null; must outlive the scene
-    std::string title;                                      ///< the name of the object
-    double circumradius = 1;                                ///< the object's circumradius, in the object's units
+    /// The slices that the scene shows; never null; they must outlive the scene.
+    const slicing::SliceSet* slices = &slicing::kNoSlices;
+    std::string title;        ///< the name of the object
+    double circumradius = 1;  ///< the object's circumradius, in the object's units
     Look look;
     Viewport viewport;
     double scale = 1;  ///< world units per unit of the object

@@ -45,16 +45,17 @@ struct SurfaceLook {
     struct LevelLook {
         std::size_t index = 0;  ///< the index of the level in FieldSettings::levels
         Color color = 0;
-        double opacity = 1;  ///< 0 … 1
+        double opacity = 1;  ///< the opacity of the surface, 0 … 1
         bool caps = false;   ///< whether the caps of the surface are drawn
     };
-    std::vector<LevelLook> levels;  ///< from the innermost to the outermost; empty if no surfaces are shown
+    /// The shown levels, from the innermost to the outermost; empty if no surfaces are shown.
+    std::vector<LevelLook> levels;
     /// With Coloring::w: per slice, a color that replaces the colors of the levels; otherwise empty.
     std::vector<Color> sliceColors;
     PointColoring pointColoring = PointColoring::none;  ///< the coloring of the points of level sets
     PointColoring capColoring = PointColoring::none;    ///< the coloring of the points of caps: none or value
     ValueScale scale;              ///< valid if pointColoring or capColoring is PointColoring::value
-    Scheme scheme = Scheme::dark;  ///< the scheme of all these colors
+    Scheme scheme = Scheme::dark;  ///< the color scheme: for a dark or a light background
 
     /// Removes all levels, so that no surfaces are shown.
     void clear() {

@@ -110,7 +110,7 @@ void CellComplexSlicer::locateVertices(const geometry::CellComplex& complex, con
         const double level = (out.rotatedVertices[v].w - out.planes.offset) * inverse - out.planes.first;
         const double above = std::clamp(level - tolerance, 0.0, count);
         const auto whole = static_cast<std::int32_t>(above);
-        below_[v] = whole + (above > whole ? 1 : 0);  // rounded up
+        below_[v] = whole + (above > whole ? 1 : 0);  // the number of hyperplanes below the vertex: `above`, rounded up
         upTo_[v] = static_cast<std::int32_t>(std::clamp(level + tolerance + 1, 0.0, count));
         anyOnPlane_ |= below_[v] != upTo_[v];
     }

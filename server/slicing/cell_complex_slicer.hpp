@@ -41,7 +41,8 @@ class CellComplexSlicer {
   private:
     static constexpr std::int32_t kNoPlane = -1;
     static constexpr std::uint32_t kNone = 0xffffffffU;
-    static constexpr std::uint32_t kNewEdge = 0xfffffffeU;  // a value of FaceCrossing::edge
+    // A value of FaceCrossing::edge: the segment becomes a new slice edge.
+    static constexpr std::uint32_t kNewEdge = 0xfffffffeU;
 
     // A range of hyperplanes: those with the indices in [from, to). The range is empty if to ≤ from.
     struct PlaneRange {
@@ -122,7 +123,7 @@ class CellComplexSlicer {
     // The slices in the at most two hyperplanes that touch the polytope from one side.
     std::array<SliceSet, 2> singles_;
     std::vector<SliceSet*> touching_;               // per hyperplane: the slice of singles_ in this hyperplane, or null
-    std::vector<std::int32_t> allBelow_, allUpTo_;  // below_ and upTo_ for all hyperplanes, during cutTangentPlanes()
+    std::vector<std::int32_t> allBelow_, allUpTo_;  // during cutTangentPlanes(): below_ and upTo_ for all hyperplanes
     // below_ has, per vertex, the number of hyperplanes strictly below the vertex. upTo_ has, per vertex, the number of
     // hyperplanes below or through it. If a vertex lies in a hyperplane, its two numbers differ, and its number in
     // below_ is the index of this hyperplane.

@@ -24,7 +24,7 @@ static_assert(CoordinateValueHistograms::kRows < kNoRow);
 // Returns the number of points at which `function` is evaluated. A slower function is evaluated at fewer points, so
 // that the evaluation always takes about the same time.
 std::size_t pointCount(const fields::ScalarFunction& function) {
-    constexpr double kTime = 2e7;  // nanoseconds
+    constexpr double kTime = 2e7;  // the time for all evaluations, in nanoseconds
     const double count = kTime / std::max(function.cost().value, 1.0);
     constexpr auto kLeast = static_cast<double>(CoordinateValueHistograms::kMinPoints);
     constexpr auto kMost = static_cast<double>(CoordinateValueHistograms::kMaxPoints);
@@ -92,7 +92,7 @@ void CoordinateValueHistograms::assignRows() {
     countedPoints_ = 0;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const double value = values_[i];
-        const bool isInside = value >= range_.least && value <= range_.greatest;  // false for NaN
+        const bool isInside = value >= range_.least && value <= range_.greatest;  // false if the value is NaN
         rowOf_[i] = isInside ? static_cast<std::uint8_t>(std::lround((range_.greatest - value) * scale)) : kNoRow;
         countedPoints_ += isInside ? 1 : 0;
     }

@@ -13,8 +13,8 @@ namespace oval4d::slicing {
 namespace {
 
 // Tolerances, as fractions of the size of the projection. They are large compared with rounding errors.
-// a point at most this far below the hyperplane of a cell is not hidden by the cell
-constexpr double kDepthTolerance = 3e-9;
+constexpr double kDepthTolerance =
+    3e-9;                              // a point at most this far below a cell's hyperplane is not hidden by the cell
 constexpr double kBoxMargin = 1e-7;    // the margin around the bounding boxes of triangles
 constexpr double kLeastExtent = 1e-9;  // a cell whose extent in a direction is less than this hides nothing
 

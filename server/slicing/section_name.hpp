@@ -19,8 +19,9 @@ namespace oval4d::slicing {
 /// The two names of the section of an object by a hyperplane. The names may differ: the slice also has vertices at the
 /// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
 struct SectionNamePair {
-    std::string_view slice;     ///< the result of SectionNamer::nameOfSlice()
-    std::string_view vertices;  ///< the result of SectionNamer::nameOfObjectVertices()
+    std::string_view slice;  ///< the name of the slice: the result of SectionNamer::nameOfSlice()
+    /// The name of the hull of the vertices: the result of SectionNamer::nameOfObjectVertices().
+    std::string_view vertices;
     bool operator==(const SectionNamePair&) const = default;
 };
 

@@ -63,7 +63,7 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOpti
 // through the lower facet would have no lattice points below it, because points in the hyperplane count as above it. A
 // hyperplane through the upper facet might have no lattice points above it, because w is rounded.
 double ClosedSurfaceSlicer::movedIntoDomain(double w) const {
-    constexpr double kNear = 1e-9, kParallel = 1e-12;  // relative to the extent of the domain along w
+    constexpr double kNear = 1e-9, kParallel = 1e-12;  // tolerances, relative to the extent of the domain along w
     double least = 0, greatest = 0;
     std::array<double, 4> extents{};  // per side of the domain: its extent along w
     for (std::size_t axis = 0; axis < 4; ++axis) {

@@ -71,7 +71,7 @@ class FieldLattice {
     glm::dvec4 shift_{0};                // the center of the domain, in the same coordinates as sides_
     // [axis][index along the axis]: this coordinate of the lattice point, as the function takes it
     std::array<std::vector<double>, 4> coordinates_;
-    glm::dmat4 fromRises_{1};  // the matrix of gradientOf()
+    glm::dmat4 fromRises_{1};  // maps differences of values along the lattice axes to a gradient (see gradientOf())
     bool positive_ = true;
 };
 

@@ -48,7 +48,7 @@ struct SectionTopology {
 
 /// A critical value of w, and the change of the section there.
 struct CriticalSection {
-    double w = 0;  ///< in the units of the object
+    double w = 0;  ///< the critical value of w, in the units of the object
     SectionChange change = SectionChange::vertices;
     std::size_t vertices = 0;    ///< the number of the object's vertices or points with this w; 0 for a field
     std::size_t levelIndex = 0;  ///< for a field: the index of the level whose body changes
@@ -66,7 +66,7 @@ struct CriticalSections {
     /// this. For other objects, 0. A change of a field is not found if its distance from an end of the range of w is
     /// less than 1/80 of this range.
     double resolution = 0;
-    std::vector<CriticalSection> all;  ///< in ascending order of w
+    std::vector<CriticalSection> all;  ///< all critical values of w, in ascending order
 };
 
 using CriticalSectionsPtr = std::shared_ptr<const CriticalSections>;

@@ -48,7 +48,7 @@ class CriticalSectionsCache {
 
     const std::size_t maxBytes_;
     mutable std::mutex mutex_;          // guards the members below
-    std::list<CachedSections> recent_;  // the most recently used entry first
+    std::list<CachedSections> recent_;  // all entries, the most recently used entry first
     std::size_t bytes_ = 0;
 };
 

@@ -41,7 +41,7 @@ class LocalChangeSearch {
     /// The kind of change to search for: which parts become more, or fewer, while w increases.
     struct PartCountChange {
         bool ofBody = true;       ///< true: the parts of the body; false: the parts outside of the body
-        bool becomesMore = true;  ///< whether the number of these parts grows
+        bool becomesMore = true;  ///< true: the number of these parts grows; false: it falls
     };
     /// Where to search. Lengths and w are in the units of the object.
     struct SearchStart {
@@ -98,7 +98,7 @@ class LocalChangeSearch {
     PointFlags flags_, otherFlags_;
     std::vector<std::uint32_t> parents_;
     std::vector<float> values_;
-    std::vector<float> x_, y_, z_, w_;  // the coordinates of one layer of points
+    std::vector<float> x_, y_, z_, w_;  // the coordinates of one layer of the window's lattice points
 };
 
 }  // namespace oval4d::slicing
