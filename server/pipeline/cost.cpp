@@ -97,9 +97,9 @@ EstimatedSeconds frameCost(const scene::PictureRequest& picture) {
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
     const double bodies = picture.planes.count * (2e-5 + 1.2e-6 * elementsCut(n));
     const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the estimated number of faces blended at a pixel
-    // The focus slice takes up to half the height of the picture. The other slices of the oval are smaller. Together,
-    // they have a few times as many pixels as the focus slice. So all slices count as kSlices slices of the size of the
-    // focus slice.
+    // The focus slice (the middle one) takes up to half the height of the picture. The other slices of the oval are
+    // smaller. Together, they have a few times as many pixels as the focus slice. So all slices count as kSlices slices
+    // of the size of the focus slice.
     constexpr double kSlices = 4;
     const double cubes = picture.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
     // In full quality, the lattice of each slice has at least cubesAcross() cubes across the diameter of the field,

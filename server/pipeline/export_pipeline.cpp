@@ -184,8 +184,8 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
     scene::Composer composer;
     composer.limitFaceFilling(PictureWorkLimits().fillSteps);
     composer.limitOcclusion(limits.occlusionSteps);
-    // A drawing of the focus slice is square. Any other drawing has the proportions of a picture of the default size;
-    // for a tall view, width and height are exchanged.
+    // A drawing of the focus slice (the middle one) is square. Any other drawing has the proportions of a picture of
+    // the default size; for a tall view, width and height are exchanged.
     const bool isSquare = showsSlices && request.contents == exports::ExportContentsKind::focus;
     scene::Viewport viewport;
     if (isSquare) viewport.width = viewport.height;
@@ -193,8 +193,8 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
     const int focus = slices.planes.first + (slices.planes.count - 1) / 2;
     composer.compose(picture.object, picture.orientation, slices, focus, look, viewport, scene, slicing::Quality::file);
     if (element) scene.look.highlight = element;  // set only after compose(), which would color the element differently
-    // The drawing of the focus slice is laid out like the view `single`. If the user's view is `matrix`, the drawing
-    // also shows the focus point, as this view does.
+    // The drawing of the focus slice (the middle one) is laid out like the view `single`. If the user's view is
+    // `matrix`, the drawing also shows the focus point, as this view does.
     if (isSquare && picture.look.view == scene::View::matrix) scene.look.view = scene::View::matrix;
     auto made = exports::exportScene(scene, picture.object, picture.orientation, request, limits, std::move(stop));
     if (auto* error = std::get_if<exports::ExportRefusal>(&made)) {

@@ -51,8 +51,8 @@ class Pipeline {
     Pipeline(std::unique_ptr<raster::Rasterizer> rasterizer, parallel::ForkJoin* forkJoin,
              PictureWorkLimits limits = {});
 
-    /// Returns the section in the focus slice with its two names, for the `state` message: the name of the slice, such
-    /// as "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
+    /// Returns the section in the focus slice (the middle one) with its two names, for the `state` message: the name of
+    /// the slice, such as "icosahedron", and the name of the convex hull of the object's vertices in the slice (see
     /// slicing::SectionNamePair). A name is empty if the section has no such name. `slices` is the result of slice()
     /// for this picture; if it is null, the focus slice is cut. If this section was named last, returns the same names
     /// without finding them again.

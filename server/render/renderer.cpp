@@ -37,8 +37,9 @@ std::string fontFile() {
 
 namespace {
 
-// The minimum size of a batch of patches (see shape_batch.hpp) when convex slices are drawn with OpenGL. Only the last
-// batch may be smaller. While the threads of the driver rasterize one batch, this thread prepares the next batch.
+// The minimum size of a batch of patches (flat polygons, see shape_batch.hpp) when convex slices are drawn with OpenGL.
+// Only the last batch may be smaller. While the threads of the driver rasterize one batch, this thread prepares the
+// next batch.
 constexpr std::size_t kBatchPatches = 2'000;
 
 // If a projection has fewer shapes than this, the thread that prepares the slices also prepares the projection. Waking

@@ -15,7 +15,7 @@ namespace {
 // The number of slices for which the shape of the oval was designed.
 constexpr int kReferenceCount = 21;
 // The shapes of the ovals in wide and in tall pictures. A search found their numbers: those for which the focus slice
-// is largest while neighboring slices hide little of each other.
+// (the middle one) is largest while neighboring slices hide little of each other.
 constexpr Arrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
 constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
 
@@ -24,17 +24,19 @@ constexpr double kLineStep = 2.12;
 // The distance of the eye from a row or column is kSingleDistance plus this multiple of half the length of the row or
 // column. From so far away, the projection is nearly parallel.
 constexpr double kLineDistance = 4;
-// How far the label of the focus slice is below the other labels of a row, in heights of text.
+// How far the label of the focus slice (the middle one) is below the other labels of a row, in heights of text.
 constexpr double kRowFocusDrop = 1.4;
-// How far the label of the focus slice is to the right of the other labels of a column, in heights of text. The
-// distance is needed because the plate behind this label is wider.
+// How far the label of the focus slice (the middle one) is to the right of the other labels of a column, in heights of
+// text. The distance is needed because the plate behind this label is wider.
 constexpr double kColumnFocusDrop = 0.8;
 // In a grid, the gap between a slice and the slice below it, as a multiple of the text height. The gap contains the
 // label of the upper slice.
 constexpr double kGridLabelRoom = 2.3;
-// In a grid, by how much the gap below the focus slice is larger than other gaps, as a multiple of the text height.
+// In a grid, by how much the gap below the focus slice (the middle one) is larger than other gaps, as a multiple of the
+// text height.
 constexpr double kGridFocusRoom = 2.1;
-// In a grid, the greatest width of labels, except that of the focus slice, as a fraction of the column step.
+// In a grid, the greatest width of labels, except that of the focus slice (the middle one), as a fraction of the column
+// step.
 constexpr double kGridLabelWidth = 0.94;
 // The distance of the eye from a grid is kSingleDistance plus this multiple of the distance from the focus slice to the
 // farthest column or row. From so far away, the slices in the corners look nearly like those in the middle.
@@ -140,7 +142,8 @@ Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
     return made;
 }
 
-// Places the projection of the whole object to the right of the focus slice or, in a tall room, above it.
+// Places the projection of the whole object to the right of the focus slice (the middle one) or, in a tall room, above
+// it.
 ProjectionPlacement besideFocusSlice(double reach, double aspect) {
     constexpr double kGap = 0.2;
     const double radius = 1.1 * reach, distance = reach + radius + kGap;
@@ -240,8 +243,9 @@ ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::
         }
         return room;
     };
-    // Along the axis of the parabola, the room for the projection first grows with the distance from the focus slice.
-    // Then it shrinks toward the upper end of the oval. So it has one maximum, which a golden-section search finds.
+    // Along the axis of the parabola, the room for the projection first grows with the distance from the focus slice
+    // (the middle one). Then it shrinks toward the upper end of the oval. So it has one maximum, which a golden-section
+    // search finds.
     constexpr double kGolden = std::numbers::phi - 1;
     constexpr int kSteps = 24;
     double from = 0, to = arrangement.depth;

@@ -73,9 +73,9 @@ struct Arrangement {
     bool labelsAreBeside = false;
     /// If not 0, the width of the room is divided into this number of columns, and labels shrink until they fit into
     /// one column. If the labels are beside the slices, all of them shrink, and the gap between slice and label takes a
-    /// part of the column. If the labels are below the slices, the label of the focus slice keeps its size, because it
-    /// is farther down than the others. If a grid is narrower than the room, the number is that of the columns that the
-    /// room could hold, which may be a fraction.
+    /// part of the column. If the labels are below the slices, the label of the focus slice (the middle one) keeps its
+    /// size, because it is farther down than the others. If a grid is narrower than the room, the number is that of the
+    /// columns that the room could hold, which may be a fraction.
     double labelColumns = 0;
     SliceGrid grid = {};  ///< the grid in which the slices stand; its `count` is 0 if the slices stand on a curve
 
@@ -87,7 +87,7 @@ struct Arrangement {
         if (grid.count > 0) return grid.positionOf(static_cast<int>(std::lround((grid.count - 1) / 2.0 * (1 + u))));
         return glm::dvec3(halfWidth * u, halfHeight * u, -depth * u * u) + 0.0;
     }
-    /// Returns an upper bound of the distance from the focus slice to any other slice.
+    /// Returns an upper bound of the distance from the focus slice (the middle one) to any other slice.
     double maxDistanceFromFocus() const { return depth + halfWidth + halfHeight; }
     /// Returns the radius of a sphere that is assumed to contain the slice with the parameter u, as a fraction of the
     /// circumradius. In a grid, a row, a column or a single place, the result is 1. On a parabola, the sphere is a

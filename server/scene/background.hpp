@@ -18,7 +18,7 @@ inline constexpr auto kSchemes =
 enum class Background : std::uint8_t {
     automatic = 0,    ///< dark or light, as the viewer prefers; dark if the preference is unknown; "auto" in messages
     dark = 1,         ///< a nearly black background
-    light = 2,        ///< a nearly white background, like that of the page in its light scheme
+    light = 2,        ///< a nearly white background, like that of the web page in its light scheme
     white = 3,        ///< a white background, like paper
     transparent = 4,  ///< transparent in PNG files, otherwise white; all other colors are those for `white`
 };

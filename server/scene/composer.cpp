@@ -105,7 +105,7 @@ void Composer::layOutAndChooseDetail(const Object& object, const geometry::Hyper
     // The size in pixels of one unit of the object at the distance 1 from the eye.
     const double unit = scene.camera.focalLength() * viewport.height * scene.sliceRadius / scene.circumradius;
     // In full quality, no lattice is coarser than that of the slices in messages (uniformStep()). On a coarser lattice,
-    // thin bodies in small slices would break into pieces.
+    // the surfaces around thin regions in small slices would break into pieces.
     const double coarsest = quality == slicing::Quality::full ? slicing::uniformStep(scene.circumradius, quality)
                                                               : std::numeric_limits<double>::infinity();
     for (const SlicePlacement& placement : scene.placements) {
@@ -245,7 +245,7 @@ void Composer::layOutIfChanged(const Object& object, const geometry::Hyperplanes
 void Composer::projectObject(const Object& object, const geometry::Rotation& orientation, int focus,
                              std::size_t fillSteps, Scene& out) {
     // The radii of the bars of sections, as multiples of the radius of the object's bars: kSection for the section of
-    // the focus slice, kThinSection for the other sections.
+    // the focus slice (the middle one), kThinSection for the other sections.
     constexpr double kSection = 1.2, kThinSection = 0.4;
     const Look& look = out.look;
     const SliceSet& slices = *out.slices;
@@ -265,8 +265,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.onlyTurnedAwayLeftOut = projector_.lacksSteps();
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     if (!isSurface) {
-        // If a face of a section is a whole 2-face of the object, its source number stands for this 2-face, not for a
-        // cell.
+        // If a face of a section is a whole 2-face of the object, its source number (which says from what it was cut)
+        // stands for this 2-face, not for a cell.
         for (std::uint32_t& cell : projection.faceCells) cell = slicing::coloringCell(object, out.visibilities, cell);
     } else if (out.cellColors.size() == 1) {
         std::ranges::fill(projection.faceCells, 0U);
@@ -274,7 +274,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     projection.fill.clear();
     if (!slicing::hasConvexFaces(object))
         filler_.fill(projection.elements, out.circumradius, projection.fill, fillSteps, 1);
-    // If the faces of the focus slice may cross each other, they are already filled.
+    // If the faces of the focus slice (the middle one) may cross each other, they are already filled.
     projection.fill.faceBegin.resize(projection.elements.faceBegin.size());
     const bool hasFocus = focusSlice >= options.firstSlice && focusSlice < options.endSlice;
     const double magnification = hasFocus ? options.projection.magnification(slices.planes.w(focusSlice)) : 1;

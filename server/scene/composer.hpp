@@ -52,8 +52,8 @@ class Composer {
                  int focus, const Look& look, Viewport viewport, Scene& out,
                  slicing::Quality quality = slicing::Quality::full, ScenePurpose purpose = ScenePurpose::drawing);
 
-    /// Returns the section in the focus slice that compose() has named last, or that was passed to keepSection() last.
-    /// Returns an empty optional if there is none yet.
+    /// Returns the section in the focus slice (the middle one) that compose() has named last, or that was passed to
+    /// keepSection() last. Returns an empty optional if there is none yet.
     const std::optional<slicing::NamedSection>& section() const { return section_; }
     /// Gives compose() the names of a section, so that compose() need not find them.
     void keepSection(const slicing::NamedSection& section) { section_ = section; }
@@ -80,7 +80,7 @@ class Composer {
         bool operator==(const LayoutInput&) const = default;
     };
 
-    // All data that determine the contours in the matrix.
+    // All data that determine the contours of a field in the matrix of planar sections.
     struct ContourInput {
         std::uint64_t object = 0;  // the serial number of the object
         geometry::Rotation orientation;

@@ -27,8 +27,8 @@ class NearestLine {
 
   private:
     // Distances that differ by less than this, in viewport heights, count as equal. Messages contain rounded
-    // coordinates, which change the distances by less than this. So the page, which has the rounded coordinates, finds
-    // the same line.
+    // coordinates, which change the distances by less than this. So the page in the browser, which has the rounded
+    // coordinates, finds the same line.
     static constexpr double kEqual = 1e-6;
     std::size_t vertex_ = 0;
     double distance_ = std::numeric_limits<double>::infinity();

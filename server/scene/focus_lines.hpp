@@ -1,5 +1,5 @@
 #pragma once
-// The lines that show the place of the focus point in the focus slice.
+// The lines that show the place of the focus point in the focus slice (the middle one).
 
 #include <array>
 

@@ -112,9 +112,9 @@ void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, d
         if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
                         overlapsOtherSlice(i, box, camera, toView, aspect)))
             return false;
-        // The labels of slices nearer to the focus slice have been decided before this label. If the other slice at the
-        // same distance from the focus slice has the smaller index, its label has been decided, too. This label must
-        // not overlap a decided label that is kept.
+        // The labels of slices nearer to the focus slice (the middle one) have been decided before this label. If the
+        // other slice at the same distance from the focus slice has the smaller index, its label has been decided, too.
+        // This label must not overlap a decided label that is kept.
         for (std::ptrdiff_t j = std::max<std::ptrdiff_t>(focus - distance, 0);
              j <= std::min(focus + distance, count - 1); ++j) {
             const bool decided = std::abs(j - focus) < distance || j < i;

@@ -34,21 +34,21 @@ class LabelLayout {
     Rect overhang(const Rect& bounds, double scale) const;
 
     /// Places each label on the outer side of the curve on which the slices stand, where there is no neighboring slice.
-    /// Labels are below the focus slice and the slices of a row, beside and somewhat below the slices on the arms of
-    /// the oval, and to the right of the slices of a column.
+    /// Labels are below the focus slice (the middle one) and the slices of a row, beside and somewhat below the slices
+    /// on the arms of the oval, and to the right of the slices of a column.
     void place(const Camera& camera);
 
-    /// Appends the name of the section to the label of the focus slice, if there is room for it in the picture.
-    /// `aspect` is the width of the picture in viewport heights. A label beside its slice grows only to the right, away
-    /// from the slice.
+    /// Appends the name of the section to the label of the focus slice (the middle one), if there is room for it in the
+    /// picture. `aspect` is the width of the picture in viewport heights. A label beside its slice grows only to the
+    /// right, away from the slice.
     void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
 
-    /// Removes labels so that no two of them overlap. Keeps the label of the focus slice and, of the others, at most
-    /// every k-th (see smallestStep()). Also removes a label if it is behind the eye, if it extends beyond the picture,
-    /// or if it overlaps the kept label of a slice nearer to the focus slice. If the viewer has moved the camera
-    /// (`isMoved`), also removes a label in two more cases: if it overlaps another slice or the axes symbol (whose box
-    /// is `axes`), or if it extends below `bottom`, the upper edge of the parallel coordinates, which are drawn below
-    /// the slices.
+    /// Removes labels so that no two of them overlap. Keeps the label of the focus slice (the middle one) and, of the
+    /// others, at most every k-th (see smallestStep()). Also removes a label if it is behind the eye, if it extends
+    /// beyond the picture, or if it overlaps the kept label of a slice nearer to the focus slice. If the viewer has
+    /// moved the camera (`isMoved`), also removes a label in two more cases: if it overlaps another slice or the axes
+    /// symbol (whose box is `axes`), or if it extends below `bottom`, the upper edge of the parallel coordinates, which
+    /// are drawn below the slices.
     void removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
 
   private:
@@ -82,8 +82,8 @@ class LabelLayout {
     glm::dvec2 offsetOf(std::size_t i, double scale) const;
 
     // Returns the box of label i before the viewer moves the camera, in viewport heights from the center of the focus
-    // slice. `scale` is the length in the picture, in viewport heights, of one unit on the plane at distance 1 from the
-    // eye.
+    // slice (the middle one). `scale` is the length in the picture, in viewport heights, of one unit on the plane at
+    // distance 1 from the eye.
     Box labelBoxInInitialView(std::size_t i, double scale) const;
 
     // Returns the place in the picture of the point p in view coordinates, in viewport heights from the lower left
@@ -102,9 +102,9 @@ class LabelLayout {
     // in viewport heights.
     Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
 
-    // Returns the smallest k for which no two labels overlap if only every k-th label, counted from the focus slice, is
-    // kept. The camera is at its first place, before the viewer moves it. `scale` is the length in the picture, in
-    // viewport heights, of one unit on the plane at distance 1 from the eye.
+    // Returns the smallest k for which no two labels overlap if only every k-th label, counted from the focus slice
+    // (the middle one), is kept. The camera is at its first place, before the viewer moves it. `scale` is the length in
+    // the picture, in viewport heights, of one unit on the plane at distance 1 from the eye.
     std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
 
     const Arrangement& arrangement_;

@@ -118,8 +118,8 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
     }
 }
 
-// Points the camera at the focus slice from the direction that `orbit` specifies, and sets the camera's clipping
-// planes.
+// Points the camera at the focus slice (the middle one) from the direction that `orbit` specifies, and sets the
+// camera's clipping planes.
 void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camera) {
     constexpr double kMaxPitch = 1.55;  // a pitch less than π/2; at π/2, the up vector would be undefined
     const double pitch = std::clamp(arrangement.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);

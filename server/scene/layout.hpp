@@ -21,9 +21,9 @@ struct SlicePlacement {
     int index = 0;           ///< the index n of the slice's hyperplane (see geometry::Hyperplanes)
     double w = 0;            ///< the w of the slice's hyperplane, in the object's coordinates
     glm::dvec3 position{0};  ///< the position of the slice's origin
-    /// The text of the label, with w in the coordinates of the object's file: "−0.25". For the focus slice, the text is
-    /// "w = −0.25", followed by a comma and the name of the section, if the section has a name and there is room for
-    /// it. Empty if the label is not shown.
+    /// The text of the label, with w in the coordinates of the object's file: "−0.25". For the focus slice (the middle
+    /// one), the text is "w = −0.25", followed by a comma and the name of the section, if the section has a name and
+    /// there is room for it. Empty if the label is not shown.
     std::string label;
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
     double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight
@@ -94,7 +94,7 @@ struct ProjectionPlacement {
 /// are fractions of the viewport's height. Positions are measured from the viewport's lower left corner.
 struct SectionMatrixLayout {
     bool shown = false;
-    double left = 0, bottom = 0;  ///< the lower left corner of the matrix
+    double left = 0, bottom = 0;  ///< the lower left corner of the matrix of panels
     double panel = 0;             ///< the side of a panel
     double step = 0;              ///< the distance from the left or lower side of a panel to that of the next panel
     double lineWidth = 0, pointRadius = 0;  ///< the width of the edges and the radius of the points of sections
@@ -144,8 +144,8 @@ struct LayoutObjectInfo {
 };
 
 /// Lays out a picture. `planes` are the hyperplanes of the slices, and `focus` is the number n of the focus slice (see
-/// geometry::Hyperplanes). `focusName` is the text that follows w in the label of the focus slice, if there is room for
-/// it. Overwrites `out` and reuses its memory.
+/// geometry::Hyperplanes). `focusName` is the text that follows w in the label of the focus slice (the middle one), if
+/// there is room for it. Overwrites `out` and reuses its memory.
 void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectInfo& content, const Look& look,
             Viewport viewport, std::string_view focusName, PictureLayout& out);
 

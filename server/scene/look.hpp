@@ -146,7 +146,7 @@ struct Look {
     ProjectionSettings projection = {};
     std::optional<slicing::Element> highlight = {};  ///< the element of the object that is drawn in the highlight color
     /// The x, y and z of the focus point, in the object's units, after the rotation; the w of the focus point is that
-    /// of the focus slice. The planes of the matrix view pass through this point.
+    /// of the focus slice (the middle one). The planes of the matrix view pass through this point.
     glm::dvec3 focusPoint{0};
     slicing::FieldSettings field = {};  ///< for a field: the levels whose surfaces are shown, and the fog
     CapStyle caps = CapStyle::plain;

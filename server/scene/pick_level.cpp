@@ -189,7 +189,7 @@ class RayCaster {
     const glm::dmat4 toFunction_;
     // The direction of the ray from the eye, in world space; its length corresponds to a depth of 1.
     glm::dvec3 direction_{0};
-    slicing::FieldSection section_;  // the hyperplane of the current slice; its walls and bounds are not set
+    slicing::FieldSection section_;  // the hyperplane of the current slice; `walls`, `min` and `max` are not set
     std::vector<glm::dvec3> points_;
     std::vector<float> values_;
     double nearest_ = 0;  // the depth of the point in found_

@@ -15,7 +15,7 @@
 namespace oval4d::scene {
 
 /// A point of a level set of a field that a picture shows. It is a point of a surface in a slice, of the surface of the
-/// focus slice in the projection, or of a contour in the matrix.
+/// focus slice (the middle one) in the projection, or of a contour in the matrix.
 struct PickedLevel {
     std::size_t level = 0;  ///< the index of the level in slicing::FieldSettings::levels
     bool cap = false;       ///< whether the point is on a cap (see slicing::SliceSurface), inside the body of the level

@@ -22,7 +22,7 @@ struct PictureRequest {
     Viewport viewport;
     slicing::Quality quality = slicing::Quality::full;
 
-    /// Returns the hyperplane of the focus slice.
+    /// Returns the hyperplane of the focus slice (the middle one).
     geometry::Hyperplanes focusPlane() const { return {focus, 1, planes.spacing, planes.offset}; }
     bool operator==(const PictureRequest&) const = default;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // The complete description of a picture. The renderers and the code that writes `slices` messages use no other data.
-// Therefore the picture that a page draws and the picture that the server draws are exactly alike.
+// Therefore the picture that the page in the browser draws and the picture that the server draws have exactly the same
+// layout.
 
 #include <array>
 #include <cstddef>
@@ -48,12 +49,12 @@ struct ObjectProjection {
     /// Whether only elements of cells turned away from the eye were left out: see slicing::Projector::lacksSteps().
     bool onlyTurnedAwayLeftOut = false;
     /// The filled faces of those parts of `elements` of which pieces (convex polygons) are drawn instead of polygons.
-    /// These are part 0 if its polygons need not be convex, and the section of the focus slice if Scene::fill has the
-    /// faces of this slice.
+    /// These are part 0 if its polygons need not be convex, and the section of the focus slice (the middle one) if
+    /// Scene::fill has the faces of this slice.
     slicing::FilledFaces fill;
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the index of its color, as in `faceCells`
 
-    /// The surface of the focus slice of a field, at its place in the projection.
+    /// The surface of the focus slice (the middle one) of a field, at its place in the projection.
     struct FocusSurface {
         std::size_t slice;  ///< the index of the focus slice in SliceSet::surfaces
         /// The scale of the surface, as the projection magnifies its hyperplane: world units per unit of the object.
@@ -67,7 +68,7 @@ struct ObjectProjection {
     }
 };
 
-/// The matrix of planar sections, which the matrix view shows beside the focus slice.
+/// The matrix of planar sections, which the matrix view shows beside the focus slice (the middle one).
 struct SectionMatrix {
     glm::dvec4 point{0};  ///< the focus point, through which all planes pass, in the object's units, after the rotation
     slicing::PlanarSections sections;
@@ -120,7 +121,7 @@ struct Scene : PictureLayout {
     slicing::PartsShowingElement highlight;    ///< the vertices and edges of slices that show the highlighted element
     slicing::SectionNamePair sectionNames;     ///< the names of the section in the focus slice
     ObjectProjection projection;               ///< valid if projectionPlacement.shown is true
-    SectionMatrix sectionMatrix;               ///< valid if matrix.shown is true
+    SectionMatrix sectionMatrix;               ///< the planar sections in the matrix; valid if matrix.shown is true
     double faceOpacity = style().faceOpacity;  ///< the opacity of the faces of slices, 0 … 1
     /// Whether drawing the slices needs a depth buffer, because the order in which their shapes hide each other is not
     /// known in advance. This is so for fields, surfaces and nonconvex polytopes, whose faces may cross each other. If

@@ -29,7 +29,7 @@ std::string fixed(double number, int decimals) {
 }
 
 // Returns the text that labelNumber() writes for a positive number if `decimals` is greater than kMaxPlainDecimals. The
-// function formatW() of the page (web_client/src/format.ts) must return the same text.
+// function formatW() of the page in the browser (web_client/src/format.ts) must return the same text.
 std::string withExponentIfSmall(double number, int decimals) {
     constexpr int kMostDigits = 17;  // the significant digits of a double
     constexpr double kLeastWithoutExponent = 1e-4;

@@ -67,8 +67,8 @@ struct SurfaceLook {
     Color color(const LevelLook& level, std::size_t slice) const {
         return sliceColors.empty() ? level.color : sliceColors[slice];
     }
-    /// Returns the color of the contours of a level in the matrix. `index` is LevelLook::index of one of `levels`. In
-    /// most planes of the matrix, w varies, so `sliceColors` are not used.
+    /// Returns the color of the contours of a level in the matrix of planar sections. `index` is LevelLook::index of
+    /// one of `levels`. In most planes of the matrix, w varies, so `sliceColors` are not used.
     Color contourColor(std::size_t index) const { return std::ranges::find(levels, index, &LevelLook::index)->color; }
     bool colorsPoints() const { return pointColoring != PointColoring::none; }
     bool colorsCapPoints() const { return capColoring != PointColoring::none; }

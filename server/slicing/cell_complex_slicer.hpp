@@ -152,8 +152,8 @@ class CellComplexSlicer {
     // around the section, and nextEdge_ the slice edge that leads to this next slot. next_ is kNone for a slot that has
     // no next slot, or that has already been traced.
     std::vector<std::uint32_t> next_, nextEdge_;
-    // The slots that have a next slot in the section of the current cell, each preceded by the index of its hyperplane.
-    // The tracing of loops starts at these slots.
+    // The slots (crossings of edges with hyperplanes) that have a next slot in the section of the current cell, each
+    // preceded by the index of its hyperplane. The tracing of loops starts at these slots.
     std::vector<std::pair<std::int32_t, std::uint32_t>> starts_;
     // The 2-faces that lie in a hyperplane, where each may be the whole slice.
     std::vector<std::uint32_t> touchingFaces_;
@@ -164,7 +164,8 @@ class CellComplexSlicer {
     std::vector<std::array<std::uint32_t, 2>> loopCorners_;
     // Per hyperplane: the index at which the next vertex, edge or face (cursor_) or corner (cornerCursor_) is written.
     std::vector<std::uint32_t> cursor_, cornerCursor_;
-    // Per hyperplane: the slots in which the vertex loop of a convex 2-face rises through it (up_) and descends (down_)
+    // Per hyperplane: the slot (crossing of an edge) where the vertex loop of a convex 2-face rises through the
+    // hyperplane (up_), and the slot where the loop descends (down_)
     std::vector<std::uint32_t> up_, down_;
     // The edges of the current 2-face that lie in the hyperplane of its lowest vertices. Each entry has the slice
     // vertices at the two ends of an edge, in ascending order, and then the index of the edge. The entries are sorted.

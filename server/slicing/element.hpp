@@ -81,8 +81,9 @@ std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const ge
 /// A slice vertex or edge is given by its source number, which says from which element of the object it was cut (see
 /// SliceSet). The lists are sorted and have no duplicates.
 struct PartsShowingElement {
-    std::vector<std::uint32_t> vertices, edges;  ///< source numbers of slice vertices and of slice edges
-    std::vector<std::uint32_t> ownVertices;      ///< the element's vertices, as indices into the object's vertices
+    /// The source numbers (from which element they were cut) of slice vertices and of slice edges.
+    std::vector<std::uint32_t> vertices, edges;
+    std::vector<std::uint32_t> ownVertices;  ///< the element's vertices, as indices into the object's vertices
 
     bool hasVertex(std::uint32_t source) const { return contains(vertices, source); }
     bool hasEdge(std::uint32_t source) const { return contains(edges, source); }

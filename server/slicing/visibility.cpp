@@ -14,8 +14,8 @@ using geometry::PointCloud;
 
 void findVisibilities(const CellComplex& p, std::span<const Visibility> ofType, VisibilityBySource& out) {
     const std::size_t cells = p.cells.size(), faces = p.faces.size(), edges = p.edges.size();
-    // From cells down to vertices, each element passes its visibility to the elements on its boundary. The indices of
-    // the entries of `out` are source numbers (see SliceSet).
+    // From cells down to vertices, each element passes its visibility to the elements on its boundary. The index of an
+    // entry of `out` is a source number, which says from which element a slice element was cut (see SliceSet).
     out.faces.assign(cells + faces, Visibility::hidden);
     out.edges.assign(faces + edges, Visibility::hidden);
     out.vertices.assign(edges + p.vertices.size(), Visibility::hidden);

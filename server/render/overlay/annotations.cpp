@@ -25,7 +25,7 @@ namespace {
 // The opacity of the bands behind the parallel coordinates of the highlighted element's vertices.
 constexpr float kHighlightOpacity = 0.35F;
 constexpr float kLevelOpacity = 0.8F;  // the opacity of the lines of levels in the histogram of a field
-// Half the width of the mark of the focus slice, as a fraction of the picture's height.
+// Half the width of the mark of the focus slice (the middle one), as a fraction of the picture's height.
 constexpr double kFocusReach = 0.009;
 
 /// Returns the fraction `fraction` of the picture's height in pixels, rounded to whole pixels, and at least 1.
@@ -70,7 +70,7 @@ void addQuantity(const std::string& quantity, const PixelRect& histogram, int si
 }
 
 /// Adds to the histogram of a field: the axes with their names, the text that says what the values measure, the lines
-/// of the levels, and a mark for the focus slice in the panel of w.
+/// of the levels, and a mark for the focus slice (the middle one) in the panel of w.
 void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();
@@ -110,8 +110,8 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
 }
 
 /// Adds what is drawn over the density strip: the axes with their names, the lines of the vertices of the highlighted
-/// element, and a mark for the focus slice on the w axis. The lines, and the mark over them, are added to `above` (see
-/// StrokeTargets).
+/// element, and a mark for the focus slice (the middle one) on the w axis. The lines, and the mark over them, are added
+/// to `above` (see StrokeTargets).
 void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatch* above) {
     const scene::CoordinatesLayout& layout = scene.coordinates;
     const scene::Style& style = scene.style();

@@ -12,8 +12,8 @@ namespace oval4d::render {
 /// `overlay`. The place of the symbol is Scene::axes.
 void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 
-/// Adds the labels of the slices, which show the values of w, to `overlay`. The label of the focus slice is
-/// highlighted, and is added after the others.
+/// Adds the labels of the slices, which show the values of w, to `overlay`. The label of the focus slice (the middle
+/// one) is highlighted, and is added after the others.
 void addLabels(const scene::Scene& scene, Overlay& overlay);
 
 /// The lists to which addCoordinates() adds strokes. Strokes can be drawn without OpenGL, so long lines and large areas

@@ -21,7 +21,8 @@ using slicing::PlanarSection;
 constexpr float kPanelOpacity = 0.22F, kFillOpacity = 0.16F, kAxisOpacity = 0.55F;
 // The font sizes of the name and of the unit of an axis, as fractions of the side of a panel.
 constexpr double kNameHeight = 0.3, kUnitHeight = 0.1;
-// The width of the lines through the focus point in the focus slice, as a fraction of the picture's height.
+// The width of the lines through the focus point in the focus slice (the middle one), as a fraction of the picture's
+// height.
 constexpr double kFocusWidth = 0.0028;
 
 // Draws the panels that show sections. Each section has two panels: one with the section's first axis to the right, and
@@ -156,8 +157,8 @@ class SectionPainter {
     std::vector<glm::vec2> points_, polygon_;
 };
 
-// Marks the focus point in the focus slice by lines through the point along the axes x, y and z. Leaves out a line that
-// has an end behind the eye.
+// Marks the focus point in the focus slice (the middle one) by lines through the point along the axes x, y and z.
+// Leaves out a line that has an end behind the eye.
 void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
     const Projection projection = Projection::of(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));

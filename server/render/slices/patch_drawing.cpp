@@ -27,7 +27,7 @@ struct LinearFunction {
     float origin = 0, x = 0, y = 0;
 };
 
-/// The properties that all pixels of a patch have in common.
+/// The properties that all pixels of a patch (a flat polygon) have in common.
 struct PatchShading {
     /// `u`, `v` and `halfRadius` are the three components of ShapeVertex::place. `nearness` is that of PatchCorner.
     LinearFunction u{}, v{}, halfRadius{}, nearness{};
@@ -130,9 +130,9 @@ struct PixelsOfTwoRows {
     }
 };
 
-// Draws eight pixels of a patch. `start` has the values at the first pixel, and `offsets` says how many columns each
-// pixel is to the right of it. In `inside`, all bits of a pixel are set if the pixel is in the patch. The formulas are
-// those of the fragment shader in shape_batch.cpp.
+// Draws eight pixels of a patch (a flat polygon). `start` has the values at the first pixel, and `offsets` says how
+// many columns each pixel is to the right of it. In `inside`, all bits of a pixel are set if the pixel is in the patch.
+// The formulas are those of the fragment shader in shape_batch.cpp.
 template <Form form, DepthUse depth, typename Pixels>
 OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading& paint, const Pixels& pixels,
                                    const StartValues& start, __m256i offsets, __m256 inside) {
@@ -206,8 +206,8 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
                                      _mm256_or_si256(_mm256_slli_epi32(blue, 16), _mm256_slli_epi32(opacity, 24))));
 }
 
-// Draws a patch. Draws two rows at a time if both have at most four pixels of the patch, as do most rows of thin bars;
-// otherwise draws one row at a time.
+// Draws a patch (a flat polygon). Draws two rows at a time if both have at most four pixels of the patch, as do most
+// rows of thin bars; otherwise draws one row at a time.
 template <Form form, DepthUse depth>
 OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, const PatchShading& paint) {
     constexpr int kHalf = kLanes / 2;
@@ -382,8 +382,9 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
     fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
 }
 
-// Draws a patch of any form except Form::face. The patch has three corners, or four corners that deviate from a
-// parallelogram by at most kMaxSkew pixels. So ShapeVertex::place and the nearness count as linear in the picture.
+// Draws a patch (a flat polygon) of any form except Form::face. The patch has three corners, or four corners that
+// deviate from a parallelogram by at most kMaxSkew pixels. So ShapeVertex::place and the nearness count as linear in
+// the picture.
 OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner> corners, const ShapeVertex& look,
                           Form form, DepthUse depth, float pixelSize) {
     // The gradient of a quantity is computed from its differences along the diagonals of the quad. A triangle counts as

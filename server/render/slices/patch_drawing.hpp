@@ -15,7 +15,7 @@ namespace oval4d::render {
 
 #if defined(__x86_64__)
 
-/// A vertex of a patch, projected to the picture.
+/// A vertex of a patch (a flat polygon), projected to the picture.
 struct PatchCorner {
     float x, y;       ///< the position, in pixels from the lower left corner
     float nearness;   ///< 1 / (the distance from the eye along the view axis)
@@ -28,7 +28,8 @@ struct RowRange {
     int begin, end;
 };
 
-/// The picture to which patches are drawn, with the rows that are drawn and the properties of the light.
+/// The picture to which patches (flat polygons) are drawn, with the rows that are drawn and the properties of the
+/// light.
 struct PatchCanvas {
     static constexpr int kLanes = 8;  ///< the number of pixels or rows that are computed at a time
 

@@ -65,7 +65,7 @@ void ShapeBatch::add(std::initializer_list<ShapeVertex> vertices, Patch::Form fo
     addPatch(first, form);
 }
 
-/// Adds the patch with the vertices from index `first` to the last vertex in vertices_.
+/// Adds the patch (a flat polygon) with the vertices from index `first` to the last vertex in vertices_.
 void ShapeBatch::addPatch(std::uint32_t first, Patch::Form form) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const auto vertices = std::span(vertices_).subspan(first);

@@ -123,8 +123,8 @@ class ShapeProgram {
     /// The depths that drawWithDepth() writes to the depth buffer.
     enum class DepthSource : std::uint8_t {
         patch,  ///< the depth of the flat patch
-        /// The depth of the ball or bar that the patch represents. A face counts as closer to the eye by the size of a
-        /// pixel.
+        /// The depth of the ball or bar that the patch (a flat polygon) represents. A face counts as closer to the eye
+        /// by the size of a pixel.
         surface,
     };
     ShapeProgram(const scene::Style& style, DepthSource depth);

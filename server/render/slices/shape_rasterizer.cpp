@@ -41,7 +41,7 @@ void cutAtNearPlane(std::span<const ShapeVertex> vertices, std::vector<ShapeVert
 }  // namespace
 
 struct ShapeRasterizer::Impl {
-    /// The patches or the triangles that one call of add() has added, or the clearing that one call of
+    /// The patches (flat polygons) or the triangles that one call of add() has added, or the clearing that one call of
     /// addDepthClearing() has added.
     struct AddedShapes {
         const ShapeBatch* shapes = nullptr;  // the patches; null if triangles or a clearing were added

@@ -56,8 +56,8 @@ class ShapeRasterizer {
     /// Starts a picture like begin(), but draws over the picture that is in `pixels`, instead of the background.
     void beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
 
-    /// Adds the patches of `shapes`, which must remain valid and unchanged until finish() returns. The patches are
-    /// drawn in their order, after everything that was added before.
+    /// Adds the patches (flat polygons) of `shapes`, which must remain valid and unchanged until finish() returns. The
+    /// patches are drawn in their order, after everything that was added before.
     void add(const ShapeBatch& shapes, DepthUse depth);
 
     /// Adds triangles of surfaces, each given by three indices of vertices. SurfaceRasterizer::projectAndLight() must

@@ -25,8 +25,8 @@ struct SurfaceVertex {
 class SurfaceBatch {
   public:
     /// The slices whose surfaces are collected: all slices, only the nearer slices, or only the farther slices.
-    /// `projection` stands for the surfaces of the focus slice that the projection of the whole object shows. The
-    /// nearer and the farther slices have about half of the triangles each.
+    /// `projection` stands for the surfaces of the focus slice (the middle one) that the projection of the whole object
+    /// shows. The nearer and the farther slices have about half of the triangles each.
     enum class Selection : std::uint8_t { slices, nearer_slices, farther_slices, projection };
 
     /// The place of one slice, with its surfaces, in the picture.

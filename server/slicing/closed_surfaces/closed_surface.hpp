@@ -15,7 +15,7 @@ namespace oval4d::slicing {
 /// region where the function is below a level, or above it (see fields::Inside).
 struct ClosedSurface {
     std::vector<glm::dvec3> points;  ///< the corners of the triangles, in the units of the object
-    /// Indices into `points`, counterclockwise as seen from outside the body.
+    /// Indices into `points`, counterclockwise as seen from outside the surface.
     std::vector<std::array<std::uint32_t, 3>> triangles;
     /// The index of the first triangle of the caps. The triangles before it form the level set (where the function
     /// equals the level). Caps close the surface where the body ends: at the boundary of the domain, or of a hole in

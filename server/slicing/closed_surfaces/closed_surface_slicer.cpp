@@ -235,9 +235,9 @@ void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, 
     if (options_.pointData && first < out_->triangles.size()) addGradients(cut, first);
 }
 
-// Adds the cap of the body at a pentatope that is a hole because only its corner `hole` has no value. The cap lies in
-// the facet opposite to this corner. It is added if the pentatope on the other side of the facet has values at all of
-// its corners.
+// Adds the cap that closes the surface at a pentatope (4-simplex) that is a hole because only its corner `hole` has no
+// value. The cap lies in the facet opposite to this corner. It is added if the pentatope on the other side of the facet
+// has values at all of its corners.
 void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned above, std::size_t hole) {
     const glm::ivec4 other = cut.cell + cut.shape->cornerAcrossFacet(hole);
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))

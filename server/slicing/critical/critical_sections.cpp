@@ -59,7 +59,7 @@ class SectionCutter {
     double cubeSide() const { return cube_; }
 
     /// Returns whether a part of the section with this volume is too small to count. Such a part may not exist in
-    /// reality: sampling on a lattice may separate the tip of a sharp corner from the rest of the body.
+    /// reality: sampling on a lattice may separate the tip of a sharp corner from the rest of the section.
     bool isSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
 
     /// Returns, for each level, the topology of its body in the section at `w`. Leaves out the parts of the body that

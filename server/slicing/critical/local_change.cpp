@@ -69,8 +69,8 @@ std::optional<double> LocalChangeSearch::find(const PartCountChange& change, con
     return findIn({start.point, start.half}, start.w, start.reach, 1);
 }
 
-// Returns the w of the change in a window, refined in smaller windows around the points that enter or leave the body.
-// `number` is 1 for the first, largest window.
+// Returns the w of the change in a window (a cube in the section), refined in smaller windows around the points that
+// enter or leave the body (the region inside the level). `number` is 1 for the first, largest window.
 std::optional<double> LocalChangeSearch::findIn(const SearchWindow& window, double w, double reach, int number) {
     const std::optional<LocalEvent> event = eventIn(window, w, reach, number);
     if (!event) return std::nullopt;
@@ -97,8 +97,8 @@ std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Se
         if (isChange(before, after)) break;
         if (distance >= reach) return std::nullopt;
     }
-    // On a finer lattice, more points enter or leave the body in an interval of w of the same length. So the interval
-    // must be shorter.
+    // On a finer lattice, more points enter or leave the body (the region inside the level) in an interval of w of the
+    // same length. So the interval must be shorter.
     const double precision = std::max(leastStep_, kFirstPrecision * tolerance_ / std::pow(kZoom, number - 1));
     while (to - from > precision) {
         if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
@@ -157,7 +157,8 @@ void LocalChangeSearch::sample(const SearchWindow& window, double w, PointFlags&
     }
 }
 
-// Returns the number of connected parts of the body or, if change_.ofBody is false, of the rest of the window.
+// Returns the number of connected parts of the body (the region inside the level) in the window. If change_.ofBody is
+// false, returns that of the rest of the window.
 std::size_t LocalChangeSearch::countParts(const PointFlags& inside) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     const auto rootOf = [&](std::uint32_t point) {

@@ -40,7 +40,7 @@ class LocalChangeSearch {
 
     /// The kind of change to search for: which parts become more, or fewer, while w increases.
     struct PartCountChange {
-        bool ofBody = true;       ///< true: the parts of the body; false: the parts outside of the body
+        bool ofBody = true;       ///< true: the parts inside the level; false: the parts outside
         bool becomesMore = true;  ///< true: the number of these parts grows; false: it falls
     };
     /// Where to search. Lengths and w are in the units of the object.
@@ -71,10 +71,11 @@ class LocalChangeSearch {
     // A change of the number of parts, at a value of w.
     struct LocalEvent {
         double w;
-        // The lattice points in the interior of the window that enter or leave the body; at least one.
+        // The lattice points in the interior of the window that move from one side of the level to the other; at least
+        // one.
         std::vector<glm::dvec3> points;
     };
-    using PointFlags = std::vector<std::uint8_t>;  // per lattice point of a window: whether it is in the body
+    using PointFlags = std::vector<std::uint8_t>;  // per lattice point of a window: 1 if it is inside the level, else 0
 
     std::optional<double> findIn(const SearchWindow& window, double w, double reach, int number);
     std::optional<LocalEvent> eventIn(const SearchWindow& window, double w, double reach, int number);

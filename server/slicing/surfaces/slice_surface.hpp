@@ -29,7 +29,7 @@ struct SliceSurface {
     /// Per point: the value of the second function. Empty unless the field has a second function and
     /// SurfaceDetail::secondValues is true.
     std::vector<float> secondValues;
-    /// Indices into `points`, counterclockwise as seen from outside the body.
+    /// Indices into `points`, counterclockwise as seen from outside the surface.
     std::vector<std::array<std::uint32_t, 3>> triangles;
     /// Per triangle: the index of its level, plus kCap if the triangle belongs to a cap. The triangles are sorted by
     /// level. Within each level, the triangles of caps are last.

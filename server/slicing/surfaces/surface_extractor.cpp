@@ -215,7 +215,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
         const glm::dvec4 margin = reach + 1e-6 * (glm::abs(middle) + reach);
         const fields::ValueBounds bounds = function.boundsIn({middle - margin, middle + margin});
         return std::ranges::any_of(options.levels, [&](double level) {
-            // Whether the whole cube is in the body.
+            // Whether the whole cube is inside the level, in its body.
             const bool full = sign_ > 0 ? bounds.max < level : bounds.min > level;
             return bounds.mayCross(level) || (walls != 0 && full);
         });
@@ -275,7 +275,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     std::array<BatchedBlock, kCapacity> batched{};
     std::array<float, kCapacity> values{};
     std::array<std::uint8_t, kCapacity> inside{};
-    std::array<bool, kCapacity> inDomain{};  // set only for the points of blocks at walls
+    std::array<bool, kCapacity> inDomain{};  // set only for the points of blocks at walls of the domain
     std::size_t batchedCount = 0, size = 0;
     const auto sample = [&] {
         function.evaluate(points.batch(size), std::span(values).first(size));
@@ -396,8 +396,8 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
     if (beyond == 0) return true;
     const glm::dvec3 start = point;
     if (std::has_single_bit(beyond)) moveAlongAxis(wall(beyond), distance(wall(beyond)));
-    // A point beyond several walls is moved to the place where these walls meet. If the point is then beyond another
-    // wall, the next round includes this wall.
+    // A point beyond several walls of the domain is moved to the place where these walls meet. If the point is then
+    // beyond another wall, the next round includes this wall.
     for (int round = 0; round < 3; ++round) {
         unsigned now = 0;
         for (unsigned rest = walls; rest != 0; rest &= rest - 1)
@@ -481,9 +481,9 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
     cubes_.push_back(cube);
 }
 
-// Appends the points of a cube through which no wall passes: one point for each patch. The point is the mean of the
-// places where the level set crosses the cube edges of the patch. Returns false, and appends nothing, if the value of
-// the function at one of the corners is not finite.
+// Appends the points of a cube through which no wall of the domain passes: one point for each patch of the surface. The
+// point is the mean of the places where the level set crosses the cube edges of the patch. Returns false, and appends
+// nothing, if the value of the function at one of the corners is not finite.
 bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
@@ -513,10 +513,10 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& c
     return true;
 }
 
-// Appends the points of a cube through which a wall, or the boundary of a hole (where the function has no value), may
-// pass: one point for each patch (see CubeCase). The point is the mean of the places where the edges of the patch leave
-// the body. Its constraint mask is the union of the masks of these places. Notes in `cube.cap` at which of the edges
-// from corner 0 the surface is a cap.
+// Appends the points of a cube through which a wall of the domain, or the boundary of a hole (where the function has no
+// value), may pass: one point for each patch of the surface (see CubeCase). The point is the mean of the places where
+// the edges of the patch leave the body. Its constraint mask is the union of the masks of these places. Notes in
+// `cube.cap` at which of the edges from corner 0 the surface is a cap.
 void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
                                           glm::ivec3 place, CrossedCube& cube) {
     std::array<CubeCorner, 8> corners{};
@@ -562,8 +562,8 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
     std::uint16_t constraint = kAtHole;
     bool found = false;
     // At the inner end, two kinds of functions are negative or zero: the function minus the level (times sign_), and
-    // the distances from the walls. The functions that are not negative at the outer end cross zero between the two
-    // ends.
+    // the distances from the walls of the domain. The functions that are not negative at the outer end cross zero
+    // between the two ends.
     const auto consider = [&](double from, double to, std::uint16_t by) {
         if (to < 0) return false;
         const double zero = from / (from - to);
@@ -591,9 +591,9 @@ SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSect
     return {inner.position + first * way, constraint};
 }
 
-// Moves each point of the current level onto the level set and the walls in its constraint mask (see kWalls), and
-// appends the points to `out`. The points of a batch make all their steps before the points of the next batch. So the
-// samples of an array that one step reads are still in the cache when the next step reads them again.
+// Moves each point of the current level onto the level set and onto the walls of the domain in its constraint mask (see
+// kWalls). Then appends the points to `out`. The points of a batch make all their steps before the points of the next
+// batch. So the samples of an array that one step reads are still in the cache when the next step reads them again.
 void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section,
                                              SliceSurface& out) {
     constexpr int kRimSteps = 2;  // the number of Newton steps of points on rims, which may begin far from the surface
@@ -644,9 +644,10 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
     }
 }
 
-// Moves each of the points `moving_` by one step of Newton's method toward the level set f = level_ and the walls in
-// its constraint mask (see kWalls). There are at most FunctionPoints::kCapacity such points. With the gradient g of f
-// in the slice, the step of a point that need not lie on a wall is −(f − level_) g / |g|². Overwrites `at`.
+// Moves each of the points `moving_` by one step of Newton's method toward the level set f = level_ and toward the
+// walls of the domain in its constraint mask (see kWalls). There are at most FunctionPoints::kCapacity such points.
+// With the gradient g of f in the slice, the step of a point that need not lie on a wall is −(f − level_) g / |g|².
+// Overwrites `at`.
 void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section,
                                      Evaluation& at) {
     if (moving_.empty()) return;
@@ -658,8 +659,8 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
         const double square = glm::dot(slope, slope), excess = at.values[i] - level_;
         const bool valid = square > 0 && std::isfinite(square) && std::isfinite(excess);
         if ((constraints_[point] & kWalls) == 0) {
-            // The step of a point that need not lie on a wall. ConstrainedStep would compute the same step with several
-            // more divisions and roots.
+            // The step of a point that need not lie on a wall of the domain. ConstrainedStep would compute the same
+            // step with several more divisions and roots.
             if (valid) moveBy(slope * (-excess / square), point);
             continue;
         }
@@ -669,10 +670,10 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
     }
 }
 
-// Returns a step for a point of the surface, with one condition for each wall in the constraint mask of the point (see
-// kWalls). The condition for a wall is that the signed distance from the wall, normal · p − offset, becomes 0. The
-// caller may add the condition for the level set. ConstrainedStep::solve() then gives the shortest step that satisfies
-// all conditions.
+// Returns a step for a point of the surface, with one condition for each wall of the domain in the constraint mask of
+// the point (see kWalls). The condition for a wall is that the signed distance from the wall, normal · p − offset,
+// becomes 0. The caller may add the condition for the level set. ConstrainedStep::solve() then gives the shortest step
+// that satisfies all conditions.
 ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
     ConstrainedStep step;
     for (unsigned rest = constraints_[point] & kWalls; rest != 0; rest &= rest - 1) {

@@ -69,9 +69,10 @@ class SurfaceExtractor {
 
     struct Evaluation;
     struct LatticeBlock {
-        bool isActive = false;   // whether the block may contain a surface
-        std::uint8_t walls = 0;  // if the block is sampled: a bit for each wall that the block may touch or lie beyond
-        glm::u8vec3 needed{0};   // how many points along each axis are sampled, from the block's lower end on
+        bool isActive = false;  // whether the block may contain a surface
+        // If the block is sampled: a bit for each wall of the domain that it may touch or lie beyond.
+        std::uint8_t walls = 0;
+        glm::u8vec3 needed{0};  // how many points along each axis are sampled, from the block's lower end on
         bool isSampled() const { return needed.x != 0; }
     };
     // A lattice cube through which the surface passes, and the points of its patches.

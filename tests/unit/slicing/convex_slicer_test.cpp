@@ -26,9 +26,10 @@ using std::numbers::pi;
 /// a loop begins matters.
 struct BySource {
     std::map<std::uint32_t, glm::dvec3> vertices;
-    std::map<std::uint32_t, std::set<std::uint32_t>> edges;  // per edge: the source numbers of its ends
-    /// Per face: the source numbers of its corners and of the edges that follow the corners, beginning with the least
-    /// pair.
+    // Per edge: the source numbers of its ends (from which elements they were cut).
+    std::map<std::uint32_t, std::set<std::uint32_t>> edges;
+    /// Per face: the source numbers of its corners, each with that of the edge after the corner. The list begins with
+    /// the least pair.
     std::map<std::uint32_t, std::vector<std::array<std::uint32_t, 2>>> faces;
 };
 

@@ -99,7 +99,7 @@ TEST(FieldSlicer, CapsFillTheDomainExactly) {
             const Measure result = measure(surface, 0);
             EXPECT_EQ(result.unpaired, 0U);
             EXPECT_NEAR(result.volume / expected, 1, trial == 0 ? 1e-6 : 0.004) << "trial " << trial << " slice " << i;
-            // Where the domain is thinner than a lattice step, the body may fall apart.
+            // Where the domain is thinner than a lattice step, the surface may consist of several parts.
             EXPECT_EQ(result.euler, 2 * static_cast<long>(result.components));
         }
     }
@@ -221,7 +221,8 @@ TEST(FieldSlicer, LevelsAreIndependentOfEachOther) {
     EXPECT_EQ(measure(both.surfaces[0], 0).volume, measure(inner.surfaces[0], 0).volume);
     EXPECT_NEAR(measure(both.surfaces[0], 1).volume / (volume * 1.8 * 1.8 * 1.8), 1, 0.01);
     EXPECT_NEAR(measure(outside.surfaces[0], 0).volume, 8 - volume, 0.01);
-    EXPECT_EQ(measure(outside.surfaces[0], 0).euler, 4);  // the body is a cube with a spherical cavity
+    // The region outside the level is a cube with a spherical cavity.
+    EXPECT_EQ(measure(outside.surfaces[0], 0).euler, 4);
 }
 
 TEST(FieldSlicer, GrowthIsTheSpeedOfTheSurface) {

@@ -123,7 +123,7 @@ struct HeatKernels {
         1000, box);
     fields::Field array = sampledField(field, fields::Shape{45, 25, 24, 97});
 
-    /// Returns the time at which the two parts of the body above kLevel merge.
+    /// Returns the time at which the two regions with a temperature above kLevel merge.
     static double merging() {
         double below = 0.06, above = 1.0 / 6;  // halfway between the points, the temperature is highest at the time 1/6
         for (int i = 0; i < 60; ++i) {

@@ -124,8 +124,8 @@ inline void expectCorrectSources(const polytopes::Polytope& p, const slicing::Sl
     }
 }
 
-/// Expects that all slices of the convex polytope `p` in `s` have correct source numbers and, if they have a volume,
-/// are closed convex polyhedra.
+/// Expects that all slices of the convex polytope `p` in `s` have correct source numbers (from which elements they were
+/// cut) and, if they have a volume, are closed convex polyhedra.
 inline void expectAllSound(const polytopes::Polytope& p, const slicing::SliceSet& s) {
     for (int i = 0; i < s.planes.count; ++i) {
         expectCorrectSources(p, s, i);

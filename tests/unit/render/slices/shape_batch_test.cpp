@@ -163,7 +163,8 @@ TEST_F(Shapes, FaceIsTintedAndLitAlikeFromBothSides) {
 TEST_F(Shapes, FaceInTheHyperplaneTakesItsFirstCellsColor) {
     HandMade hand({{-0.8, -0.8, 0}, {0.8, -0.8, 0}, {0.8, 0.8, 0}});
     hand.addEdge(0, 1);
-    // The 2-face 1 is shared by the cells 1 and 2 of three cells. Its source number follows those of the cells.
+    // The 2-face 1 is shared by the cells 1 and 2 of three cells. Its source number (see SliceSet) follows those of the
+    // cells.
     polytopes::Polytope polytope;
     for (const std::vector<std::uint32_t>& cell : {std::vector<std::uint32_t>{0}, {0, 1}, {1}})
         polytope.cells.add(cell);

@@ -38,7 +38,8 @@ struct SurfaceExample {
 
 std::ostream& operator<<(std::ostream& out, const SurfaceExample& example) { return out << example.name; }
 
-/// The slices of a field whose bodies have holes and reach the boundary of its domain, and the scene of these slices.
+/// The slices of a field, and their scene. The regions inside the levels have holes, and reach the boundary of the
+/// domain.
 struct FieldSubject {
     slicing::SliceSet slices;
     scene::Scene scene;  // the scene refers to `slices`

@@ -144,8 +144,9 @@ std::vector<double> breakpoints(const std::vector<Cut>& simplices, double level)
     return all;
 }
 
-// The volumes of the slices add up to that of the body: their integral over w is the 4-volume of the body. The 4-volume
-// is computed from the volumes of the simplices. Gauss's formula with two points is exact for polynomials of degree 3.
+// The volumes of the slices add up: their integral over w is the 4-volume of the body (the region inside the level).
+// The 4-volume is computed from the volumes of the simplices. Gauss's formula with two points is exact for polynomials
+// of degree 3.
 TEST(ClosedSurfaceSlicer, VolumesAddUpToThatOfTheBody) {
     std::mt19937 random(30);
     for (int trial = 0; trial < 8; ++trial) {
@@ -322,8 +323,8 @@ TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
     }
 }
 
-// A pole of a formula belongs to the body. The function is infinite at the origin, which is a lattice point in the
-// middle of the body.
+// A pole of a formula belongs to the body (the region inside the level). The function is infinite at the origin, which
+// is a lattice point in the middle of the body.
 TEST(ClosedSurfaceSlicer, PolesOfFormulasBelongToTheBody) {
     const double w = 0.01, radius = std::sqrt(0.25 - w * w),
                  expected = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
