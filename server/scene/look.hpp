@@ -20,8 +20,8 @@
 
 namespace oval4d::scene {
 
-/// Which slices are shown, and how they are arranged. Stored sessions contain the numbers of the enumerators; therefore
-/// these numbers must not change.
+/// A view: which slices are shown, and how they are arranged. Stored sessions contain the numbers of the enumerators;
+/// therefore these numbers must not change.
 enum class View : std::uint8_t {
     oval = 0,    ///< all slices, on the oval
     single = 1,  ///< only the focus slice is shown

@@ -132,8 +132,8 @@ struct Scene : PictureLayout {
     SurfaceLook surfaces;                  ///< how SliceSet::surfaces are drawn; empty if no surfaces are drawn
     FogTable fog;                          ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines the color of the face
-    /// If showsDensity(), the tones of the density plot (DensityPlot::tones()); if showsHistogram(), those of the
-    /// histograms of a field (slicing::CoordinateValueHistograms::tones()); otherwise without meaning.
+    /// If showsDensity() is true, the tones of the density plot (DensityPlot::tones()); if showsHistogram() is true,
+    /// those of the histograms of a field (slicing::CoordinateValueHistograms::tones()); otherwise without meaning.
     std::vector<std::uint8_t> plotTones;
     HistogramAxes histogram;         ///< valid if showsHistogram() is true
     fields::PictureUnits axisUnits;  ///< the units of a field's axes and values; unknown for all other objects

@@ -19,7 +19,8 @@ namespace oval4d::slicing {
 /// Reuses its memory.
 class ConvexSlicer {
   public:
-    /// `forkJoin` must outlive this object. If it is null, all work is done on the calling thread.
+    /// If `forkJoin` is not null, the slicer may use it to work on two cores; `forkJoin` must outlive this object. If
+    /// it is null, all work is done on the calling thread.
     explicit ConvexSlicer(parallel::ForkJoin* forkJoin) : forkJoin_(forkJoin) {}
 
     /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set.

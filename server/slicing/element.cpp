@@ -345,7 +345,7 @@ void findPartsShowing(const Object& object, const Element& element, PartsShowing
 
 namespace {
 
-// Returns the product of the units of those axes of the field's box along which the vertices of an element differ.
+// Returns the product of the units of the axes along which the vertices of an element of a field's box differ.
 std::string unitOfSize(const Object& object, const fields::Field& field, std::span<const std::uint32_t> vertices) {
     std::vector<std::string> units;
     for (int axis = 0; axis < 4; ++axis) {

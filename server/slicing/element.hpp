@@ -43,7 +43,7 @@ void visitStoredMembers(serialization::ReadOrWritten<Element> auto& element, aut
     visit.member(1, index);
 }
 
-/// Returns the number of elements of this kind.
+/// Returns the number of elements of the kind `kind` that `object` has.
 std::size_t elementCount(const Object& object, ElementKind kind);
 
 /// Returns a vector in the direction of the element: from the origin to the nearest point of the element's affine span.

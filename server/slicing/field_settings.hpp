@@ -40,7 +40,7 @@ inline constexpr std::size_t kMinFogControlPoints = 2, kMaxFogControlPoints = 8;
 struct FieldSettings {
     std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
     fields::Inside inside = fields::Inside::below;
-    /// The control points of the transfer function: none if there is no fog, otherwise kMinFogControlPoints …
+    /// The control points of the transfer function of fog: none if there is no fog, otherwise kMinFogControlPoints …
     /// kMaxFogControlPoints points with strictly ascending values.
     std::vector<FogControlPoint> fog = {};
     bool operator==(const FieldSettings&) const = default;

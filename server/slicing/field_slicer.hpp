@@ -32,7 +32,7 @@ class FieldSlicer {
                const FieldSettings& settings, const SurfaceDetail& detail, SliceSet& out);
 
   private:
-    // The work for one slice.
+    // The work that extractSurfacesAndFog() does for one slice.
     struct SliceTask {
         // `step` is the lattice step of the surfaces. `share` is the fraction of the SurfaceLimits that this slice may
         // use; if it is 0, no surfaces are extracted.

@@ -13,10 +13,9 @@ namespace oval4d::slicing {
 namespace {
 
 // Tolerances, as fractions of the size of the projection. They are large compared with rounding errors.
-constexpr double kDepthTolerance =
-    3e-9;                              // a point at most this far below a cell's hyperplane is not hidden by the cell
-constexpr double kBoxMargin = 1e-7;    // the margin around the bounding boxes of triangles
-constexpr double kLeastExtent = 1e-9;  // a cell whose extent in a direction is less than this hides nothing
+constexpr double kDepthTolerance = 3e-9;  // a point at most this far below a cell's hyperplane is not hidden by it
+constexpr double kBoxMargin = 1e-7;       // the margin around the bounding boxes of triangles
+constexpr double kLeastExtent = 1e-9;     // a cell whose extent in a direction is less than this hides nothing
 
 constexpr double kLeastSlope = 1e-9;  // the least upward component of the normal of a cell that can hide something
 // As a fraction of a segment: a shorter part of the segment does not count as visible.

@@ -22,8 +22,8 @@ namespace oval4d::slicing {
 struct ProjectionToHyperplane {
     double inverseDistance = 0;  ///< 1 / (the w coordinate of the eye); 0 for the orthogonal projection
 
-    /// Returns the factor by which the projection magnifies the hyperplane with this w. The hyperplane must be below
-    /// the eye.
+    /// Returns the factor by which the projection magnifies what lies in the hyperplane with this w. The hyperplane
+    /// must be below the eye.
     double magnification(double w) const { return 1 / (1 - w * inverseDistance); }
     /// Returns the projection of the point p.
     glm::dvec3 operator()(const glm::dvec4& p) const { return glm::dvec3(p) * magnification(p.w); }

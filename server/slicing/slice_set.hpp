@@ -70,7 +70,7 @@ struct SliceSet {
     SliceCounts totalCounts() const {
         return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()};
     }
-    /// Resizes the arrays for planes.count slices with this total size.
+    /// Resizes the arrays for planes.count slices that together have the size `size`.
     void resize(SliceCounts size);
     /// Records that slice number `slice` begins at the position `at` in the arrays.
     void setSliceBegin(int slice, SliceCounts at) {

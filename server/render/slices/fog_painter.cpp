@@ -30,7 +30,8 @@ void main() {
 }
 )";
 
-// The shader that casts the rays. web_client/src/picture/fog_painter.ts has the same algorithm.
+// The fragment shader that casts rays through the fog. The page in the browser has the same algorithm
+// (web_client/src/picture/fog_painter.ts).
 constexpr std::string_view kFragmentSource = R"(
 // Lengths in the slice are in circumradii: in the units of the object, their squares could be too large or too small.
 in vec3 place;

@@ -22,7 +22,8 @@ std::array<Pentatope, 24> makePentatopes() {
         for (std::size_t i = 0; i < 4; ++i) {
             corner |= 1U << axes[i];
             pentatope.corners[i + 1] = static_cast<std::uint8_t>(corner);
-            // A permutation is even if the number of its inversions is even.
+            // The pentatope is positively oriented if the permutation of the axes is even: if the number of its
+            // inversions is even.
             for (std::size_t j = 0; j < i; ++j) pentatope.positive ^= axes[j] > axes[i];
         }
         std::ranges::next_permutation(axes);

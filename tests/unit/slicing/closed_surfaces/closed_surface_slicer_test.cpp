@@ -243,7 +243,7 @@ TEST(ClosedSurfaceSlicer, PointsHaveValuesAndGradients) {
     }
 }
 
-// The body below a level and the body above it together fill the domain.
+// The region below a level and the region above it together fill the domain.
 TEST(ClosedSurfaceSlicer, BothSidesOfALevelFillTheDomain) {
     std::mt19937 random(32);
     const fields::Field field = randomArray({4, 5, 3, 4}, {glm::dvec4(-1), glm::dvec4(1)}, random);
