@@ -12,8 +12,7 @@ namespace oval4d::geometry {
 
 namespace {
 
-// Returns whether a vertex loop is a convex polygon. Such a loop turns in the same direction at every corner, by 2π in
-// total.
+// Returns whether a vertex loop is a convex polygon, that is, whether its exterior angles add up to 2π.
 bool isConvexLoop(const CellComplex& complex, std::span<const std::uint32_t> loop) {
     if (loop.size() == 3) return true;
     const std::size_t n = loop.size();

@@ -1,5 +1,5 @@
 #pragma once
-// Cell complexes in R⁴: elements of dimension 0 to 3, and which of them contain which.
+// Cell complexes in R⁴: vertices, edges, 2-faces and cells, and the incidences between them.
 
 #include <array>
 #include <cstddef>
@@ -21,8 +21,8 @@ struct CellComplex : ObjectInfo {
     std::vector<glm::dvec4> vertices;                     ///< in arbitrary units
     std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
     JaggedArray faces;                                    ///< the vertex loop of each 2-face
-    JaggedArray faceEdges;                                ///< the edges of each 2-face; entry i of a row joins
-                                                          ///< corners i and i + 1 of the vertex loop
+    JaggedArray faceEdges;                                ///< the edges of each 2-face: entry i of a row is the edge
+                                                          ///< from corner i to corner i + 1 of the vertex loop
     JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
     std::vector<std::int8_t> cellSigns;                   ///< per entry of cells.items: +1 if the vertex loop of the
                                                           ///< 2-face is counterclockwise seen from outside the cell,

@@ -10,12 +10,13 @@ namespace oval4d::geometry {
 
 namespace {
 
-// In this file, the extent of an object is the largest distance of a point from its center.
-constexpr double kFar = 3;         // an object is far if its center is more than this many extents from the origin
-constexpr int kBitsOfCenter = 36;  // the center is rounded to this many bits below the leading bit of the extent
+// In this file, the extent of an object is the largest distance of one of its points from its center.
+constexpr double kFar = 3;  // an object is far from the origin if its center is more than this many extents away
+// the center's coordinates are rounded to this many bits below the extent's leading bit
+constexpr int kBitsOfCenter = 36;
 
-// Returns the mean of points. Adds up the differences of the points from the first one, because these differences are
-// exact if the points are far from the origin and close together.
+// Returns the mean of points. Averages the differences of the points from the first point: for points far from the
+// origin and close together, these differences are exact, but a sum of coordinates is not.
 glm::dvec4 meanOf(std::span<const glm::dvec4> points) {
     glm::dvec4 sum(0);
     for (const glm::dvec4& p : points) sum += p - points.front();

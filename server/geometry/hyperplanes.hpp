@@ -5,12 +5,13 @@
 
 namespace oval4d::geometry {
 
-/// Bounds of hyperplanes that users choose, as multiples of the object's circumradius.
+/// The least and the greatest value of Hyperplanes::spacing that a user may choose, in circumradii of the object.
 inline constexpr double kMinSpacing = 1e-6, kMaxSpacing = 10;
-inline constexpr double kMaxOffset = 10;  ///< the absolute value of w from which the hyperplanes are counted
+/// The greatest absolute value of Hyperplanes::offset that a user may choose, in circumradii of the object.
+inline constexpr double kMaxOffset = 10;
 
-/// Parallel hyperplanes of 4-D space: w = offset + n · spacing for the integers n = first … first + count − 1, or, if
-/// `listed` is not empty, w = listed[n − first].
+/// A list of parallel hyperplanes of 4-D space. For the integers n = first … first + count − 1, hyperplane n has
+/// the equation w = offset + n · spacing or, if `listed` is not empty, w = listed[n − first].
 struct Hyperplanes {
     int first = -10;
     int count = 21;

@@ -7,7 +7,8 @@ namespace oval4d::geometry {
 
 namespace {
 
-// 52 random bits: the numbers that follow remain below 2^53, and JSON readers with 64-bit floats read them exactly.
+// Returns a random integer of 52 bits. A process that counts up from there stays below 2^53, so JSON readers with
+// 64-bit floats read its serial numbers exactly.
 std::uint64_t randomStart() {
     std::random_device random;
     const std::uint64_t high = random(), low = random();

@@ -21,16 +21,16 @@ struct CellType {
 
 /// The properties that 4-D objects of all kinds (see slicing::Object) have.
 struct ObjectInfo {
-    /// Of the coordinates of vertices, points and origins in stored objects.
+    /// The range of the coordinates of vertices, points and origins in stored objects.
     static constexpr Range kStoredCoordinates = Range::absoluteUpTo(1e15);
 
     std::string name;
     std::uint64_t serial = 0;    ///< unique among the objects of all processes; the key of an object in caches
-    double circumradius = 0;     ///< the largest distance of a vertex (or point) from the origin; for a point cloud
-                                 ///< without extent, see makePointCloud()
-    glm::dvec4 originInFile{0};  ///< the point of the object's file that became the origin of the object, in the
-                                 ///< coordinates of the file; transformedTo() maps this point like a vertex. 0
-                                 ///< unless loading moved the object (see Centering)
+    double circumradius = 0;     ///< the largest distance of a vertex or point from the origin; of a point cloud whose
+                                 ///< points are all at the origin, see makePointCloud()
+    glm::dvec4 originInFile{0};  ///< the point of the loaded file that became the origin of the object, in the
+                                 ///< coordinates of the file; transformedTo() maps this point like a vertex. 0 unless
+                                 ///< loading moved the object (see Centering)
     bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; faces of
                                  ///< a slice of such a polytope may cross each other
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
@@ -43,12 +43,13 @@ void visitStoredMembers(serialization::ReadOrWritten<ObjectInfo> auto& info, aut
     visit.computedMember(serial);
     visit.computedMember(circumradius);
     visit.computedMember(convex);
-    visit.computedMember(rebuildableFromName);  // false if members are stored: else, only the name is stored
+    // An object that is rebuildable from its name is stored as its name alone, so this member is false if it is read.
+    visit.computedMember(rebuildableFromName);
     visit.computedMember(cellTypes);
 }
 
-/// Returns a new value for ObjectInfo::serial, from 1 to 2^53 − 1. The values in a process are successive integers from
-/// a random start, so that two processes have, almost certainly, no value in common. Thread-safe.
+/// Returns a new value for ObjectInfo::serial, from 1 to 2^53 − 1. A process starts at a random integer and counts
+/// up from there, so two processes almost certainly never return the same value. Thread-safe.
 std::uint64_t nextSerial();
 
 }  // namespace oval4d::geometry

@@ -17,8 +17,8 @@ namespace oval4d::geometry {
 /// afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
-    /// The radius of each point's ball, in the units of the points. 0 stands for the default radius: see
-    /// slicing::relativeBallRadius().
+    /// The radius of each point's ball, in the units of the points. 0 means that the ball gets the default radius:
+    /// see slicing::relativeBallRadius().
     std::vector<double> radii;
 };
 static_assert(serialization::HasOwnMembers<PointCloud, ObjectInfo, 2>, "visitStoredMembers() considers each member");

@@ -15,9 +15,9 @@ namespace oval4d::geometry {
 /// Finds equal points despite rounding errors. Points count as equal if they are less than `grid` / 4 apart, where
 /// `grid` is the edge length of the cells of a spatial hash.
 ///
-/// The hash stores only the first point of each cell. Therefore points that are not equal should be farther apart than
-/// 2 · `grid`, the diagonal of a cell. If two unequal points lie in one cell, findOrAdd() does not find the second one
-/// when it is added again, and appends it again.
+/// The hash stores only the first point of each cell. If two unequal points lie in the same cell, findOrAdd()
+/// appends the second point again each time that it is added. To exclude this, points that are not equal must be
+/// farther apart than 2 · `grid`, the diagonal of a cell.
 class EqualPointFinder {
   public:
     explicit EqualPointFinder(double grid) : grid_(grid) {}

@@ -5,7 +5,7 @@
 
 namespace oval4d::geometry {
 
-/// The numbers from `least` to `most`, both included.
+/// A range of numbers from `least` to `most`, both included.
 struct Range {
     double least, most;
 

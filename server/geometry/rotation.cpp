@@ -14,9 +14,9 @@ constexpr std::array<std::string_view, 6> kNames{"xy", "xz", "xw", "yz", "yw", "
 glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
-// A pair of perpendicular planes, one without the w axis and one with it. kPairs has a pair for each of the imaginary
-// units i, j and k, in this order (see Rotation(Turn)). `sign` is −1 for the pair xz, yw: the rotation in xz turns x
-// toward z, against the cycle i → j → k → i of the units, in which z (k) turns toward x (i).
+// A pair of perpendicular planes: one without the w axis, and one with it. kPairs has one pair for each of the
+// imaginary units i, j and k, in this order; Rotation(Turn) shows which. The `sign` of the pair xz, yw is −1: a
+// rotation in xz turns x toward z, but multiplication by j turns z (k) toward x (i), by the cycle i → j → k → i.
 struct PlanePair {
     Plane spatial, withW;
     double sign;
@@ -44,7 +44,7 @@ glm::dvec3 logarithm(const glm::dquat& q) {
 glm::dquat powerOf(const glm::dquat& q, double fraction) {
     const glm::dvec3 imaginary(q.x, q.y, q.z);
     const double sine = glm::length(imaginary);
-    if (sine == 0) return q;  // q is ±1; power() passes −1 only for v ↦ −v, which has no unique power
+    if (sine == 0) return q;  // q is 1, or −1 for the rotation v ↦ −v, of which power() returns v ↦ −v itself
     const double angle = std::atan2(sine, q.w) * fraction;
     return {std::cos(angle), imaginary * (std::sin(angle) / sine)};
 }
@@ -112,7 +112,8 @@ Rotation::Rotation(const Turn& turn) {
 }
 
 Turn Rotation::turn() const {
-    const double sign = left_.w + right_.w < 0 ? -1 : 1;  // −1 if (−l, −r) has smaller angles than (l, r)
+    // The pair (−l, −r) is the same rotation as (l, r); `sign` is −1 if it gives smaller angles.
+    const double sign = left_.w + right_.w < 0 ? -1 : 1;
     const glm::dvec3 left = logarithm(sign * left_), right = logarithm(sign * right_);
     constexpr double kRounding = 1e-12;
     Turn result;
@@ -128,7 +129,7 @@ Turn Rotation::turn() const {
 }
 
 std::optional<Rotation> Rotation::fromQuaternions(const glm::dquat& left, const glm::dquat& right) {
-    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-10; };  // also false for NaN
+    const auto unit = [](const glm::dquat& q) { return std::abs(glm::length(q) - 1) < 1e-10; };  // false for NaN, too
     if (!unit(left) || !unit(right)) return std::nullopt;
     Rotation found;
     found.left_ = left;
@@ -143,7 +144,7 @@ Rotation Rotation::between(const glm::dvec4& from, const glm::dvec4& to) {
     const glm::dquat a = asQuaternion(glm::normalize(from));
     const glm::dquat b = asQuaternion(glm::normalize(to));
     const glm::dquat sum = a + b;
-    constexpr double kOpposite = 1e-8;  // the length of a + b below which its direction is lost to rounding
+    constexpr double kOpposite = 1e-8;  // if a + b is shorter than this, rounding errors determine its direction
     glm::dquat middle = sum;
     if (glm::length(sum) < kOpposite) {
         // a·i is perpendicular to a, and half way between a and −a.

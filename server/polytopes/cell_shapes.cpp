@@ -25,11 +25,12 @@ bool areAllEqual(const std::vector<double>& lengths) {
     return areEqual(least, greatest);
 }
 
-// Counts of a cell's 2-faces and vertices.
+// Counts of the 2-faces and the vertices of one cell.
 struct ElementTally {
     std::map<std::size_t, std::uint32_t> faces;      // number of sides → number of 2-faces with this number of sides
     std::map<std::uint32_t, std::uint32_t> degrees;  // vertex → number of edges of the cell at this vertex
-    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;  // number of edges → number of vertices with it
+    // number of edges → number of vertices with this number of edges
+    std::map<std::uint32_t, std::uint32_t> verticesOfDegree;
 
     ElementTally(const Polytope& p, std::uint32_t cell) {
         for (const std::uint32_t f : p.cells[cell]) {
@@ -156,15 +157,15 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     return {};
 }
 
-// Returns the name of a cell if it is a bipyramid or a trapezohedron, else an empty string. Recognizes the cell by its
-// number of 2-faces, `faces`, and by `tally` alone. Bipyramids and trapezohedra have two apexes; the other vertices lie
-// around the axis through the apexes.
+// Returns the name of a cell if it is a bipyramid or a trapezohedron, else an empty string. Decides this by
+// `faces`, the number of 2-faces of the cell, and by its `tally` alone. Bipyramids and trapezohedra have two
+// apexes; their other vertices lie around the axis through the apexes.
 std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     const std::uint32_t n = faces / 2;
     const auto vertices = static_cast<std::uint32_t>(tally.degrees.size());
     const std::string adjective = adjectiveOf({static_cast<int>(n), 1});
-    // An octahedron that is not regular (n = 4) and a deformed cube (n = 3) have no such name: any two opposite
-    // vertices of them could be the apexes.
+    // An irregular octahedron (n = 4) is not called a bipyramid, nor a deformed cube (n = 3) a trapezohedron,
+    // because any two opposite vertices could be the apexes.
     if (n != 4 && vertices == n + 2 && tally.facesWith(3) == 2 * n && tally.has(2, n, n, 4))
         return adjective + " bipyramid";
     if (n > 3 && vertices == 2 * n + 2 && tally.facesWith(4) == 2 * n && tally.has(2, n, 2 * n, 3))
@@ -172,9 +173,9 @@ std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     return {};
 }
 
-// Returns whether the distances of the cell's vertices from their mean have the same ratios as the distances of the
-// solid's vertices from its center. Equal numbers of elements are not sufficient to recognize a Catalan solid, because
-// other polyhedra, among them other Catalan solids, may have the same numbers of elements.
+// Returns whether the cell has the shape of the solid: whether the distances of the cell's vertices from their mean
+// have the same ratios as the distances of the solid's vertices from its center. The caller has compared the
+// numbers of elements, which other polyhedra may share with a Catalan solid.
 bool hasRadiiOf(const Solid& solid, const Polytope& p, const ElementTally& tally) {
     const SolidMesh mesh = meshOf(solid);
     std::vector<double> known, own = radiiOf(p, tally);

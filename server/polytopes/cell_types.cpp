@@ -16,10 +16,11 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kCongruenceTolerance = 1.0 / 500;  // for lengths in two cells, relative to maxDistanceFromMean()
-constexpr double kRegularityTolerance = 0.01;       // for lengths in one cell, relative to the greatest one
+// for lengths in two cells, in units of maxDistanceFromMean() of the polytope
+constexpr double kCongruenceTolerance = 1.0 / 500;
+constexpr double kRegularityTolerance = 0.01;  // for lengths in the same cell, relative to the greatest of them
 
-// The least, the root-mean-square and the greatest of some lengths.
+// The least, the root-mean-square and the greatest of the lengths that were added.
 struct LengthStatistics {
     double least = 1e300, most = 0, squares = 0;
     int count = 0;
@@ -37,7 +38,7 @@ struct LengthStatistics {
 // Measurements of a cell that do not depend on its position. They are equal for congruent cells.
 struct CellInvariants {
     std::uint32_t vertices = 0;
-    LengthStatistics edges, radii;  // radii: distances of the vertices from their mean
+    LengthStatistics edges, radii;  // edges: their lengths; radii: the distances of the vertices from their mean
 
     std::array<double, 6> values() const {
         return {edges.least, edges.rootMeanSquare(), edges.most, radii.least, radii.rootMeanSquare(), radii.most};
@@ -79,8 +80,8 @@ class CellMeasurer {
     std::uint64_t mark_ = 0;
 };
 
-// Returns the polygon {n/d} for a loop of n vertices that makes d full turns. Does not check whether the polygon is
-// regular.
+// Returns the regular polygon {n/d} for a loop of n vertices that makes d full turns. The caller must ensure that
+// the loop is regular.
 RegularPolygon polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
     const auto n = loop.size();
     if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};
@@ -109,9 +110,9 @@ class ConsecutiveNumbers {
 }  // namespace
 
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& p) {
-    // `polygons` assigns a number to each combination of a cell's vertex count and the side counts of its 2-faces. For
-    // each such number, `seen` lists the types found so far, with their metric invariants. `sizes` assigns a number to
-    // each combination of a vertex count and a 2-face count.
+    // `polygons` numbers the combinations of a cell's vertex count and the side counts of its 2-faces; `seen` lists
+    // the types found for each of these numbers. `sizes` numbers the combinations of a vertex count and a 2-face
+    // count, for the coarser classification (see kMaxCellTypes).
     ConsecutiveNumbers<std::vector<std::uint32_t>> polygons;
     ConsecutiveNumbers<std::array<std::uint32_t, 2>> sizes;
     struct KnownCellType {

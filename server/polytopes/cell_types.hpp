@@ -9,16 +9,15 @@
 
 namespace oval4d::polytopes {
 
-/// The maximum number of types that cellTypesByShape() distinguishes. If the cells have more shapes, the function
-/// classifies them only by their numbers of vertices and 2-faces. If this also gives more types than the maximum, all
-/// cells get the same type.
+/// The maximum number of types that cellTypesByShape() distinguishes. If the cells have more shapes than this,
+/// cellTypesByShape() compares only their numbers of vertices and 2-faces. If even these numbers differ in more
+/// ways than the maximum, all cells get the same type.
 inline constexpr std::size_t kMaxCellTypes = 64;
 
-/// Returns a type number for each cell; cells of the same shape have the same number. Two cells count as having the
-/// same shape if they have equally many vertices, triangles, quadrilaterals and so on, and if six lengths agree to
-/// within 1/500 of the polytope's extent (see maxDistanceFromMean()): the least, the root-mean-square and the greatest
-/// edge length of the cell, and the least, the root-mean-square and the greatest distance of its vertices from their
-/// mean.
+/// Returns a type number for each cell; cells of the same shape have the same number. Two cells have the same shape
+/// if they have equally many vertices, triangles, quadrilaterals and so on, and if their six lengths agree to
+/// within 1/500 of maxDistanceFromMean(polytope). The six lengths are the least, the root-mean-square and the
+/// greatest edge length, and the same three statistics of the distances of the vertices from their mean.
 std::vector<std::uint32_t> cellTypesByShape(const Polytope& polytope);
 
 /// Refines a classification of the cells by color refinement, and returns the new type number of each cell. `types`

@@ -12,8 +12,8 @@ namespace oval4d::polytopes {
 namespace {
 
 constexpr double kTolerance = 1e-9;  // the tolerance of distances, relative to maxDistanceFromMean()
-// The angles around an edge or a vertex add up to one or more full turns of 2π. kMaxTurn, in radians, distinguishes one
-// full turn from two or more.
+// The angles around an edge or a vertex add up to 2π · n for an integer n ≥ 1, up to rounding. A sum below
+// kMaxTurn, in radians, means n = 1, one full turn.
 constexpr double kMaxTurn = 3 * std::numbers::pi;
 
 // Returns the component of v perpendicular to a unit vector.
@@ -73,14 +73,14 @@ class ConvexityTest {
         return true;
     }
 
-    // Returns the point nearest to the origin in the flat through points_, which is an affine subspace of this
-    // dimension. Returns an empty optional if the points span only a flat of lower dimension, or if the flat contains
-    // the origin. Overwrites points_.
+    // Returns the foot: the point nearest to the origin in the flat (affine subspace) through points_. `dimension`
+    // is the dimension of this flat. Returns an empty optional if the points span only a flat of lower dimension,
+    // or if the flat contains the origin. Overwrites points_.
     std::optional<glm::dvec4> footOf(int dimension) {
         glm::dvec4 foot = points_.front();
         for (glm::dvec4& point : points_) point -= foot;
         for (; dimension > 0; --dimension) {
-            // Project out the direction of the farthest point.
+            // Remove the component along the direction of the farthest point from all other points.
             const glm::dvec4 far = *std::max_element(
                 points_.begin(), points_.end(),
                 [](const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); });
@@ -93,9 +93,9 @@ class ConvexityTest {
         return foot;
     }
 
-    // Returns whether each cell is convex. The test of a cell is that of isConvex(), with one dimension less: no edge
-    // of the cell may be reentrant, and the 2-faces around each vertex must make one full turn about the axis from the
-    // mean of the cell's corners to this vertex.
+    // Returns whether each cell is convex. A cell is convex if none of its edges is reentrant, and if, for each
+    // vertex, the 2-faces around the vertex make one full turn about the axis from the mean of the cell's corners
+    // to the vertex.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());
@@ -140,7 +140,8 @@ class ConvexityTest {
         }
     }
 
-    // Returns whether a flat separates `point` from the origin; `foot` is the point of the flat nearest to the origin.
+    // Returns whether a flat separates `point` from the origin. `foot` is the point of the flat that is nearest to
+    // the origin.
     bool isBeyond(const glm::dvec4& foot, const glm::dvec4& point) const {
         return glm::dot(point - foot, foot) > kTolerance * extent_ * glm::length(foot);
     }
@@ -195,8 +196,8 @@ class ConvexityTest {
         v = glm::normalize(v);
         std::array<glm::dvec4, 2> plane{};
         for (glm::dvec4& found : plane) {
-            // Of the four coordinate axes without their components along a, b and the vector already found, the longest
-            // one is the most accurate.
+            // Subtract from each coordinate axis its components along a, b and the vectors already found. The
+            // longest of the four remainders is the most accurate new vector.
             double most = 0;
             for (int axis = 0; axis < 4; ++axis) {
                 glm::dvec4 rest(0);

@@ -14,7 +14,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// The lengths in a polygon.
+// Compares the lengths of the sides and diagonals of a polygon.
 class PolygonLengths {
   public:
     explicit PolygonLengths(std::span<const glm::dvec4> corners) : corners_(corners) {}
@@ -29,8 +29,8 @@ class PolygonLengths {
             if (!isNear(glm::distance(corners_[i], center), radius)) return 0;
         }
         if (side > 2 * radius) return 0;
-        // In a circle with this radius, a side is a chord over the angle 2π d/n, and a diagonal to the next corner but
-        // one is a chord over twice this angle. In a skew polygon, the two chords do not fit together.
+        // In a circle of this radius, a side of {n/d} is a chord over the angle 2π d/n. The diagonal that skips one
+        // corner is a chord over twice this angle. In a skew polygon, these two lengths contradict each other.
         const double half = std::asin(side / (2 * radius));
         const int sides = static_cast<int>(n), d = static_cast<int>(std::lround(sides * half / std::numbers::pi));
         const double exact = std::numbers::pi * d / sides;
@@ -38,7 +38,7 @@ class PolygonLengths {
             isNear(side, 2 * radius * std::sin(exact)) && isNear(diagonal, 2 * radius * std::abs(std::sin(2 * exact)));
         return fits && d > 0 && 2 * d < sides && std::gcd(d, sides) == 1 ? d : 0;
     }
-    // The next functions are for quadrilaterals.
+    // The following functions are only for quadrilaterals.
     bool isParallelogram() const {
         const double skew = glm::distance(corners_[0] + corners_[2], corners_[1] + corners_[3]);
         return skew <= kRelative * std::max(distance(0, 2), distance(1, 3));

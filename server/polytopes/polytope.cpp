@@ -45,9 +45,9 @@ int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
     return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
 }
 
-// Orients the boundary coherently: assigns a sign to every incidence of a 2-face with a cell. If the vertex loops of
-// the 2-faces of a cell are reversed where the sign is negative, they traverse each edge of the cell once in each
-// direction. A 2-face has opposite signs in its two cells. An incidence is identified by its index in cells.items.
+// Orients the boundary coherently: assigns a sign to every incidence (pair of a cell and one of its 2-faces,
+// identified by its index in cells.items). If the vertex loops with negative signs are reversed, the 2-faces of a
+// cell traverse each edge of the cell once in each direction. A 2-face has opposite signs in its two cells.
 class Orienter {
   public:
     explicit Orienter(Polytope& p) : p_(p), incidencesOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
@@ -71,7 +71,8 @@ class Orienter {
     }
 
   private:
-    // An edge of a 2-face of the current cell, with the direction (see directionOf()) of the 2-face's loop along it.
+    // An edge of a 2-face of the current cell. `direction` is +1 if the loop of the 2-face goes from the edge's
+    // smaller vertex index to the larger, else −1 (see directionOf()).
     struct DirectedEdge {
         std::uint32_t edge, incidence;
         int direction;
@@ -85,9 +86,9 @@ class Orienter {
         incidences[incidences[0] == kNone ? 0 : 1] = incidence;
     }
 
-    // Orients one connected component of the boundary, beginning with the incidence `first`. Chooses the outward
-    // orientation: that in which the sum of scaledConeVolume() over the cells is negative. With this orientation, the
-    // face loops of slices are counterclockwise, seen from outside the slice.
+    // Orients one connected component of the boundary, beginning with the incidence `first`. Of the two
+    // orientations, chooses the outward one, in which the sum of scaledConeVolume() over the cells is negative.
+    // Then the face loops of each slice are counterclockwise, seen from outside the slice.
     void orientComponent(std::uint32_t first) {
         std::vector<std::uint32_t> cells;
         std::vector<std::uint32_t> waiting{first};
@@ -183,11 +184,11 @@ class Orienter {
         }
     }
 
-    // Returns 24 times the signed hypervolume of the cone over the cell. The apex of the cone, `tip`, is a vertex of
-    // the polytope. It is not the origin, because rounding errors would exceed the sum for a polytope that is far from
-    // the origin. Each 2-face of the cell is divided as a fan into triangles (a, b, c), whose corners follow each other
-    // as in its loop. The result is the sum of sign · det(v, a, b, c) over all these triangles. Here, `sign` is the
-    // sign of the 2-face in the cell, and v is a fixed vertex of the cell; v, a, b and c are relative to `tip`.
+    // Returns 24 times the signed hypervolume of the cone over the cell. The apex, `tip`, is a vertex of the
+    // polytope: with the origin as the apex, rounding errors would dominate if the polytope is far from the origin.
+    // The result is the sum of sign · det(v, a, b, c) over all triangles (a, b, c) of the 2-faces, each divided as
+    // a fan. `sign` is the sign of the 2-face in the cell, and v is a fixed vertex of the cell; v, a, b and c are
+    // relative to `tip`.
     double scaledConeVolume(std::uint32_t cell) const {
         double sum = 0;
         const glm::dvec4 tip = p_.vertices[p_.faces.items[0]];
@@ -223,10 +224,10 @@ void checkIndices(const geometry::JaggedArray& lists, std::size_t below, FaultLo
     }
 }
 
-// Builds Polytope::edgeFaces, where the 2-faces around each edge are in cyclic order. At each of its edges, a cell has
-// two 2-faces, whose loops, oriented outward from the cell, traverse the edge in opposite directions. The cyclic order
-// results from going through the cell from one of the two 2-faces to the other, then through the next cell, and so on.
-// If the 2-faces around an edge form several cycles, the cycles are stored one after another.
+// Builds Polytope::edgeFaces, which lists the 2-faces around each edge in cyclic order. A cell has two 2-faces at
+// each of its edges; their loops, oriented outward from the cell, traverse the edge in opposite directions. The
+// order results from crossing a cell from one of these 2-faces to the other, then crossing the next cell, and so
+// on. If the 2-faces around an edge form several cycles, the cycles are stored one after another.
 void findFacesAtEdges(Polytope& p) {
     auto& [begin, items] = p.edgeFaces;
     begin.assign(p.edges.size() + 1, 0);
@@ -240,7 +241,7 @@ void findFacesAtEdges(Polytope& p) {
         }
     }
     std::vector<std::uint32_t> sideAfterCell(
-        p.cells.size());  // per cell: the index in `sides` of the 2-face that follows the cell in the cyclic order
+        p.cells.size());  // per cell: the index in `sides` of the 2-face that comes next after this cell
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };
@@ -248,7 +249,7 @@ void findFacesAtEdges(Polytope& p) {
         for (std::uint32_t i = 0; i < sides.size(); ++i) sideAfterCell[cellBefore(sides[i])] = i;
         for (std::uint32_t i = 0; i + 1 < sides.size(); ++i) {
             const std::uint32_t follower = sideAfterCell[cellAfter(sides[i])];
-            if (follower <= i) continue;  // the cycle is closed; another one begins
+            if (follower <= i) continue;  // the cycle is closed, and the next 2-face begins another cycle
             std::swap(sides[i + 1], sides[follower]);
             sideAfterCell[cellBefore(sides[follower])] = follower;
         }

@@ -19,12 +19,13 @@ namespace oval4d::polytopes {
 
 using geometry::CellType;
 
-/// A 4-D polytope: a cell complex that is the boundary of a body, or of several. makePolytope() builds it. Threads and
-/// sessions share a polytope by pointers to const. The center of a polytope that is built from a name is the origin.
+/// A 4-D polytope: a cell complex that is the boundary of one or more bodies. makePolytope() builds it. Threads and
+/// sessions share a polytope by pointers to const. The center of a polytope that is built from a name is the
+/// origin.
 struct Polytope : geometry::CellComplex {
-    /// The 2-faces around each edge, in cyclic order: 2-face f is stored as 2 f + 1 if its vertex loop traverses the
-    /// edge from the edge's first vertex to its second, else as 2 f. The cell between an entry s and the next entry of
-    /// its cycle is faceCells[s / 2][1 − s mod 2]; after the last entry of a cycle, the next entry is the first one. If
+    /// The 2-faces around each edge, in cyclic order. The entry for 2-face f is 2 f + 1 if its vertex loop
+    /// traverses the edge from the edge's first vertex to its second, else 2 f. Between an entry s and the next
+    /// entry of its cycle lies the cell faceCells[s / 2][1 − s mod 2]; the first entry follows the last one. If
     /// several bodies meet in an edge, the edge has several cycles, which are stored one after another.
     geometry::JaggedArray edgeFaces;
 
@@ -47,8 +48,8 @@ class InvalidPolytope : public std::invalid_argument {
     enum class FaultLocation : std::uint8_t { whole, face, cell };  ///< what is invalid: the polytope, or one element
 
     /// `number` is the index of the invalid 2-face or cell; 0 for the whole polytope. `fault` says what is wrong
-    /// without naming the element, such as "does not lie in two cells". what() returns the name and the fault: "2-face
-    /// 7 does not lie in two cells".
+    /// without naming the element, such as "does not lie in two cells". what() returns both, as in "2-face 7 does
+    /// not lie in two cells".
     InvalidPolytope(FaultLocation element, std::size_t number, const std::string& fault);
 
     FaultLocation part;  ///< whether the whole polytope, a 2-face or a cell is invalid

@@ -31,7 +31,7 @@ struct Operand {
     Design design;
     std::optional<double> circumradius;  // as stated in the name; empty for the default (see combinationNamed())
 
-    // Returns a name of the operand. operandNamed() turns this name into an equal operand.
+    // Returns a name from which operandNamed() makes an equal operand.
     std::string name() const {
         std::string result = design.name;
         if (circumradius) result += " of circumradius " + text::shortestDecimal(*circumradius);
@@ -41,8 +41,8 @@ struct Operand {
 
 using Words = std::vector<std::string>;
 
-// Returns the index of the "and" between the two operands; an empty optional if there is none. Skips an "and" that
-// belongs to a combination within the first operand.
+// Returns the index of the word "and" between the names of the two operands, or an empty optional if there is none.
+// An "and" within the name of the first operand, as in "hull of hull of A and B and C", does not count.
 std::optional<std::size_t> findAnd(const Words& words) {
     int nested = 0;
     for (std::size_t i = 2; i < words.size(); ++i) {
@@ -55,7 +55,7 @@ std::optional<std::size_t> findAnd(const Words& words) {
 std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLookup& lookup) {
     Operand operand;
     std::size_t end = words.size();
-    // A number such as 5e-1 is two words, because text::lowerCaseWords() divides it at the hyphen.
+    // text::lowerCaseWords() divides a text at hyphens, so it turns the number 5e-1 into two words.
     const std::size_t numberWords = end > 1 && words[end - 2].ends_with('e') ? 2 : 1;
     const std::size_t suffix = 2 + numberWords;
     if (end > suffix && words[end - suffix] == "of" && words[end - suffix + 1] == "circumradius") {
@@ -101,7 +101,8 @@ class CombinationRecipe : public Recipe {
             if (circumradius == 0 || operand.circumradius)
                 circumradius = operand.circumradius.value_or(polytope.circumradius);
             const double scale = circumradius / polytope.circumradius;
-            // The intersection of two polytopes is the polar reciprocal of the convex hull of their polar reciprocals.
+            // The intersection of two polytopes is the polar reciprocal of the hull of their polar reciprocals,
+            // whose vertices are the poles.
             for (const glm::dvec4& point : intersection_ ? polesOf(polytope) : polytope.vertices)
                 points.push_back(intersection_ ? point / scale : point * scale);
         }
@@ -137,11 +138,11 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
 // 600-cell of circumradius 4", "product of 5-gon and 7-gon". Returns an error if the text begins with "hull of",
 // "intersection of" or "product of" but is not a valid name; an empty optional for other texts.
 //
-// Both polytopes of a hull or an intersection must be convex; each is centered at the origin. By default, the first
-// polytope has the size with which it is built alone, and the second polytope is scaled to the circumradius of the
-// first. "of circumradius" and a number from 0.01 to 100 after a name scale this polytope to the given circumradius.
-// The result is moved such that the mean of its vertices is the origin. Recipe::build throws std::invalid_argument if
-// one of the two polytopes is not convex, and TooLarge if a limit of convex_hull.hpp is exceeded.
+// Both polytopes of a hull or an intersection must be convex; each is centered at the origin. The first polytope
+// has the size that it has alone, and the second polytope is scaled to the circumradius of the first. A name
+// followed by "of circumradius" and a number from 0.01 to 100 sets another circumradius. The result is moved such
+// that the mean of its vertices is the origin. Recipe::build throws std::invalid_argument if one of the two
+// polytopes is not convex, and TooLarge if a limit of convex_hull.hpp is exceeded.
 //
 // The product of two polygons is their duoprism; the product of a polyhedron and a segment (of length 2) is the prism
 // over the polyhedron.

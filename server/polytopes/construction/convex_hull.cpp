@@ -17,9 +17,8 @@ using text_files::FileError;
 
 namespace {
 
-// The assumed rounding error of the points, relative to their largest distance from the origin. It is much larger than
-// the rounding error of a double, because each construction increases the rounding errors of the polytopes that it
-// uses, and constructions may be nested.
+// The assumed rounding error of the points, relative to their largest distance from the origin. It is much larger
+// than the rounding error of a double, because constructions may be nested, and each increases the error.
 constexpr double kRounding = 1e-12;
 
 Hull hullOf(std::span<const glm::dvec4> points) {
@@ -37,8 +36,8 @@ Hull hullOf(std::span<const glm::dvec4> points) {
     }
 }
 
-// Moves points such that their mean is the origin, and returns true. If the mean of the points differs from the origin
-// only by rounding errors, leaves the points unchanged and returns false.
+// Moves points such that their mean is the origin, and returns true. If the mean is already the origin, apart from
+// rounding errors, leaves the points unchanged and returns false.
 bool center(std::vector<glm::dvec4>& points) {
     glm::dvec4 middle(0);
     double largest = 0;

@@ -25,16 +25,16 @@ inline constexpr std::size_t kMaxHullSides = 1000;
 /// The maximum number of cells of a hull.
 inline constexpr std::size_t kMaxHullCells = 100'000;
 
-/// Thrown while a polytope is being built, if it exceeds a limit that could not be checked before.
+/// Thrown while a polytope is being built, if the polytope exceeds a limit that only building it can check.
 class TooLarge : public std::invalid_argument {
   public:
     using std::invalid_argument::invalid_argument;
 };
 
-/// Returns the convex hull of the points. Assumes that the rounding error of each coordinate is at most 1e-12 of the
-/// largest distance of a point from the origin, and merges simplices that lie in one hyperplane within this error.
-/// Throws TooLarge if there are more than kMaxHullPoints points or kMaxHullCells cells, and std::invalid_argument if
-/// the points do not span four dimensions.
+/// Returns the convex hull of the points. Assumes that each coordinate has a rounding error of at most 1e-12 times
+/// the largest distance of a point from the origin. Merges simplices that lie in one hyperplane within this error
+/// into one cell. Throws TooLarge if there are more than kMaxHullPoints points or kMaxHullCells cells, and
+/// std::invalid_argument if the points do not span four dimensions.
 Polytope hullPolytope(std::string name, std::span<const glm::dvec4> points);
 
 /// Returns hullPolytope() of the points, moved such that the mean of its vertices is the origin. The origin then lies
@@ -44,7 +44,7 @@ Polytope centeredHull(std::string name, std::span<const glm::dvec4> points);
 /// Returns the polytope, moved such that the mean of its vertices is the origin.
 Polytope centered(Polytope polytope);
 
-/// Builds a polytope from which the caller computes the points of the convex hull for another polytope. Throws
+/// Builds the polytope of `design` for a construction that computes a convex hull from its vertices. Throws
 /// std::invalid_argument if the polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides.
 /// Also throws the exceptions of build().
 Polytope buildRequiringConvex(const Design& design);

@@ -21,8 +21,8 @@ namespace {
 
 constexpr double kPhi = std::numbers::phi;
 
-// The branches p, q and r of a diagram that is a chain, and mirrors that meet at the angles of this diagram. The
-// mirrors are placed such that the polytopes of the diagram have the coordinates in common use.
+// The branches p, q and r of a diagram that is a chain, and mirrors that meet at the angles of this diagram. With
+// these mirrors, the polytopes of the diagram have the coordinates that are usual in the literature.
 struct DiagramWithMirrors {
     std::array<Branch, 3> branches;
     Mirrors mirrors;
@@ -35,8 +35,8 @@ Mirrors normalized(Mirrors mirrors) {
 
 const std::array<DiagramWithMirrors, 4>& placedFamilies() {
     static const std::array<DiagramWithMirrors, 4> kPlaced = [] {
-        // The vertices of the 5-cell in Kageyama's paper, which README.md names. The reflection in mirror i swaps
-        // vertex i and vertex i + 1.
+        // The mirrors of the 5-cell in Kageyama's paper, which README.md names. The normal of mirror i is the
+        // difference of vertex i and vertex i + 1, so the reflection in the mirror swaps these two vertices.
         const double y = 1 / std::sqrt(3.0);
         const double z = -1 / std::sqrt(6.0);
         const double w = -1 / std::sqrt(10.0);
@@ -80,8 +80,8 @@ Mirrors placedByAngles(const Diagram& diagram) {
     return mirrors;
 }
 
-// How the reflections permute an orbit, whose members are numbered from 0. Entry 4 · m + k is the number of the image
-// of member m under the reflection in mirror k.
+// How the reflections permute the members of an orbit, which are numbered from 0: the reflection in mirror k maps
+// member m to the member whose number is entry 4 · m + k.
 using ReflectionImages = std::vector<std::uint32_t>;
 
 struct Orbit {
@@ -104,16 +104,17 @@ Orbit orbitOf(const glm::dvec4& seed, const Mirrors& mirrors, std::size_t most) 
     return orbit;
 }
 
-// Orbits of sets under the reflections in the mirrors. The sets are 2-faces, whose members are vertices, or cells,
-// whose members are 2-faces. Each set is stored as a list of the numbers of its members. The image of a set lists the
-// images of its members in the same order.
+// The orbits of sets under the reflections in the mirrors. A set is a 2-face, whose members are vertices, or a
+// cell, whose members are 2-faces. A set is stored as a list of the numbers of its members. The list of the image
+// of a set has the images of the members in the same order.
 class SetOrbits {
   public:
     geometry::JaggedArray lists;
     ReflectionImages images;
 
-    /// Adds the orbit of `seed` to `lists`, and returns the index of `seed` there; an empty optional if an orbit added
-    /// before contains `seed`. `memberImages` holds the images, under the reflections, of all members of sets.
+    /// Adds the orbit of `seed` to `lists`, and returns the index of `seed` in `lists`. Returns an empty optional
+    /// if an orbit that was added before contains `seed`. `memberImages` holds the images of all members under the
+    /// reflections.
     std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed,
                                           const ReflectionImages& memberImages) {
         const auto first = static_cast<std::uint32_t>(lists.size());
@@ -187,8 +188,8 @@ std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint3
     return faces;
 }
 
-// Returns the canonical representative of the orbit of `set` under the symmetries of the diagram: of all images of
-// `set`, the one that is least as a number.
+// Returns the canonical representative of the orbit of `set` under the symmetries of the diagram: the image of
+// `set` whose bit mask is the least number.
 MirrorSet leastImage(MirrorSet set, const std::vector<Permutation>& symmetries) {
     MirrorSet least = set;
     for (const Permutation& from : symmetries) {
@@ -227,7 +228,8 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
     Orbit vertices = orbitOf(generatingVertex(mirrors, diagram.ringed), mirrors, maxVertices);
     SetOrbits faces;
     std::array<std::uint32_t, 16>
-        faceOfPair{};  // index: a MirrorSet of two mirrors; value: their 2-face at the generating vertex
+        // index: a MirrorSet of two mirrors; value: the 2-face that they generate at the generating vertex
+        faceOfPair{};
     for (unsigned a = 0; a < kMirrors; ++a) {
         for (unsigned b = a + 1; b < kMirrors; ++b) {
             const MirrorSet pair = 1U << a | 1U << b;

@@ -29,7 +29,7 @@ namespace {
 // Returns the number of cells of the cyclic polytope with n vertices.
 constexpr std::uint64_t cyclicCells(std::uint64_t n) { return n * (n - 3) / 2; }
 
-// The maximum, 448, is the largest number of vertices for which the polytope has at most kMaxHullCells cells.
+// The largest number of vertices is 448, because the polytope then has at most kMaxHullCells cells.
 constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
@@ -73,12 +73,13 @@ class CyclicPolytopeRecipe : public Recipe {
             vertices.push_back(radius * glm::dvec4(std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t)));
         }
 
-        // A 2-face contains a pair of neighbors: {i, i + 1, i + 2 + k} with 0 ≤ k < n − 3 has the index i (n − 3) + k.
+        // Each 2-face contains a pair of neighbors: {i, i + 1, i + 2 + k} with 0 ≤ k < n − 3 has the index i (n −
+        // 3) + k.
         geometry::JaggedArray faces;
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t k = 0; k < n - 3; ++k) faces.add(std::array{i, (i + 1) % n, (i + 2 + k) % n});
         }
-        // Returns the index of {i, i + 1, j}. If j = i − 1, the 2-face is listed as {j, j + 1, j + 2}.
+        // Returns the index of the 2-face {i, i + 1, j}. If j = i − 1, this 2-face is listed as {j, j + 1, j + 2}.
         const auto face = [n](std::uint32_t i, std::uint32_t j) {
             const std::uint32_t steps = (j + n - i) % n;
             return steps == n - 1 ? (i + n - 1) % n * (n - 3) : i * (n - 3) + steps - 2;
@@ -89,7 +90,7 @@ class CyclicPolytopeRecipe : public Recipe {
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t j = i + 2; j < n; ++j) {
                 const std::uint32_t steps = j - i;
-                if (steps == n - 1) continue;  // the pairs have vertex i in common
+                if (steps == n - 1) continue;  // the pairs {i, i + 1} and {j, j + 1} have vertex i in common
                 cells.add(std::array{face(i, j), face(i, j + 1), face(j, i), face(j, i + 1)});
                 orbits.push_back(hasPerpendicularTriangles() ? 0U : std::min(steps, n - steps));
             }
@@ -114,9 +115,9 @@ std::optional<Branch> verticesInSymbol(std::string_view symbol) {
     return parseBranch(text::trimmed(numbers[0]));
 }
 
-// Parses the name of a cyclic polytope: "cyclic polytope C(7,4)", "C(7, 4)", "7-cyclic polytope". Returns an error if
-// the text begins or ends with "cyclic polytope" or begins with "C(", but names no number of vertices that is allowed;
-// an empty optional for other texts. The design for five vertices is that of the 5-cell.
+// Parses the name of a cyclic polytope: "cyclic polytope C(7,4)", "C(7, 4)", "7-cyclic polytope". Returns an error
+// if the text has such a form but names no allowed number of vertices, and an empty optional for other texts. The
+// design for five vertices is that of the 5-cell.
 std::optional<DesignOrError> cyclicPolytopeNamed(const NameWords& text) {
     const std::vector<std::string>& words = text.words;
     const auto isFamily = [&](std::size_t at) {

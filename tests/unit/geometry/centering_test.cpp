@@ -11,7 +11,7 @@ namespace {
 
 using Points = std::vector<glm::dvec4>;
 
-// The vertices of a 16-cell of circumradius 1.
+// Returns the vertices of a 16-cell of circumradius 1 around `center`.
 Points crossAt(const glm::dvec4& center) {
     Points points;
     for (int axis = 0; axis < 4; ++axis) {
@@ -48,8 +48,7 @@ TEST(Centering, OfPointsWithoutExtentIsTheOriginUnlessAskedFor) {
     EXPECT_EQ(newOriginFor({Centering::OriginChoice::object}, Points()), glm::dvec4(0));
 }
 
-// The center of the points is not a coordinate that a double represents exactly; nevertheless the differences from it
-// have all the digits of the points.
+// Moving an object from afar to the origin loses no digits: the coordinates relative to the new origin are exact.
 TEST(Centering, KeepsTheDigitsOfPointsThatAreFarAway) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> coordinate(-1, 1);

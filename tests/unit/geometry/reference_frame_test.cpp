@@ -29,7 +29,7 @@ void expectSame(const glm::dmat4& a, const glm::dmat4& b, double tolerance) {
     }
 }
 
-/// The square of the interval between the origin and an event.
+/// Returns the squared spacetime interval w² − x² − y² − z² between the origin and an event.
 double interval(const glm::dvec4& event) { return event.w * event.w - glm::dot(glm::dvec3(event), glm::dvec3(event)); }
 
 TEST(ReferenceFrame, TheDefaultIsTheIdentity) {
@@ -57,7 +57,7 @@ TEST(ReferenceFrame, BoostsPreserveIntervalsAndVolumes) {
         const double scale = glm::dot(boost * event, boost * event) + 1;
         EXPECT_NEAR(interval(boost * event), interval(event), 1e-12 * scale);
         EXPECT_NEAR(glm::determinant(boost), 1, 1e-9);
-        // The observer is at rest in his own frame, and light has the same speed in all frames.
+        // In the frame of a moving observer, the observer is at rest, and light still has the speed 1.
         const glm::dvec4 observer = boost * glm::dvec4(velocity, 1);
         EXPECT_LT(glm::length(glm::dvec3(observer)), 1e-12);
         const glm::dvec3 ray = randomVelocity(random, 1);

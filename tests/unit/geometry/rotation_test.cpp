@@ -23,7 +23,7 @@ double difference(const glm::dmat4& a, const glm::dmat4& b) {
     return worst;
 }
 
-// The matrix of R_ab(θ) by its definition: a' = a cos θ − b sin θ, b' = a sin θ + b cos θ.
+// Returns the matrix of R_ab(θ) by its definition: a' = a cos θ − b sin θ, b' = a sin θ + b cos θ.
 glm::dmat4 byDefinition(Plane plane, double angle) {
     const auto axis = [](char letter) { return letter == 'w' ? 3 : letter - 'x'; };
     const int a = axis(name(plane)[0]);
@@ -71,7 +71,8 @@ TEST(Rotation, doubleRotationIsTheCommutingProductOfItsSimpleRotations) {
     }
 }
 
-// exp(A) is the limit of (1 + A / n)^n, in which each step turns a little in one plane after the other.
+// A rotation in all planes is exp(A), the limit of (1 + A / n)^n: n steps, each a small rotation in one plane after
+// the other.
 TEST(Rotation, turnsInAllPlanesAtTheSameTime) {
     std::mt19937 random(21);
     for (int i = 0; i < 20; ++i) {
@@ -90,7 +91,8 @@ TEST(Rotation, turnsInAllPlanesAtTheSameTime) {
 TEST(Rotation, isTheRotationOfItsTurn) {
     std::mt19937 random(22);
     for (int i = 0; i < 200; ++i) {
-        const Turn small = randomTurnInAllPlanes(random, 3);  // below π, so that no other turn is shorter
+        // all angles are below π, so no other turn with smaller angles gives the same rotation
+        const Turn small = randomTurnInAllPlanes(random, 3);
         const Turn again = Rotation(small).turn();
         for (const Plane plane : kPlanes) EXPECT_NEAR(again[plane].value_or(0), *small[plane], 1e-12);
         const Rotation any = Rotation(randomTurn(random, true)) * Rotation(randomTurn(random, true));
@@ -172,8 +174,8 @@ TEST(Rotation, betweenTwoDirectionsIsTheShortestOne) {
         EXPECT_LT(glm::distance(rotation(glm::normalize(from)), glm::normalize(to)), 1e-7);
         const double angle = std::acos(std::clamp(glm::dot(glm::normalize(from), glm::normalize(to)), -1.0, 1.0));
         EXPECT_NEAR(rotation.largerAngle(), angle, 1e-7);
-        if (i % 10 <= 1) continue;  // the plane is not unique, or lost to rounding
-        // A vector that is perpendicular to both directions does not change.
+        if (i % 10 <= 1) continue;  // opposite or nearly equal directions do not determine the plane of the rotation
+        // The rotation leaves a vector that is perpendicular to both directions unchanged.
         const glm::dvec4 a = glm::normalize(from);
         const glm::dvec4 b = glm::normalize(glm::normalize(to) - glm::dot(a, glm::normalize(to)) * a);
         const glm::dvec4 v = vector();
