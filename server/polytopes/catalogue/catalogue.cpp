@@ -52,8 +52,8 @@ CatalogueEntry entryOf(const NamedWythoffianPolychoron& row) {
                    std::move(aliases));
 }
 
-// A duoprism in the catalogue: the numbers of sides of its two polygons, and Bowers' short name (empty if there is
-// none).
+// A duoprism in the catalogue: the numbers of sides of its two polygons, and Bowers' short name, or an empty text if
+// there is none.
 struct DuoprismRow {
     int p, q;
     std::string_view bowersName;
@@ -124,13 +124,13 @@ struct NearMatch {
     const CatalogueEntry* entry;
 };
 
-// Returns whether a text of `length` letters may be a misspelling of a name at the edit distance `distance` from it:
-// whether it has at most one mistake for every three letters.
+// Returns whether a text of `length` letters may be a misspelling of a name at the edit distance `distance`: whether
+// there is at most one mistake for every three letters.
 bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
-// Returns the names with the least edit distance from `text`, at most one for each entry; an empty list if no name is
-// similar. If several names have the same distance, keeps only those whose length is nearest to that of `text`, because
-// a wrong letter is likelier than a missing one.
+// Returns the names with the least edit distance from `text`, at most one name for each entry. Returns an empty list if
+// no name is similar. Of several names with this distance, keeps only those whose length is nearest to that of `text`,
+// because a wrong letter is likelier than a missing one.
 std::vector<NearMatch> nearest(std::string_view text) {
     text = text.substr(0, kMaxNameBytes);
     const std::size_t wanted = text::normalizedName(text).size();
@@ -140,7 +140,7 @@ std::vector<NearMatch> nearest(std::string_view text) {
         const auto consider = [&](std::string_view name) {
             const std::size_t known = text::normalizedName(name).size();
             const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
-            // The distance is at least the difference of the lengths.
+            // The edit distance is at least the difference of the lengths.
             if (longer > least.first || !isNear(longer, wanted)) return;
             const std::pair distance(polytopes::editDistanceOfNames(text, name), longer);
             if (distance < least) best.clear();
@@ -168,8 +168,8 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
     return {};
 }
 
-// Returns the result of designNamed() for `text`, which is the name of a polytope within the name of another one. If
-// the result is an error without a message, adds a message.
+// Returns the design of a polytope whose name `text` is part of a longer name. If designNamed() returns an error
+// without a message, adds a message.
 DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
     if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {

@@ -14,7 +14,7 @@
 
 namespace oval4d::polytopes {
 
-/// An entry of the catalogue. The numbers and symbols come from the design, without building the polytope.
+/// An entry of the catalogue. Its numbers and symbols are computed without building the polytope.
 struct CatalogueEntry {
     std::string name;                  ///< such as "24-cell"
     std::string family;                ///< "regular", "star", "uniform A4" (or B4, F4, H4), "other", "prism",
@@ -33,19 +33,21 @@ struct CatalogueEntry {
 /// ends. Thread-safe.
 std::span<const CatalogueEntry> catalogue();
 
-/// The maximum size in bytes of a canonical name (Design::name). It is limited because names are stored and shown.
+/// The maximum size in bytes of a canonical name (Design::name), so that names can be stored and shown.
 inline constexpr std::size_t kMaxNameBytes = 256;
 
-/// Returns the entry with this name, alias, diagram or Schläfli symbol, or the entry of the polytope that the text
-/// describes in one of the notations (see designDescribedBy() in names.hpp); nullptr if there is none. Ignores case;
-/// blanks and hyphens are equivalent.
+/// Returns the entry of the polytope that `text` denotes by a name, an alias, a diagram, a Schläfli symbol or in
+/// another notation (see designDescribedBy() in names.hpp). Returns nullptr if there is none. Ignores case; blanks and
+/// hyphens are equivalent.
 const CatalogueEntry* findEntry(std::string_view text);
 
-/// Returns the design of the polytope that a text names: the design of an entry of the catalogue, or of any other
-/// polytope that the text describes in one of the notations (see designDescribedBy() in names.hpp). Returns an error if
-/// the text names no polytope. For a polytope that is not in the catalogue, also returns an error if it has more than
-/// `maxVertices` vertices, if the convex hulls that build it have more than kMaxHullPoints points in total
-/// (convex_hull.hpp), or if its canonical name has more than kMaxNameBytes.
+/// Returns the design of the polytope that a text names. The text may name an entry of the catalogue, or describe any
+/// other polytope in one of the notations (see designDescribedBy() in names.hpp). Returns an error if the text names no
+/// polytope.
+///
+/// For a polytope that is not in the catalogue, also returns an error if it has more than `maxVertices` vertices, if
+/// its canonical name has more than kMaxNameBytes, or if the convex hulls that build it have more than kMaxHullPoints
+/// points in total (convex_hull.hpp).
 DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). If several
@@ -57,8 +59,8 @@ std::string_view nearestName(std::string_view text);
 /// polytope. Returns an empty list if nearestName() returns an empty text.
 std::vector<std::string_view> equallyNearestNames(std::string_view text);
 
-/// Returns the edit distance (Levenshtein) of two names. Before it compares them, cuts both to kMaxNameBytes, and
-/// converts them by text::normalizedName().
+/// Returns the edit distance (Levenshtein) of two names. Cuts both names to kMaxNameBytes and converts them by
+/// text::normalizedName() before the comparison.
 std::size_t editDistanceOfNames(std::string_view one, std::string_view other);
 
 }  // namespace oval4d::polytopes

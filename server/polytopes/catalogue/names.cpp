@@ -15,8 +15,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// Returns the words with which constructions begin, such as "dual", "prism" and "hull". In the name of a construction,
-// "of" follows such a word, as in "hull of X and Y"; after "dual", "of" may be omitted.
+// Returns the words with which the names of constructions begin, such as "dual", "prism" and "hull". In a name, "of"
+// follows such a word, as in "hull of X and Y"; only after "dual", "of" may be omitted.
 const std::vector<std::string_view>& constructionWords() {
     static const std::vector<std::string_view> all = [] {
         std::vector<std::string_view> found;
@@ -49,8 +49,9 @@ bool hasMisplacedCircumradius(const std::vector<std::string>& words) {
     return false;
 }
 
-// Returns why a text that is in none of the notations names no polytope: because it names a polyhedron, or because it
-// has the form of a construction, but begins with an unknown word. Returns an empty string for other texts.
+// Returns why a text names no polytope, for a text that is in none of the notations. There are two known reasons: the
+// text names a polyhedron, or it has the form of a construction but begins with an unknown word. Returns an empty
+// string for other texts.
 std::string reasonFor(const std::vector<std::string>& words) {
     if (const auto solid = solidNamed(words); solid && std::holds_alternative<Solid>(*solid)) {
         const std::string name = nameOf(std::get<Solid>(*solid));

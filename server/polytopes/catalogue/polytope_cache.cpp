@@ -45,7 +45,7 @@ PolytopeCache::SharedPolytope PolytopeCache::peek(const Design& design) const {
 
 std::shared_ptr<PolytopeCache::PolytopeCacheEntry> PolytopeCache::findOrAddSlot(const std::string& name) {
     const std::scoped_lock lock(mutex_);
-    // If there are many slots, drop each slot whose polytope has been destroyed, unless another thread uses the slot.
+    // If there are many slots, remove each slot whose polytope no longer exists, unless another thread uses the slot.
     constexpr std::size_t kMany = 1000;
     if (slots_.size() >= kMany) {
         std::erase_if(slots_,

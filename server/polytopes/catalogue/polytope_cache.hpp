@@ -17,8 +17,7 @@ namespace oval4d::polytopes {
 const std::shared_ptr<const Polytope>& fiveCell();
 
 /// A cache of polytopes, with their names as keys. The cache owns the most recently used polytopes, up to a memory
-/// limit. Through weak pointers, it also finds every polytope that it no longer owns but that a caller still holds.
-/// Thread-safe.
+/// limit. It also finds each polytope that it no longer owns, as long as a caller holds it. Thread-safe.
 class PolytopeCache {
   public:
     using SharedPolytope = std::shared_ptr<const Polytope>;
@@ -29,8 +28,9 @@ class PolytopeCache {
     /// `bytes` is the limit on the memory of the polytopes that the cache owns.
     explicit PolytopeCache(std::size_t bytes = kDefaultBytes) : maxBytes_(bytes) {}
 
-    /// Returns the polytope of this design. If the cache does not find it, builds it on the calling thread; concurrent
-    /// calls for the same design wait until it is built. Throws std::invalid_argument as build() does.
+    /// Returns the polytope of this design, and builds it on the calling thread if the cache does not find it.
+    /// Concurrent calls for the same design wait until the polytope is built. Throws std::invalid_argument as build()
+    /// does.
     SharedPolytope get(const Design& design);
 
     /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be
@@ -41,7 +41,7 @@ class PolytopeCache {
     std::size_t bytes() const;
 
   private:
-    // The entry for one name. It does not keep the polytope alive.
+    // The entry for one name. Holds the polytope by a weak pointer, which does not keep it alive.
     struct PolytopeCacheEntry {
         std::mutex building;  // held while the polytope is being built
         std::weak_ptr<const Polytope> polytope;
@@ -52,12 +52,12 @@ class PolytopeCache {
     SharedPolytope peek(const Design& design) const;
     // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<PolytopeCacheEntry> findOrAddSlot(const std::string& name);
-    // Moves the polytope to the front of recent_, and removes the least recently used polytopes until the limit is met.
-    // Requires that the caller holds mutex_.
+    // Moves the polytope to the front of recent_. Removes the least recently used polytopes until the memory limit is
+    // met. The caller must hold mutex_.
     void markUsedAndEvict(const SharedPolytope& polytope);
 
     const std::size_t maxBytes_;
-    mutable std::mutex mutex_;  // guards the members below; not held while a polytope is being built
+    mutable std::mutex mutex_;  // guards the members below; not locked while a polytope is being built
     std::map<std::string, std::shared_ptr<PolytopeCacheEntry>> slots_;
     std::list<SharedPolytope> recent_;  // the polytopes that the cache owns; the most recently used first
     std::size_t bytes_ = 0;             // the memory of the polytopes in `recent_`

@@ -24,7 +24,7 @@ constexpr RegularPolygon kSquare{4, 1};
 
 Diagram parseValidDiagram(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
 
-/// Wythoff's construction from a Coxeter–Dynkin diagram.
+/// A recipe for the uniform polytopes that Wythoff's construction makes from Coxeter–Dynkin diagrams.
 class WythoffianRecipe : public Recipe {
   public:
     explicit WythoffianRecipe(const Diagram& diagram) : diagram_(diagram) {}
@@ -36,8 +36,9 @@ class WythoffianRecipe : public Recipe {
 
     Polytope build(const std::string& name) const override {
         Mirrors mirrors = mirrorsOf(diagram_);
-        // The coordinates in common use for the 120-cell contain the even permutations of some quadruples. The mirrors
-        // of mirrorsOf() generate the mirror image, with the odd permutations; exchanging x and y corrects this.
+        // In the usual coordinates of the 120-cell, some vertices are the even permutations of four numbers. The
+        // mirrors of mirrorsOf() generate the mirror image, with the odd permutations; exchanging x and y corrects
+        // this.
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
@@ -51,23 +52,23 @@ class WythoffianRecipe : public Recipe {
     Diagram diagram_;
 };
 
-/// The prism over the snub of {p, q}; for p = n and q = 2, the prism over the n-antiprism.
+/// A recipe for the prism over the snub of {p, q}. For p = n and q = 2, the snub is the n-antiprism.
 class SnubPrismRecipe : public Recipe {
   public:
     SnubPrismRecipe(Branch p, Branch q) : p_(p), q_(q) {}
 
     ElementCounts counts() const override {
         const std::uint64_t vertices = rotations();
-        std::uint64_t edges = vertices / 2;  // each between two of the triangles counted below
-        std::uint64_t faces = vertices;      // the triangles that are neither p-gons nor q-gons
+        std::uint64_t edges = vertices / 2;  // the edges between two of the triangles counted below
+        std::uint64_t faces = vertices;      // the triangles of the snub that are neither p-gons nor q-gons
         for (const Branch b : {p_, q_}) {
             edges += b.numerator == 2 ? vertices / 2 : vertices;
             faces += b.numerator == 2 ? 0 : vertices / static_cast<std::uint64_t>(b.numerator);
         }
         return {2 * vertices, 2 * edges + vertices, 2 * faces + edges, faces + 2};
     }
-    // The order is 2 · rotations(), because the prism has a mirror between its bases. However, if the base is an
-    // antiprism, it is 4 · rotations(), because half of the symmetries of an antiprism are not rotations.
+    // The order is 2 · rotations(), because the prism has a mirror between its bases. If the base is an antiprism, the
+    // order is 4 · rotations(), because half of the symmetries of an antiprism are not rotations.
     std::uint64_t symmetryOrder() const override { return rotations() * (q_.numerator == 2 ? 4 : 2); }
     std::string linearNotation() const override {
         // By convention, the diagram of an antiprism begins with the branch number 2: the prism over the 5-antiprism is
@@ -90,7 +91,7 @@ class SnubPrismRecipe : public Recipe {
 
 std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<WythoffianRecipe>(diagram); }
 
-// Returns the designs that have a name of their own, with the canonical diagram as the key. A design with several
+// Returns the designs that have names of their own. The key of a design is its canonical diagram; a design with several
 // diagrams has an entry for each of them.
 const std::map<Diagram, Design>& namedDesigns() {
     static const std::map<Diagram, Design> kDesigns = [] {
@@ -123,8 +124,8 @@ const std::map<Diagram, Design>& namedDesigns() {
 Design designOf(const Diagram& diagram) {
     const auto& named = namedDesigns();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
-    // If every connected component has at most two mirrors, the polytope is a duoprism. Each component of two mirrors
-    // generates a polygon; two components of one mirror each generate a square together.
+    // If every connected component of the diagram has at most two mirrors, the polytope is a duoprism. A component of
+    // two mirrors generates a polygon; two components of one mirror each generate a square.
     std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {

@@ -1,6 +1,6 @@
 #pragma once
-// Functions that return the designs of uniform polychora (4-D polytopes), and functions that take any design and build
-// its polytope or return properties of the polytope. recipe.hpp declares Design.
+// Designs of uniform polychora (4-D polytopes). A design (recipe.hpp) has the name of a polytope, builds the polytope
+// and returns its properties.
 
 #include <cstdint>
 #include <string>
@@ -14,8 +14,8 @@
 namespace oval4d::polytopes {
 
 /// Returns the design of the polytope that `diagram` describes. The caller must ensure that parseDiagram() accepts the
-/// diagram. If several diagrams describe the same polytope, the design for all of them is that of the diagram with the
-/// largest group: for x3o3o *b3o, the design of x3o3o4o.
+/// diagram. All diagrams of one polytope give the same design: that of the diagram with the largest group. For example,
+/// x3o3o *b3o gives the design of x3o3o4o.
 Design designOf(const Diagram& diagram);
 
 /// Returns the design of the duoprism of the regular polygons p and q, which may be stars. The caller must ensure that
@@ -31,23 +31,24 @@ Design antiprismPrism(int sides);
 /// of the 8-cell.
 Design prismOf(const NamedPolyhedron& base);
 
-/// Returns the numbers of elements without building the polytope. If the polytope is constructed by a convex hull, the
-/// numbers are estimates.
+/// Returns the numbers of elements of the polytope without building it. For a polytope that is built as a convex hull,
+/// the numbers are estimates.
 ElementCounts elementCounts(const Design& design);
 
-/// Returns the order of the full symmetry group, which includes reflections; Recipe::kUnknownOrder if it is not known.
+/// Returns the order of the full symmetry group, which includes reflections, or Recipe::kUnknownOrder if the order is
+/// not known.
 std::uint64_t symmetryOrder(const Design& design);
 
-/// Returns the diagram in linear notation, or an empty string if there is none.
+/// Returns the Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o", or an empty string if there is none.
 std::string linearNotationOf(const Design& design);
 
-/// Returns the Schläfli symbol, or an empty string if there is none.
+/// Returns the Schläfli symbol, such as "{3,4,3}", or an empty string if there is none.
 std::string schlaefliOf(const Design& design);
 
 /// Builds the polytope, centered at the origin. In a uniform polytope, all edges have length 2. Throws
-/// std::invalid_argument if elements of the polytope would coincide, which happens for some star diagrams; if a dual
-/// does not exist because a cell's hyperplane passes through the center (see dual.cpp); or if a construction requires a
-/// convex polytope and gets a nonconvex one. Throws TooLarge (convex_hull.hpp) if a hull exceeds its limits.
+/// std::invalid_argument in three cases: elements of a star polytope would coincide; a dual does not exist, because a
+/// cell's hyperplane passes through the center; or a construction requires a convex polytope and gets a nonconvex one.
+/// Throws TooLarge if a convex hull exceeds the limits of convex_hull.hpp.
 Polytope build(const Design& design);
 
 }  // namespace oval4d::polytopes

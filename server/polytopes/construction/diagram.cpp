@@ -10,8 +10,8 @@ namespace {
 
 MirrorSet bit(int mirror) { return 1U << static_cast<unsigned>(mirror); }
 
-// Returns the mirrors of `set` that are connected, within `set`, to mirrors of `start`. Includes the mirrors of `start`
-// that are in `set`.
+// Returns the mirrors of `set` that a chain of branches between mirrors of `set` connects to a mirror in both `start`
+// and `set`. Includes the mirrors in both `start` and `set`.
 MirrorSet connectedTo(const Diagram& diagram, MirrorSet start, MirrorSet set) {
     MirrorSet reached = start & set;
     for (int sweep = 0; sweep < kMirrors; ++sweep) {
@@ -56,7 +56,8 @@ std::vector<Branch> branchesAlong(const Diagram& diagram, MirrorSet component) {
     return {};
 }
 
-// A finite Coxeter group of three or four mirrors whose diagram is a chain: the branches of the chain, and the order.
+// A finite Coxeter group of three or four mirrors whose diagram is a chain: the branches of the chain, and the order of
+// the group.
 struct FiniteCoxeterGroup {
     std::vector<Branch> chain;
     std::uint64_t order;

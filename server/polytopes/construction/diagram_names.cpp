@@ -19,8 +19,8 @@ namespace {
 
 using RingedNodes = std::array<bool, 4>;
 
-// An operation on a regular polychoron. The diagram of the result is the diagram of the polychoron with other rings:
-// around the nodes that `rings` selects.
+// An operation on a regular polychoron, such as truncation. It keeps the diagram of the polychoron, but rings the nodes
+// that `rings` selects.
 struct RingOperation {
     std::string_view name;
     RingedNodes rings;
@@ -121,8 +121,8 @@ std::vector<std::string> operationNames(const Diagram& diagram) {
     for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
         if (row.family != "regular") continue;
         for (const RingOperation& operation : kOperations) {
-            // Skip operations that leave the first node without a ring, except rectification and bitruncation. Their
-            // results are usually named as operations on the dual instead.
+            // Skip operations that leave the first node without a ring, except rectification and bitruncation: they are
+            // usually named as operations on the dual polytope.
             if (operation.rings < RingedNodes{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
             Diagram regular = diagramOf(row);

@@ -1,5 +1,5 @@
 #pragma once
-// Names and symbols that stand for Coxeter–Dynkin diagrams: the diagrams themselves, Schläfli symbols, and operations
+// Texts that stand for Coxeter–Dynkin diagrams: diagrams in linear notation, Schläfli symbols, and names of operations
 // on regular polychora, such as "truncated tesseract".
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the names that describe the polytope of a diagram as an operation on a convex regular polychoron, such as
-/// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell"; an empty list if there are none.
+/// Returns the names that describe the diagram's polytope as an operation on a convex regular polychoron, such as
+/// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell". Returns an empty list if there are none.
 std::vector<std::string> operationNames(const Diagram& diagram);
 
 }  // namespace oval4d::polytopes

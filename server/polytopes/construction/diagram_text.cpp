@@ -12,11 +12,11 @@ namespace {
 
 using Reason = NameError::Reason;
 
-constexpr int kMaxNumber = 1'000'000;  // the largest number that a text may contain; exceeds any limit on vertices
+constexpr int kMaxNumber = 1'000'000;  // the largest number in a text; polytopes with such numbers are always too large
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
-// Reads a text from left to right; `rest` is the part not read yet.
+// Reads a text from left to right; `rest` is the part that has not been read.
 struct Reader {
     std::string_view rest;
 
@@ -60,8 +60,8 @@ NameError badBranch() {
         "5/2");
 }
 
-// Builds a diagram from its nodes in order, each with its branches to earlier nodes. Nodes beyond the fourth are
-// counted but not stored; if there are any, checked() returns an error.
+// Builds a diagram from its nodes in order, and from the branches of each node to earlier nodes. A diagram has four
+// mirrors: further nodes are only counted, and make checked() return an error.
 class DiagramBuilder {
   public:
     int nodes = 0;
@@ -122,8 +122,8 @@ std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
     return {};
 }
 
-// Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the ringed mirrors, where
-// mirror 0 is the first one of the symbol; an empty optional for an unknown operation.
+// Parses the operation before the opening brace of a Schläfli symbol, such as "t0,1". Returns the set of ringed
+// mirrors, of which mirror 0 is the first node of the symbol. Returns an empty optional for an unknown operation.
 std::optional<MirrorSet> parseRingPrefix(std::string_view text) {
     constexpr std::pair<std::string_view, MirrorSet> kNamed[] = {
         {"", 1}, {"r", 2}, {"t", 3}, {"2r", 4}, {"rr", 5}, {"2t", 6}, {"tr", 7}, {"2rr", 10}, {"2tr", 14}};
@@ -210,7 +210,7 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
             builder.join(builder.nodes - 2, builder.nodes - 1, *branch);
         }
         // Check that the symbol has all nodes that its prefix rings. A prefix can ring only the nodes 0 to 3, so a
-        // symbol of four or more nodes needs no check. It must not be checked, because a shift by 32 or more is
+        // symbol of four or more nodes needs no check. The check is also skipped because a shift by 32 or more is
         // undefined.
         if (const int own = builder.nodes - first; own < kMirrors && (*rings >> static_cast<unsigned>(own)) != 0) {
             return NameError::impossible(

@@ -16,11 +16,12 @@ namespace oval4d::polytopes {
 struct NameError {
     enum class Reason : std::uint8_t {
         unknown,     ///< neither a known name nor a known notation; `message` may be empty
-        impossible,  ///< in a known notation, but describes no polytope, such as "2,5-duoprism", or is too long
+        impossible,  ///< the text has a known notation, but describes no polytope, such as "2,5-duoprism", or is too
+                     ///< long
         too_large,   ///< the polytope has too many vertices, or is built from convex hulls of too many points
     };
     Reason reason = Reason::unknown;
-    std::string message;  ///< for the user: what is wrong and what is allowed
+    std::string message;  ///< what is wrong and what is allowed, as a text for the user
 
     /// Returns an error with Reason::impossible.
     static NameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
@@ -28,9 +29,11 @@ struct NameError {
 
 /// Parses a diagram in linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between
 /// them, as in "x5o3o3x" and "x5/2o5o3o". A blank separates connected components, as in "x5o x7o"; after "*b", the next
-/// branch starts at the second node, as in "x3o3o *b3o". Returns an error if the text has another form, if there are
-/// not four nodes, if the group is not finite, if a component has no ringed node, or if a branch with an even
-/// denominator joins two ringed nodes, because the polygons of such a branch would cover themselves twice.
+/// branch starts at the second node, as in "x3o3o *b3o".
+///
+/// Returns an error if the text has another form, if there are not four nodes, if the group is not finite, or if a
+/// component has no ringed node. Also returns an error if a branch with an even denominator joins two ringed nodes,
+/// because the polygons of such a branch would cover themselves twice.
 std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",
@@ -44,11 +47,11 @@ std::string linearNotationOf(const Diagram& diagram);
 /// if a connected component of the diagram is not a chain.
 std::string schlaefliOf(const Diagram& diagram);
 
-/// Returns the branch as text: "5" or "5/2".
+/// Returns the branch as text, such as "5" or "5/2".
 std::string textOf(Branch branch);
 
-/// Parses a branch such as "5" or "5/2": an integer of at least 2, or a fraction in lowest terms greater than 2. The
-/// numerator is at most 1,000,000. Returns an empty optional for other texts.
+/// Parses a branch such as "5" or "5/2": an integer of at least 2, or a fraction in lowest terms greater than 2.
+/// Returns an empty optional for other texts, and if the numerator is greater than 1,000,000.
 std::optional<Branch> parseBranch(std::string_view text);
 
 }  // namespace oval4d::polytopes

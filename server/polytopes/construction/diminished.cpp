@@ -101,8 +101,8 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
 }
 
 Polytope buildSnub24Cell(std::string name) {
-    // If the usual coordinates of the 600-cell are scaled to the circumradius 2, its vertices without irrational
-    // coordinates are the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1). They are the vertices of a 24-cell.
+    // In the usual coordinates, scaled to the circumradius 2, the 600-cell has 24 vertices without irrational
+    // coordinates: the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1). They are the vertices of a 24-cell.
     const Polytope whole = sixHundredCell();
     const double unit = whole.circumradius / 2;
     std::vector<bool> removed;
@@ -116,9 +116,9 @@ Polytope buildSnub24Cell(std::string name) {
 
 Polytope buildGrandAntiprism(std::string name) {
     // Two neighboring vertices and the center span the plane of the first decagon, whose sides are edges of the
-    // 600-cell. The second decagon lies in the completely orthogonal plane. `part` is the distance from the center, in
-    // circumradii, of the projection of a vertex onto the plane of the first decagon. It is 1 for a vertex of the first
-    // decagon, and 0 for a vertex of the second.
+    // 600-cell. The second decagon lies in the completely orthogonal plane. `part` is the length of a vertex's
+    // projection onto the first plane, in circumradii. It is 1 for a vertex of the first decagon, and 0 for a vertex of
+    // the second.
     const Polytope whole = sixHundredCell();
     const glm::dvec4 u = glm::normalize(whole.vertices[whole.edges[0][0]]);
     glm::dvec4 v = whole.vertices[whole.edges[0][1]];
@@ -131,8 +131,8 @@ Polytope buildGrandAntiprism(std::string name) {
     return diminished(std::move(name), whole, removed);
 }
 
-/// A diminished 600-cell. The constructor takes the element counts, because nothing computes them without building the
-/// polytope.
+/// A recipe for a diminished 600-cell, that is, a 600-cell with some vertices cut off. The constructor takes the
+/// numbers of elements, which only building the polytope could compute.
 class Diminished600CellRecipe : public Recipe {
   public:
     using BuildFunction = Polytope (*)(std::string name);

@@ -111,16 +111,16 @@ std::optional<Diagram> regularDiagram(const Design& design) {
 
 namespace {
 
-// Parses a text such as "dual of rectified 5-cell". Returns the design of the dual, an error if the rest of the text
-// names no polytope, or an empty optional if the text does not begin with "dual".
+// Parses a text such as "dual of rectified 5-cell". Returns the design of the dual, or an error if the rest of the text
+// names no polytope. Returns an empty optional if the text does not begin with "dual".
 //
-// The dual is the polar reciprocal of the named polytope (Coxeter, Regular Polytopes, §7.5): a vertex v of the dual
-// corresponds to the cell of the polytope in the hyperplane v · x = r², where r² is the circumradius times the least
-// distance of a cell's hyperplane from the center. With this r, the dual has the circumradius of the named polytope.
+// The dual is the polar reciprocal of the named polytope (Coxeter, Regular Polytopes, §7.5). A vertex v of the dual
+// corresponds to the cell of the polytope in the hyperplane v · x = r². Here, r² is the circumradius times the least
+// distance of a cell's hyperplane from the center, so the dual has the circumradius of the named polytope.
+//
 // The dual of a dual has the design of the original polytope. The dual of a regular polytope has the design, and
 // therefore the size, of a regular polytope: the dual of the 8-cell is the 16-cell with edge length 2. If the
-// hyperplane of a cell passes through the center, the dual does not exist, and Recipe::build throws
-// std::invalid_argument.
+// hyperplane of a cell passes through the center, there is no dual, and Recipe::build throws std::invalid_argument.
 std::optional<DesignOrError> dualNamed(const NameWords& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;

@@ -11,13 +11,13 @@
 
 namespace oval4d::polytopes {
 
-/// Returns the pole of each cell: the point p with p · x = 1 for all points x in the cell's hyperplane. Throws
-/// std::invalid_argument if the hyperplane of a cell passes through the origin.
+/// Returns the pole of each cell. The pole of a cell is the point p with p · x = 1 for all points x in the cell's
+/// hyperplane. Throws std::invalid_argument if the hyperplane of a cell passes through the origin.
 std::vector<glm::dvec4> polesOf(const Polytope& polytope);
 
-/// Returns a polytope with the incidences of the dual of `base`: a vertex for each cell, a 2-face for each edge (the
-/// loop of the cells around the edge), and a cell for each vertex. `vertices` holds the position of the new vertex for
-/// each cell of `base`. Throws InvalidPolytope if these elements do not form a valid polytope.
+/// Returns a polytope with the incidences of the dual of `base`. It has a vertex for each cell of `base`, a 2-face for
+/// each edge (the loop of the cells around the edge), and a cell for each vertex. `vertices` holds the position of the
+/// new vertex for each cell of `base`. Throws InvalidPolytope if these elements do not form a valid polytope.
 Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices);
 
 /// Returns the diagram of a regular polytope: a chain whose only ringed mirror is the first one, with the branches in

@@ -27,11 +27,11 @@ namespace {
 // Returns point `index` of 2n points at equal distances on a circle around the origin. Every other point is a vertex of
 // a regular n-gon of edge length 2.
 //
-// A duoantiprism has its vertices on two such circles, with n = p and n = q. With these radii, the ratio of its longest
-// edge to its shortest edge is as small as possible. Proof: for any radii, let a and b be the edge lengths of the
-// p-gons and the q-gons, and c the length of the other edges. The two ends of an edge of length c project to
-// neighboring points on each of the two circles. The distance of neighboring points is a / (2 cos(π/(2p))) on the first
-// circle and b / (2 cos(π/(2q))) on the second.
+// A duoantiprism has its vertices on two such circles, with n = p and n = q. With these radii, the ratio of the longest
+// edge to the shortest edge is least. Proof: for any radii, let a and b be the edge lengths of the p-gons and of the
+// q-gons, and c the length of the other edges. An edge of length c joins neighboring points in its projection onto the
+// plane of each circle. These points are a / (2 cos(π/(2p))) apart on the first circle, and b / (2 cos(π/(2q))) on the
+// second.
 //
 // Therefore c² = a² / (4 cos²(π/(2p))) + b² / (4 cos²(π/(2q))). The coefficients of a² and b² are at most 1/2, and both
 // are 1/2 only for p = q = 2. Hence all lengths can be equal only for p = q = 2. For other p and q, c is less than the
@@ -41,9 +41,9 @@ glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
     return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
 }
 
-/// A duoantiprism other than the 16-cell. A vertex of the duoprism of a 2p-gon and a 2q-gon is a pair (i, j): point i
-/// of 2p points on a circle in the xy plane, and point j of 2q points on a circle in the zw plane. The vertices of the
-/// duoantiprism are those with an even sum i + j.
+/// A recipe for a duoantiprism other than the 16-cell. The duoprism of a 2p-gon and a 2q-gon has a vertex for each pair
+/// (i, j) of point i of 2p points on a circle in the xy plane, and point j of 2q points on a circle in the zw plane.
+/// The vertices of the duoantiprism are those with an even sum i + j.
 class DuoantiprismRecipe : public Recipe {
   public:
     /// p must be at least 2, and q at least 3 and not less than p.
@@ -51,12 +51,12 @@ class DuoantiprismRecipe : public Recipe {
 
     ElementCounts counts() const override {
         const std::uint64_t p = p_, q = q_, pairs = p * q;
-        const bool digons = p == 2;  // a digon is no 2-face, and its two sides are one edge
+        const bool digons = p == 2;  // a digon is not a 2-face, and its two sides are the same edge
         return {2 * pairs, (digons ? 7 : 8) * pairs, 8 * pairs + 2 * p + (digons ? 0 : 2 * q), 2 * (pairs + p + q)};
     }
-    // The dihedral groups of order 4p and 4q act on the two circles. There are 16pq pairs of an element of the first
-    // group and one of the second; half of these pairs map the vertices of the duoantiprism to each other. If p = q,
-    // there are twice as many symmetries, because the two planes can be exchanged.
+    // The dihedral groups of order 4p and 4q act on the two circles. Of the 16pq pairs of an element of each group,
+    // half map the vertices of the duoantiprism to each other. If p = q, there are twice as many symmetries, because
+    // the two planes can be exchanged.
     std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
     std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
     std::string schlaefli() const override {
@@ -74,8 +74,9 @@ class DuoantiprismRecipe : public Recipe {
 
         geometry::JaggedArray faces;
         const auto nextFace = [&] { return static_cast<std::uint32_t>(faces.size()); };
-        // The 2-faces of the antiprisms: betweenQ[i] between the q-gons of the points i and i + 1 of the first circle,
-        // betweenP[j] between the p-gons of the points j and j + 1 of the second one.
+        // The 2-faces of the antiprisms: betweenQ[i] belongs to the antiprism between the q-gons at the points i and i
+        // + 1 of the first circle, and betweenP[j] to that between the p-gons at the points j and j + 1 of the second
+        // circle.
         std::vector<std::vector<std::uint32_t>> betweenQ(m), betweenP(n);
         std::vector<std::uint32_t> loop;
         for (std::uint32_t i = 0; i < m; ++i) {
@@ -93,8 +94,8 @@ class DuoantiprismRecipe : public Recipe {
             faces.add(loop);
         }
 
-        // All other 2-faces are triangles. Each of these triangles lies between an antiprism and the disphenoid whose
-        // corners are the four neighbors of a removed vertex (i, j).
+        // All other 2-faces are triangles. Each triangle separates an antiprism from a disphenoid. The four corners of
+        // a disphenoid are the neighbors of a vertex (i, j) of the duoprism that is not a vertex of the duoantiprism.
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> orbits;  // per cell: its orbit under the symmetry group
         for (std::uint32_t i = 0; i < m; ++i) {
@@ -129,19 +130,19 @@ class DuoantiprismRecipe : public Recipe {
     std::uint32_t p_, q_;
 };
 
-// Parses the name of a duoantiprism of two regular polygons: "3,4-duoantiprism", "3-4 duoantiprism",
-// "triangular-square duoantiprism", "pentagonal duoantiprism" (of two pentagons). Returns an error if the text ends
-// with "duoantiprism", but does not name two polygons before it, or if one of them is a star; an empty optional for
-// other texts. The canonical name has the smaller number of sides first, as in "3,4-duoantiprism".
+// Parses the name of a duoantiprism of two regular polygons: "3,4-duoantiprism", "3-4 duoantiprism", "triangular-square
+// duoantiprism", "pentagonal duoantiprism" (of two pentagons). Returns an error if the text ends with "duoantiprism"
+// but the words before it do not name two polygons, or name a star. Returns an empty optional for other texts. The
+// canonical name has the smaller number of sides first, as in "3,4-duoantiprism".
 //
 // The duoantiprism of a p-gon and a q-gon is the convex hull of every other vertex of the duoprism of a 2p-gon and a
 // 2q-gon. Its cells are 2p q-gonal antiprisms, 2q p-gonal antiprisms and, in place of the removed vertices, 2pq
 // disphenoids. A polygon may have two sides: this digon is a single edge, and an antiprism over it is a disphenoid.
 // The design for p = q = 2 is that of the 16-cell.
 //
-// The sides of all p-gons and q-gons have length 2, because with equal sides, the ratio of the longest edge to the
-// shortest one is least. The other edges, which join these polygons, are equally long; their length is greater than √2
-// and less than 2, except for p = q = 2, where it is 2.
+// The sides of all p-gons and q-gons have length 2, because the ratio of the longest edge to the shortest edge is least
+// if these sides are equal. The edges that join the polygons are all equally long; their length is between √2 and 2, or
+// 2 for p = q = 2.
 std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
     if (text.words.back() != "duoantiprism") return {};
     const auto polygons = duoprismPolygonsNamed(text.withoutLast());

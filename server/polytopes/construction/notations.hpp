@@ -1,6 +1,6 @@
 #pragma once
-// Notations, that is, systems of names and symbols for polytopes. The source of each family of polytopes defines the
-// notation of its names; this file lists them.
+// Notations, that is, systems of names and symbols for polytopes. This file lists all notations; each is defined in the
+// source file of its family of polytopes.
 
 #include <array>
 #include <functional>
@@ -19,12 +19,12 @@ namespace oval4d::polytopes {
 /// The design that a text denotes, or the reason why it denotes none.
 using DesignOrError = std::variant<Design, NameError>;
 
-/// A function that returns the design that a text in any notation denotes. A notation calls it for the name of another
-/// polytope within its own text, as in "dual of rectified 5-cell".
+/// A function that returns the design that a text in any notation denotes. A notation calls this function if its own
+/// text contains the name of another polytope, as in "dual of rectified 5-cell".
 using DesignLookup = std::function<DesignOrError(std::string_view text)>;
 
-/// A text that may name a polytope, split into lower-case words (at least one), and the function that looks up names of
-/// other polytopes within the text. Both must outlive this object.
+/// A text that may name a polytope, split into at least one lower-case word, and the function that looks up the names
+/// of other polytopes in the text. The words and the function must outlive this object.
 struct NameWords {
     const std::vector<std::string>& words;
     const DesignLookup& lookup;
@@ -35,17 +35,17 @@ struct NameWords {
     std::vector<std::string> withoutLast() const { return {words.begin(), words.end() - 1}; }
 };
 
-/// A notation. `polytopes`, `examples` and `edges` are Markdown texts; `tests/lint --fix` copies them to a row of a
-/// table in protocol/README.md.
+/// A notation for a family of polytopes. `polytopes`, `examples` and `edges` are Markdown texts, from which `tests/lint
+/// --fix` makes a row of a table in protocol/README.md.
 struct Notation {
     std::string_view polytopes;  ///< which polytopes have names in the notation, such as "a duoprism"
     std::string_view examples;   ///< names in backquotes, such as "`5,7-duoprism`, `5/2,5-duoprism`"
-    std::string_view edges;      ///< the lengths of edges; "2" if all edges of all these polytopes have the length 2
-    /// The words with which constructions begin, separated by commas. A construction is a name such as "hull of X and
-    /// Y".
+    std::string_view edges;      ///< the lengths of edges; "2" if all edges of all polytopes of the family have the
+                                 ///< length 2
+    /// The words with which the names of constructions begin, such as "hull" of "hull of X and Y", separated by commas.
     std::string_view constructions = {};
-    /// Parses a text. Returns the design; an error if the text is in this notation but denotes no polytope;
-    /// an empty optional if the text is not in this notation.
+    /// Parses a text. Returns the design, an error if the text is in this notation but denotes no polytope, or an empty
+    /// optional if the text is not in this notation.
     std::optional<DesignOrError> (*parse)(const NameWords& text);
 };
 
@@ -62,8 +62,8 @@ extern const Notation kCyclicPolytopeNotation;             // defined in cyclic_
 extern const Notation kPrismNotation;                      // defined in prism_names.cpp
 extern const Notation kOperationNotation;                  // defined in diagram_names.cpp
 
-/// All notations, in the order in which they are tried. The result is that of the first notation that returns a design
-/// or an error. An error with NameError::Reason::unknown and an empty message does not count.
+/// All notations, in the order in which a text is tried. The first notation that returns a design or an error decides.
+/// However, an error with NameError::Reason::unknown and an empty message does not end the search.
 inline constexpr auto kNotations = std::to_array<const Notation*>({
     &kDualNotation,
     &kOverPolyhedronNotation,

@@ -51,9 +51,9 @@ class PrismOrPyramidRecipe : public Recipe {
     Polytope build(const std::string& name) const override {
         SolidMesh base = meshOf(solid_);
         if (over_ == PrismOrPyramidKind::prism) {
-            // The base is the dual of a uniform polyhedron, because overPolyhedron() makes prisms over uniform
-            // polyhedra by uniformPrismOver(). The symmetries of such a dual map each of its faces to each other face,
-            // so all faces are in one orbit.
+            // The base is the dual of a uniform polyhedron, because uniformPrismOver() makes the prisms over uniform
+            // polyhedra. The symmetries of such a dual map each face to every other face, so all faces are in one
+            // orbit.
             const std::vector<std::uint32_t> orbits(base.faces.size(), 0);
             return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
         }
@@ -91,7 +91,8 @@ class PrismOrPyramidRecipe : public Recipe {
     }
 
   private:
-    // Returns the height of a pyramid or of each half of a bipyramid (see overPolyhedronNamed()).
+    // Returns the height of a pyramid or of each half of a bipyramid, by the rules in the comment of
+    // overPolyhedronNamed().
     double heightOver(const std::vector<glm::dvec3>& base) const {
         constexpr double kEdge = 2, kFlat = 1e-6;
         double circumradius = 0;
@@ -117,12 +118,12 @@ Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
 
 // Parses the name of a prism, pyramid or bipyramid over a polyhedron: "prism of cube", "pyramid of rhombic
 // dodecahedron", "bipyramid of 5-gonal antiprism". solids.hpp describes the polyhedra. Returns an error if the text
-// begins with "prism of", "pyramid of" or "bipyramid of", but the rest names no convex polyhedron; an empty optional
-// for other texts.
+// begins with "prism of", "pyramid of" or "bipyramid of" but the rest names no convex polyhedron. Returns an empty
+// optional for other texts.
 //
-// The prism has the height 2. If the polyhedron is uniform and its circumradius is less than 2, the height of a
-// pyramid, and of each half of a bipyramid, is such that all edges to the apex have length 2; otherwise the height is
-// the circumradius of the polyhedron. The mean of the vertices is the origin. If the name denotes a uniform polytope,
+// The prism has the height 2. The height of a pyramid, and of each half of a bipyramid, is such that all edges to the
+// apex have length 2 if the polyhedron is uniform and its circumradius is less than 2. Otherwise, the height is the
+// circumradius of the polyhedron. The mean of the vertices is the origin. If the name denotes a uniform polytope,
 // returns the design of this polytope: that of the 5-cell for "pyramid of tetrahedron".
 std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
     if (text.words.size() < 3 || text.words[1] != "of") return {};

@@ -39,16 +39,15 @@ std::string adjectiveOf(RegularPolygon polygon);
 /// Returns the noun of a polygon: "pentagon", "pentagram", "17-gon", "7/2-gon".
 std::string nounOf(RegularPolygon polygon);
 
-/// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic";
-/// an empty optional if the word names no polygon. The result for "2" is a polygon of two sides; callers that need at
-/// least three sides must reject it.
+/// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic".
+/// Returns an empty optional if the word names no polygon. "2" gives a polygon of two sides; callers that need at least
+/// three sides must reject it.
 std::optional<RegularPolygon> polygonNamed(std::string_view word);
 
-/// Returns the polygons that `words` name: the words before "duoprism" or the like in the name of a polytope. The
-/// result has two polygons for "5,7", "5x7", "5" "7" or "triangular" "square". If the words name a single polygon, such
-/// as "pentagonal", the result has this polygon twice. Returns an empty optional if one of the words names no polygon.
-/// Callers must reject a result that does not have exactly two polygons; callers that need at least three sides must
-/// also reject polygons of two sides.
+/// Returns the polygons that `words`, the words before "duoprism" or "duoantiprism" in a name, denote. Returns two
+/// polygons for "5,7", "5x7", "5" "7" or "triangular" "square". If the words name one polygon, such as "pentagonal",
+/// returns it twice. Returns an empty optional if a word names no polygon. Callers must reject a result that does not
+/// have exactly two polygons; callers that need at least three sides must reject polygons of two sides.
 std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std::string> words);
 
 /// The properties by which nameOf() recognizes a uniform polyhedron.
@@ -59,7 +58,8 @@ struct PolyhedronSignature {
 };
 
 /// Returns the name of the uniform polyhedron with these properties, such as "truncated cube", "hexagonal prism" or
-/// "pentagonal antiprism"; empty if there is none. The circumradius may have a relative error of up to `tolerance`.
+/// "pentagonal antiprism". Returns an empty text if there is none. The circumradius may have a relative error of up to
+/// `tolerance`.
 std::string nameOf(const PolyhedronSignature& shape, double tolerance);
 
 }  // namespace oval4d::polytopes

@@ -17,8 +17,8 @@ namespace oval4d::polytopes {
 namespace {
 
 // Parses the name of a duoprism of two regular polygons: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism",
-// "pentagonal duoprism" (of two pentagons). Returns an error if the text ends with "duoprism", but does not name two
-// polygons with at least three sides before it; an empty optional for other texts.
+// "pentagonal duoprism" (of two pentagons). Returns an error if the text ends with "duoprism" but the words before it
+// do not name two polygons with at least three sides. Returns an empty optional for other texts.
 std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
     if (text.words.back() != "duoprism") return {};
     const auto polygons = duoprismPolygonsNamed(text.withoutLast());
@@ -32,8 +32,8 @@ std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
 }
 
 // Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube
-// prism", "truncated cubic prism". Returns an error for a polygon with fewer than three sides, and for a star as the
-// polygon of an antiprism; an empty optional for other texts.
+// prism", "truncated cubic prism". Returns an error if a polygon has fewer than three sides, or if the polygon of an
+// antiprism is a star. Returns an empty optional for other texts.
 std::optional<DesignOrError> prismNamed(const NameWords& text) {
     if (text.words.back() != "prism" || text.words.size() < 2) return {};
     const std::vector<std::string> words = text.withoutLast();

@@ -10,8 +10,8 @@ namespace oval4d::polytopes {
 
 struct Polytope;
 
-/// Builds one polytope on request. Also returns properties of the polytope, without building the polytope. There is a
-/// derived class for each family of polytopes.
+/// An interface that builds one polytope on request, and returns properties of the polytope without building it. Each
+/// family of polytopes has a derived class.
 class Recipe {
   public:
     virtual ~Recipe() = default;
@@ -19,13 +19,13 @@ class Recipe {
     /// Returns the numbers of elements. If build() computes a convex hull, the numbers are estimates.
     virtual ElementCounts counts() const = 0;
 
-    /// The result of symmetryOrder() if the order is not known.
+    /// The value that symmetryOrder() returns if the order is not known.
     static constexpr std::uint64_t kUnknownOrder = 0;
     /// Returns the order of the full symmetry group, which includes reflections, or kUnknownOrder.
     virtual std::uint64_t symmetryOrder() const = 0;
 
-    /// Returns the total number of points of all convex hulls that build() computes, or an estimate; 0 if it computes
-    /// none.
+    /// Returns the total number of points of all convex hulls that build() computes, or an estimate. Returns 0 if
+    /// build() computes no convex hull.
     virtual std::uint64_t hullPointCount() const { return 0; }
 
     /// Returns the Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o" or, for a snub, "s3s4o3o"; empty if

@@ -15,8 +15,8 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// The unit normals of three mirrors that meet at the angles π/p, π/q and π/2, and two rotations: rotationP, of order p,
-// is the product of the reflections in the first two mirrors; rotationQ, of order q, is the product of the reflections
+// Three mirrors that meet at the angles π/p, π/q and π/2, given by their unit normals, and two rotations. rotationP, of
+// order p, is the product of the reflections in the first two mirrors; rotationQ, of order q, that of the reflections
 // in the last two mirrors.
 struct TriangleGroupGenerators {
     std::array<glm::dvec3, 3> mirrorNormals;
@@ -32,14 +32,14 @@ TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
     return {m, mirror(m[0]) * mirror(m[1]), mirror(m[1]) * mirror(m[2])};
 }
 
-// Returns the point x between the mirrors such that each of rotationP, rotationQ and their product moves x by a
-// distance of 2, so that all edges of the snub polyhedron have length 2. Solves |x − g x|² = 4 for these three
-// rotations g by Newton's method.
+// Returns the point x between the mirrors for which all edges of the snub polyhedron have length 2: rotationP,
+// rotationQ and their product each move x by a distance of 2. Solves |x − g x|² = 4 for these three rotations g by
+// Newton's method.
 glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
                                           glm::dmat3(1) - generators.rotationP * generators.rotationQ};
-    // The initial guess: midway between the first two mirrors, at the circumradius of a p-gon of edge length 2, and at
-    // distance 1 from the third mirror.
+    // The initial guess lies midway between the first two mirrors, at distance 1 from the third mirror, and as far from
+    // the axis of rotationP as the corners of a p-gon of edge length 2 from its center.
     const double circle = 1 / std::sin(std::numbers::pi / p.numerator);
     const double angle = std::numbers::pi / 2 * (1 - 1.0 / p.numerator);
     glm::dvec3 x(circle * std::cos(angle), circle * std::sin(angle), 0);
@@ -47,7 +47,7 @@ glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p)
     constexpr int kMostSteps = 100;
     for (int step = 0; step < kMostSteps; ++step) {
         glm::dvec3 excess;
-        glm::dmat3 jacobian;  // its rows are the gradients
+        glm::dmat3 jacobian;  // row i is the gradient of equation i
         for (int i = 0; i < 3; ++i) {
             const glm::dvec3 moved = moves.at(i) * x;
             excess[i] = glm::dot(moved, moved) - 4;
@@ -66,7 +66,7 @@ glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p)
 PolyhedronWithOrbits snubOf(Branch p, Branch q) {
     const TriangleGroupGenerators generators = generatorsOf(p, q);
     const glm::dvec3 seed = equidistantPoint(generators, p);
-    // The vertices are g · seed for all rotations g of the group. If vertex i is g · seed, next[i] holds the indices of
+    // The vertices are g · seed for all rotations g of the group. For each vertex g · seed, `next` holds the indices of
     // the vertices g · rotationP · seed and g · rotationQ · seed.
     std::vector<glm::dmat3> rotations{glm::dmat3(1)};
     std::vector<glm::dvec4> points;

@@ -11,8 +11,8 @@
 
 namespace oval4d::polytopes {
 
-/// A polyhedron whose faces are grouped into orbits of its symmetry group. snubOf() returns snub polyhedra of edge
-/// length 2; prismOver() accepts any polyhedron in this form.
+/// A polyhedron whose faces are grouped into orbits of its symmetry group. snubOf() returns a snub polyhedron in this
+/// form; prismOver() accepts any polyhedron in this form.
 struct PolyhedronWithOrbits {
     std::vector<glm::dvec3> vertices;
     geometry::JaggedArray faces;        ///< the vertex loop of each face
@@ -20,11 +20,10 @@ struct PolyhedronWithOrbits {
                                         ///< q-gons, 2 for the other triangles
 };
 
-/// Builds the snub of {p, q}, such as the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, or the n-antiprism
-/// for {n, 2}, with edge length 2. The vertices are the images of one point under the rotation group of {p, q}. The
-/// faces are the p-gons and q-gons around the rotation axes (there are none around twofold axes), and the triangles
-/// between them (Coxeter, Regular Polytopes, §8.6). The caller must ensure that p and q are integers with 1/p + 1/q >
-/// 1/2.
+/// Builds the snub of {p, q}, with edge length 2: the snub cube for {4, 3}, the snub dodecahedron for {5, 3}, the
+/// n-antiprism for {n, 2}. The vertices are the images of one point under the rotation group of {p, q}. The faces are
+/// the p-gons and q-gons around the rotation axes (none around a twofold axis), and the triangles between them
+/// (Coxeter, Regular Polytopes, §8.6). The caller must ensure that p and q are integers with 1/p + 1/q > 1/2.
 PolyhedronWithOrbits snubOf(Branch p, Branch q);
 
 }  // namespace oval4d::polytopes

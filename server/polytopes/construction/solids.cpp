@@ -51,8 +51,8 @@ const NamedPolyhedron* polyhedronCalled(std::string_view name) {
     return found == namedPolyhedra().end() ? nullptr : &*found;
 }
 
-// Returns the same value for all descriptions of the same solid: the square prism is the cube, the triangular antiprism
-// is the octahedron, and the dual of a Platonic solid is a Platonic solid.
+// Returns one canonical value for all descriptions of the same solid. For example, the square prism is the cube, the
+// triangular antiprism is the octahedron, and the dual of a Platonic solid is a Platonic solid.
 Solid canonical(Solid solid) {
     if (solid.named == nullptr && !solid.antiprism && solid.sides == 4)
         solid = {polyhedronCalled("cube"), 0, false, solid.dual};
@@ -114,15 +114,15 @@ SolidMesh baseOf(const NamedPolyhedron& polyhedron) {
     return base;
 }
 
-// Returns the dual of a convex polyhedron, with the same circumradius. The vertices of the dual are multiples of the
-// poles of the planes of the base's faces (the pole of the plane n · x = 1 is n); each face of the dual is the loop of
-// the base's faces around a vertex.
+// Returns the dual of a convex polyhedron, with the same circumradius. The pole of the plane n · x = 1 is the point n.
+// The vertices of the dual are the poles of the planes of the base's faces, scaled. Each face of the dual is the loop
+// of the base's faces around a vertex.
 SolidMesh dualOf(const SolidMesh& base) {
     SolidMesh dual;
     double circumradius = 0, farthest = 0;
     for (const glm::dvec3& v : base.vertices) circumradius = std::max(circumradius, glm::length(v));
-    // Make all loops counterclockwise, seen from outside. Each directed edge then occurs in exactly one loop. For each
-    // directed edge, `corners` holds the face to which this loop belongs, and the vertex before the edge in the loop.
+    // Make all loops counterclockwise, seen from outside. Each directed edge then occurs in exactly one loop. `corners`
+    // maps each directed edge to the face of this loop, and to the vertex before the edge in the loop.
     struct FaceCorner {
         std::uint32_t face, before;
     };

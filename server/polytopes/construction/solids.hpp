@@ -21,8 +21,8 @@ struct SolidCounts {
     std::uint64_t vertices = 0, edges = 0, faces = 0;
 };
 
-/// A convex uniform polyhedron of edge length 2 or, if `dual` is set, its dual, scaled to the circumradius of the
-/// uniform polyhedron.
+/// A convex uniform polyhedron of edge length 2 or, if `dual` is set, the dual of such a polyhedron, with the same
+/// circumradius.
 struct Solid {
     const NamedPolyhedron* named = nullptr;  ///< a Platonic or Archimedean solid; null for a prism or antiprism
     int sides = 0;                           ///< the number of sides of the base of a prism or antiprism; else 0
@@ -32,10 +32,11 @@ struct Solid {
     bool operator==(const Solid&) const = default;
 };
 
-/// Returns the solid that the words (lower case, at least one) name, such as "truncated cube", "5 gonal prism",
-/// "pentagonal antiprism", "dual of cuboctahedron", "rhombic dodecahedron" or "hexagonal bipyramid". Returns an error
-/// if the name is that of a star, or of a solid over a polygon of fewer than three sides; an empty optional if the
-/// words name no polyhedron. All names of a solid give equal values: "dual of cube" gives the value of "octahedron".
+/// Returns the solid that the words name, such as "truncated cube", "5 gonal prism", "pentagonal antiprism", "dual of
+/// cuboctahedron", "rhombic dodecahedron" or "hexagonal bipyramid". There must be at least one word, and all must be in
+/// lower case. Returns an error if the words name a star, or a solid over a polygon of fewer than three sides. Returns
+/// an empty optional if the words name no polyhedron. All names of a solid give equal values: "dual of cube" gives the
+/// value of "octahedron".
 std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words);
 
 /// Returns the name, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".
@@ -45,14 +46,14 @@ SolidCounts countsOf(const Solid& solid);
 
 /// The vertices and faces of a polyhedron.
 struct SolidMesh {
-    std::vector<glm::dvec3> vertices;  ///< their positions relative to the center
+    std::vector<glm::dvec3> vertices;  ///< the positions relative to the center
     geometry::JaggedArray faces;       ///< the vertex loop of each face; the directions of the loops are arbitrary
 };
 
-/// Builds the solid with the edge length or circumradius that the comment of Solid states.
+/// Builds the mesh of a solid, with the edge length or circumradius that the comment of Solid states.
 SolidMesh meshOf(const Solid& solid);
 
-/// Returns the design of the uniform prism over a solid. The caller must ensure that solid.dual is false.
+/// Returns the design of the uniform prism over a solid. The caller must ensure that `solid` is not a dual.
 Design uniformPrismOver(const Solid& solid);
 
 }  // namespace oval4d::polytopes

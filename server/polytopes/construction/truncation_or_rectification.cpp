@@ -18,11 +18,11 @@ class TruncationOrRectificationRecipe : public Recipe {
   public:
     TruncationOrRectificationRecipe(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
 
-    // The number of vertices is exact: the points on an edge of the convex base are vertices of the hull, because some
-    // hyperplane touches the base only in this edge, and therefore the hull only in these points. The other numbers are
-    // estimates. They assume that one cell replaces each vertex, and that each of the f 2-faces of the base has four
-    // corners. An edge replaces each of these 4 f corners. If the base is truncated, a part of each of its e edges also
-    // remains. Euler's relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
+    // The number of vertices is exact. All points on the edges of the convex base are vertices of the hull, because for
+    // each edge, some hyperplane touches the base only in this edge. The other numbers are estimates. They assume that
+    // one cell replaces each vertex, and that each of the f 2-faces of the base has four corners. An edge replaces each
+    // of these 4 f corners. After a truncation, a part of each of the e edges of the base also remains. Euler's
+    // relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
     ElementCounts counts() const override {
         const auto [v, e, f, c] = base_.recipe->counts();
         const std::uint64_t corners = 4 * f;
@@ -60,16 +60,17 @@ bool isConvex(const Diagram& diagram) {
 }
 
 // Parses the name of a convex polytope whose vertices are cut off: "truncation of grand antiprism", "rectification of
-// dual of 5,7-duoprism". Returns an error if the text begins with "truncation of" or "rectification of", but the rest
-// names no polytope; an empty optional for other texts.
+// dual of 5,7-duoprism". Returns an error if the text begins with "truncation of" or "rectification of" but the rest
+// names no polytope. Returns an empty optional for other texts.
 //
 // The rectification is the convex hull of the midpoints of the edges. The truncation is the convex hull of the points
-// that divide the edges into thirds. If the midpoints or dividing points next to a vertex do not lie in one hyperplane,
-// several cells replace the vertex. The rectification of a regular polytope has the design of the rectified uniform
-// polytope. The truncation of a regular polytope has the design of the truncated uniform polytope if the 2-faces of the
-// regular polytope are triangles; for other 2-faces, the uniform truncation does not cut the edges at their thirds.
-// Recipe::build throws std::invalid_argument if the named polytope is not convex, and TooLarge if a limit of
-// convex_hull.hpp is exceeded.
+// that divide the edges into thirds. If the points next to a vertex do not lie in one hyperplane, several cells replace
+// the vertex. Recipe::build throws std::invalid_argument if the named polytope is not convex, and TooLarge if a limit
+// of convex_hull.hpp is exceeded.
+//
+// The rectification of a regular polytope has the design of the rectified uniform polytope. The truncation of a regular
+// polytope whose 2-faces are triangles has the design of the truncated uniform polytope. For other 2-faces, the uniform
+// truncation does not cut the edges at their thirds.
 std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& text) {
     const bool truncation = text.words[0] == "truncation";
     if ((!truncation && text.words[0] != "rectification") || text.words.size() < 3 || text.words[1] != "of") return {};
