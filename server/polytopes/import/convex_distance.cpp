@@ -13,21 +13,21 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr double kErrorBounds = 2;  // the tolerance is two equal error bounds: of the point, and of the hull
-constexpr int kMaxIterations = 64;  // a safeguard: usually, a few iterations suffice
+constexpr double kErrorBounds = 2;  // the tolerance is the error bound of the point plus that of the hull
+constexpr int kMaxIterations = 64;  // ensures termination; usually, a few iterations suffice
 
-// A vertex of the current simplex, and its weight. The weights of all vertices are the barycentric coordinates of the
-// nearest point found so far, which lies in the simplex.
+// A vertex of the current simplex, and its weight. The nearest point found so far is the weighted sum of the vertices;
+// the weights are its barycentric coordinates.
 struct WeightedVertex {
     glm::dvec4 position;
     double weight;
 };
 
-// Finds the barycentric weights of the point nearest to the origin in the affine hull of the vertices. Returns false if
-// the vertices are affinely dependent.
+// Finds the point nearest to the origin in the affine hull of the vertices, and writes its barycentric coordinates to
+// `weights`. Returns false if the vertices are affinely dependent.
 bool nearestWeights(const std::vector<WeightedVertex>& vertices, std::array<double, 5>& weights) {
     const std::size_t n = vertices.size() - 1;
-    std::array<std::array<double, 5>, 4> rows{};  // the normal equations
+    std::array<std::array<double, 5>, 4> rows{};  // the matrix and the right side of the normal equations
     const glm::dvec4& base = vertices[0].position;
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec4 a = vertices[i + 1].position - base;
@@ -61,9 +61,8 @@ glm::dvec4 weightedSum(const std::vector<WeightedVertex>& vertices) {
     return sum;
 }
 
-// Moves the weighted sum of the vertices to the point of their simplex that is nearest to the origin: sets the weights
-// to the barycentric coordinates of this point, and removes the vertices whose weight becomes 0. Returns false if the
-// vertices become affinely dependent.
+// Sets the weights to the barycentric coordinates of the point nearest to the origin in the simplex of the vertices.
+// Removes the vertices whose weight becomes 0. Returns false if the vertices become affinely dependent.
 bool moveToNearest(std::vector<WeightedVertex>& vertices) {
     std::array<double, 5> goal{};
     while (nearestWeights(vertices, goal)) {

@@ -1,5 +1,5 @@
 #pragma once
-// Tests whether a point lies in a convex hull.
+// A test whether a point lies in a convex hull.
 
 #include <span>
 
@@ -9,10 +9,10 @@
 
 namespace oval4d::polytopes {
 
-/// Returns whether the distance of `point` from the convex hull of `others` is at most twice HullFrame::errorBound():
-/// the error bound of the point plus the error bound of the hull. `point` and `others` are in the coordinates of
-/// `frame`. Finds the nearest point of the hull by Wolfe's method (Finding the nearest point in a polytope, 1976).
-/// Returns false if `others` is empty, or if rounding errors keep the method from converging.
+/// Returns whether the distance of `point` from the convex hull of `others` is at most the error bound of the point
+/// plus the error bound of the hull. Each of them is HullFrame::errorBound(). `point` and `others` are in the
+/// coordinates of `frame`. Finds the nearest point of the hull by Wolfe's method (Finding the nearest point in a
+/// polytope, 1976). Returns false if `others` is empty, or if rounding errors prevent convergence.
 bool liesInHull(const glm::dvec4& point, std::span<const glm::dvec4> others, const HullFrame& frame);
 
 }  // namespace oval4d::polytopes

@@ -19,10 +19,11 @@ namespace oval4d::polytopes {
 namespace {
 
 using geometry::kNone;
-constexpr double kAmbiguityFactor = 3;  // deviations up to this many times the error bounds are ambiguous
+constexpr double kAmbiguityFactor = 3;  // if two cells would be merged with error bounds this many times as large, they
+                                        // are ambiguous
 constexpr int kMaxCorrections = 32;
 
-// Returns the triangle opposite a vertex of the simplex.
+// Returns the triangle of the simplex that is opposite the vertex with this index, 0 … 3.
 Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
     Triangle triangle{};
     std::size_t at = 0;
@@ -68,7 +69,7 @@ class SimplexMerger {
     struct BoundaryTriangle {
         Triangle corners;
         std::uint32_t simplex;
-        double sign;  // +1 if its normal, by the right-hand rule, points out of the group, else −1
+        double sign;  // +1 if the normal, by the right-hand rule, points out of the group, else −1
     };
     // A triangle that two cells share; `cells` lists the cell with the smaller index first.
     struct TriangleBetweenCells {
@@ -76,8 +77,8 @@ class SimplexMerger {
         Triangle corners;
     };
 
-    // Sets signs_ such that all simplices are oriented coherently. A simplex with the sign +1 is oriented by the
-    // ascending order of its vertices; a simplex with the sign −1 has the opposite orientation.
+    // Sets signs_ such that all simplices are oriented coherently. The ascending order of its vertices orients a
+    // simplex with the sign +1; a simplex with the sign −1 has the opposite orientation.
     void orient() {
         std::vector<std::uint32_t> waiting{0};
         signs_[0] = 1;
@@ -95,8 +96,8 @@ class SimplexMerger {
         }
     }
 
-    // Grows cells from seed simplices. The largest simplices are the first seeds, so that nearly flat simplices, whose
-    // hyperplanes are uncertain, join the cells of larger simplices.
+    // Merges simplices into cells, each of which grows from a seed simplex. The largest simplices are the first seeds:
+    // the hyperplanes of nearly flat simplices are uncertain, so such simplices must join the cells of larger ones.
     void mergeSimplices() {
         std::vector<std::uint32_t> order(simplices_.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -119,9 +120,9 @@ class SimplexMerger {
         }
     }
 
-    // Returns the simplices that can be reached from `seed` through accepted neighbors, and sets their mark_ to
-    // latestMark_. accepts(t, v) returns whether simplex t may join the group; v is the one vertex of t that does not
-    // belong to the simplex from which t is reached.
+    // Returns the simplices that can be reached from `seed` through accepted neighbors. Sets their mark_ to
+    // latestMark_. accepts(t, v) returns whether simplex t may join the group; v is the vertex of t that is not a
+    // vertex of the neighbor from which t is reached.
     template <typename Accepts>
     std::vector<std::uint32_t> grow(std::uint32_t seed, Accepts accepts) {
         ++latestMark_;
@@ -164,8 +165,8 @@ class SimplexMerger {
         if (group.size() > 1) group = {seed};
     }
 
-    // Returns the simplices of the group, without the seed and in ascending order, whose removal may make the group
-    // convex; an empty list if the group is convex. Sorts the group.
+    // Returns simplices of the group whose removal may make the group convex, in ascending order. They do not include
+    // the seed. Returns an empty list if the group is convex. Sorts the group.
     std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const HyperplaneThroughPoints& hyperplane,
                                                  std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
@@ -231,10 +232,10 @@ class SimplexMerger {
         const glm::dvec3 a = place(edge.first);
         const glm::dvec3 along = place(edge.second) - a;
         struct HeightAboveNeighbor {
-            glm::dvec3 normal;  // the outward unit normal of the triangle `from`, an argument of heightFrom()
-            // For the corner of the triangle `to` that is not on the common edge: its height above the plane of `from`
-            // (outward is positive), the uncertainty of this height, and the distance of the corner from the line
-            // through the edge.
+            glm::dvec3 normal;  // the outward unit normal of the triangle `from` (see heightFrom())
+            // The corner of the triangle `to` that is not on the common edge has a height above the plane of `from`,
+            // positive outward; `uncertain` is the error bound of this height. `reach` is the distance of the corner
+            // from the line through the edge.
             double height = 0, uncertain = 0, reach = 0;
         };
         const auto heightFrom = [&](const BoundaryTriangle& from, const BoundaryTriangle& to) {
@@ -305,8 +306,8 @@ class SimplexMerger {
         return hull;
     }
 
-    // Marks cells with fewer than four 2-faces, so that the next mergeTriangles() keeps their triangles unmerged.
-    // Returns false if there are no such cells.
+    // Marks cells with fewer than four 2-faces, so that the next call of mergeTriangles() does not merge their
+    // triangles. Returns false if there are no such cells.
     bool markDegenerateCells(const MergedHull& hull) {
         bool any = false;
         for (std::size_t c = 0; c < hull.cells.size(); ++c) {
@@ -342,7 +343,7 @@ class SimplexMerger {
     std::vector<std::int8_t> signs_;
     std::vector<HyperplaneThroughPoints> hyperplanes_;  // the hyperplane of each cell
     std::vector<TriangleBetweenCells> trianglesBetweenCells_;
-    std::vector<bool> unmerged_;  // per cell: whether its triangles are kept unmerged
+    std::vector<bool> unmerged_;  // per cell: whether mergeTriangles() must not merge the triangles of the cell
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Merges the simplices of a convex hull into cells: simplices that lie in one hyperplane become one cell.
+// Merges the simplices of a convex hull into cells: neighboring simplices in one hyperplane become one cell.
 
 #include <array>
 #include <cstddef>
@@ -23,15 +23,15 @@ struct SimplexFacet {
 /// The 2-faces and cells of a convex hull after merging.
 struct MergedHull {
     geometry::JaggedArray faces, cells;  ///< the vertex loop of each 2-face, and the 2-faces of each cell
-    /// The number of pairs of neighboring cells that were not merged, but would lie in one hyperplane if the error
-    /// bounds were three times as large. It is uncertain whether such cells are really separate.
+    /// The number of pairs of neighboring cells for which it is uncertain whether they lie in one hyperplane. Such
+    /// cells were not merged, but would be merged if the error bounds were three times as large.
     std::size_t ambiguousCellPairs = 0;
 };
 
 /// Merges neighboring simplices into one cell if their hyperplanes agree within the error bounds of the points
-/// (HullFrame::errorBound()), and merges the triangles between two cells into one 2-face. If a merged cell would not be
-/// convex, merges fewer simplices. The caller must ensure that `simplices` form a closed boundary. The resulting cells
-/// also form a closed boundary. `points` are in the coordinates of `frame`.
+/// (HullFrame::errorBound()). Merges the triangles between two cells into one 2-face. If a merged cell would not be
+/// convex, merges fewer simplices. The caller must ensure that `simplices` form a closed boundary; then the cells form
+/// one, too. `points` are in the coordinates of `frame`.
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame);
 

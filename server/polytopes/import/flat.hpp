@@ -1,5 +1,6 @@
 #pragma once
-// Planes and hyperplanes through inexact points, and their fit to groups of points.
+// Planes and hyperplanes through points with errors, and the search for the plane or hyperplane of a group of
+// simplices.
 
 #include <algorithm>
 #include <array>
@@ -17,8 +18,8 @@
 
 namespace oval4d::polytopes {
 
-/// A flat: the plane or hyperplane through the corners of a simplex. Its position is uncertain, because the corners
-/// have errors.
+/// A flat: a plane (Dimension 2) or hyperplane (3), through the corners of a simplex. Errors of the corners make its
+/// position uncertain.
 template <std::size_t Dimension>
 class Flat {
   public:
@@ -46,8 +47,8 @@ class Flat {
     /// Returns one of the orthonormal vectors that span the flat; i is from 0 to Dimension − 1.
     const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
 
-    /// Projects p onto the flat. Returns the coordinates of the projection along the axes of the flat; the first corner
-    /// is the origin of these coordinates.
+    /// Projects p onto the flat. Returns the coordinates of the projection along the axes of the flat, relative to the
+    /// first corner.
     std::array<double, Dimension> project(const glm::dvec4& p) const {
         glm::dvec4 rest = p - origin_;
         std::array<double, Dimension> along;
@@ -58,7 +59,7 @@ class Flat {
         return along;
     }
 
-    /// Returns the factor by which errors of the corners are amplified at p: the sum of the absolute values of the
+    /// Returns the factor by which the flat amplifies errors of the corners at p: the sum of the absolute values of the
     /// barycentric coordinates of p. Returns infinity if the corners span no simplex.
     double cornerErrorFactor(const glm::dvec4& p) const {
         std::array<double, Dimension> weights = project(p);
@@ -73,15 +74,16 @@ class Flat {
         return sum + std::abs(first);
     }
 
-    /// Returns whether the distance of p from the flat is at most `factor` times the sum of two error bounds. The error
-    /// bound of p is HullFrame::errorBound(). The error bound of the flat at p is HullFrame::errorBound() times
-    /// cornerErrorFactor(), or times 16 if cornerErrorFactor() is greater than that.
+    /// Returns whether the distance of p from the flat is at most `factor` times the sum of two error bounds. One is
+    /// the error bound of p, HullFrame::errorBound(). The other is the error bound of the flat at p:
+    /// HullFrame::errorBound() times cornerErrorFactor(), but at most times 16.
     bool contains(const glm::dvec4& p, const HullFrame& frame, double factor = 1) const {
         glm::dvec4 rest = p - origin_;
         for (const glm::dvec4& axis : axes_) rest -= glm::dot(rest, axis) * axis;
         const double distance = glm::length(rest);
         if (!(distance > 0)) return true;
-        constexpr double kMaxAmplification = 16;  // the largest factor by which extrapolation may increase the bound
+        constexpr double kMaxAmplification = 16;  // the largest factor by which the error bound of the flat may grow
+                                                  // far from its corners
         return distance <=
                factor * frame.errorBound(rest / distance) * (1 + std::min(cornerErrorFactor(p), kMaxAmplification));
     }
@@ -90,7 +92,7 @@ class Flat {
     SimplexCorners corners_;
     glm::dvec4 origin_;
     std::array<glm::dvec4, Dimension> axes_{};
-    // Entry j: the edge from corner 0 to corner j + 1, as coordinates along axes_.
+    // Entry j holds the coordinates, along axes_, of the edge from corner 0 to corner j + 1.
     std::array<std::array<double, Dimension>, Dimension> edges_{};
     double volume_ = 1;
 };
@@ -98,8 +100,8 @@ class Flat {
 using PlaneThroughPoints = Flat<2>;
 using HyperplaneThroughPoints = Flat<3>;
 
-/// Chooses points among `from` that span a large simplex, and returns their indices. Chooses greedily: the first point
-/// is the farthest from the mean of `from`; each further point is the farthest from the flat through the points chosen
+/// Chooses points among `from` that span a large simplex, and returns their indices. The first point is the farthest
+/// from the mean of `from`. Each further point is the farthest from the flat through the points that were chosen
 /// before.
 template <std::size_t Count>
 std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> from, std::span<const glm::dvec4> points) {
@@ -122,12 +124,13 @@ std::array<std::uint32_t, Count> largeSimplex(std::span<const std::uint32_t> fro
     return chosen;
 }
 
-/// Finds a group of neighboring simplices (triangles or tetrahedra) that lie in one flat. `own` are the corners of one
-/// of the simplices, and the caller must set `flat` to the flat through them. grow(flat) returns the group in a flat,
-/// and verticesOf(group) returns the vertices of a group. First calls grow(flat). A larger simplex determines a flat
-/// more precisely. Therefore, if vertices of the group span a larger simplex whose flat also contains `own`, sets
-/// `flat` to the flat of this simplex, and calls grow(flat) again. Does this at most four times. Returns the last
-/// group; `flat` is then the flat of this group.
+/// Returns a group of neighboring simplices (triangles or tetrahedra) that lie in one flat, and sets `flat` to this
+/// flat. `own` are the corners of one of the simplices; before the call, `flat` must be the flat through `own`.
+/// grow(flat) returns the group that lies in a flat, and verticesOf(group) returns the vertices of a group.
+///
+/// The first group is grow(flat). A larger simplex determines a flat more precisely: if vertices of the group span a
+/// larger simplex whose flat also contains `own`, sets `flat` to this flat and calls grow(flat) again, at most four
+/// times.
 template <typename F, typename Corners, typename Grow, typename VerticesOf>
 std::vector<std::uint32_t> growAndRefit(F& flat, const Corners& own, const Grow& grow, const VerticesOf& verticesOf,
                                         std::span<const glm::dvec4> points, const HullFrame& frame) {

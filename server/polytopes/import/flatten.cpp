@@ -22,44 +22,45 @@ namespace {
 
 using geometry::kNone;
 
-// kMaxDeviation is the largest permitted distance of a vertex from the hyperplane of its cell. The search for better
-// places ends when all distances are at most kGoalDeviation. Both constants are relative to the parameter `size` of
-// flattenOrSplit(). However, the permitted distance is at least kMaxRounding times doublePrecisionErrorBound(), and the
-// goal is at least kGoalRounding times doublePrecisionErrorBound().
+// A polytope is flat if each vertex is at most kMaxDeviation from the hyperplane of its cell. The search for better
+// places of the vertices ends at kGoalDeviation. Both distances are in units of the parameter `size` of
+// flattenOrSplit(), but at least kMaxRounding or kGoalRounding times doublePrecisionErrorBound(), respectively.
 constexpr double kMaxDeviation = 1e-12, kGoalDeviation = 1e-13;
 constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
-// If the cosine of the angle between two hyperplanes is larger than this, rounding errors make the plane in which they
-// meet too uncertain.
+// Two hyperplanes count as nearly parallel if the cosine of the angle between them is larger than this. Rounding errors
+// then make the plane in which they meet too uncertain.
 constexpr double kNearlyParallel = 0.995;
-constexpr double kLeastExtent = 1e-9;  // relative to the radius of a flat; a smaller extent along an axis counts as 0
+constexpr double kLeastExtent = 1e-9;  // a flat has the extent 0 along an axis if it is less than this, relative to the
+                                       // flat's radius
 
 constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
-constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round
-constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equations and unknowns, summed over all steps
-// A round of Newton's method solves its equations until the gradient of the error is less than the gradient at the
-// start of the round, times a tolerance. The tolerance of the first round, kFirstTolerance, makes the result more
-// precise by a few digits. If a round does not reduce the deviation by the factor kGoodProgress, some unknowns have
-// little effect on the equations; therefore the next round multiplies the tolerance by kTighter, down to
-// kLeastTolerance.
+constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of the conjugate gradient method in a
+                                                // round
+constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equations and unknowns, added up over all steps
+// A round of Newton's method ends when the gradient of the error is less than a tolerance times the gradient at the
+// start of the round. The first round has the tolerance kFirstTolerance, which makes the result more precise by a few
+// digits. If a round does not reduce the deviation by the factor kGoodProgress, some unknowns have little effect on the
+// equations. Then the tolerance of the next round is multiplied by kTighter, down to kLeastTolerance.
 constexpr double kFirstTolerance = 1e-2, kLeastTolerance = 1e-9, kTighter = 1e-3, kGoodProgress = 10;
 
-// A set of vertices to be moved into one hyperplane, and the hyperplane that fits them best, which contains their mean.
-// There are two kinds of such sets:
-// - The vertices of a cell, if there are more than four.
-// - The vertices of a 2-face, if there are more than three and the hyperplanes of the two cells of the 2-face are
-//   nearly parallel. Such hyperplanes do not determine the plane of the 2-face. Therefore the 2-face is also moved into
-//   a third hyperplane, which is perpendicular to the hyperplane of `cell`, one of the two cells.
+// A set of vertices that must be moved into one hyperplane, and the hyperplane through their mean that fits them best.
+// The set has one of two kinds:
+// - The vertices of a cell with more than four vertices.
+// - The vertices of a 2-face with more than three vertices, if the hyperplanes of its two cells are nearly parallel.
+//   Such hyperplanes do not determine the plane of the 2-face. Therefore the 2-face is also moved into a third
+//   hyperplane, which is perpendicular to the hyperplane of `cell`, one of the two cells.
 struct CohyperplanarityConstraint {
-    std::uint32_t cell, face;  // `face` is kNone for the flat of a whole cell
-    glm::dvec4 across{0};      // for a 2-face: the normal of the hyperplane of `cell`, perpendicular to `normal`
+    std::uint32_t cell, face;  // `face` is kNone if the set is a cell
+    glm::dvec4 across{0};      // only for a 2-face: the normal of the hyperplane of `cell`, which is perpendicular to
+                               // `normal`
     glm::dvec4 middle{0}, normal{0};
     double radius = 0;     // the largest distance of a vertex from `middle`
     double deviation = 0;  // the largest distance of a vertex from the hyperplane
 };
 
-// The changes in one round of Newton's method: `moves` holds the move of each vertex; for each constraint, `tilts`
-// holds the change of its normal, multiplied by CohyperplanarityConstraint::radius, and `shifts` the negative change of
-// its middle along the normal.
+// The changes of all unknowns in one round of Newton's method. `moves` holds the move of each vertex. For each
+// constraint, `tilts` holds the change of its normal, multiplied by CohyperplanarityConstraint::radius, and `shifts`
+// holds the negative of the change of its middle along the normal.
 struct FlatteningUnknowns {
     std::vector<glm::dvec4> moves, tilts;
     std::vector<double> shifts;
@@ -84,7 +85,7 @@ struct FlatteningUnknowns {
 };
 
 glm::dvec4 withoutComponents(glm::dvec4 v, std::span<const glm::dvec4> units) {
-    for (int twice = 0; twice < 2; ++twice) {  // the second time removes the rounding errors of the first
+    for (int twice = 0; twice < 2; ++twice) {  // the second pass removes rounding errors of the first pass
         for (const glm::dvec4& unit : units) v -= glm::dot(v, unit) * unit;
     }
     return v;
@@ -106,11 +107,11 @@ glm::dvec4 unitPerpendicularTo(std::span<const glm::dvec4> units) {
     return best;
 }
 
-// Moves the vertices to nearby places at which the points of each CohyperplanarityConstraint lie in its hyperplane, by
-// Newton's method. For each vertex v of a flat with the unit normal n and the middle m, n · (v − m) = 0 is an equation
-// for v, n and m. The conjugate gradient method finds the least change that solves the linearized equations, without
-// storing their matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4). The equations need not be
-// independent.
+// Moves vertices to nearby places at which the vertices of each CohyperplanarityConstraint lie in its hyperplane. Uses
+// Newton's method. Each vertex v of a constraint with the unit normal n and the middle m gives the equation n · (v − m)
+// = 0 for the unknowns v, n and m. The conjugate gradient method finds the least change that solves the linearized
+// equations, without storing their matrix (CGLS: Björck, Numerical Methods for Least Squares Problems, 7.4). The
+// equations need not be independent.
 class Flattener {
   public:
     Flattener(PolygonSoup& soup, double size) : soup_(soup) {
@@ -124,11 +125,12 @@ class Flattener {
     }
 
     double deviation() const { return farthest_ == kNone ? 0 : constraints_[farthest_].deviation; }
-    /// Returns the cell of the flat with the largest deviation; 0 if there are no flats.
+    /// Returns the cell of the constraint with the largest deviation; 0 if there are no constraints.
     std::uint32_t farthestCell() const { return farthest_ == kNone ? 0 : constraints_[farthest_].cell; }
     bool isFlat() const { return deviation() <= maxDeviation_; }
 
-    /// Marks the 2-faces and the cells whose flats deviate by more than the permitted distance.
+    /// Sets the entries in `faces` and `cells` of the 2-faces and cells that deviate by more than the permitted
+    /// distance.
     void markUneven(std::vector<bool>& faces, std::vector<bool>& cells) const {
         for (const CohyperplanarityConstraint& constraint : constraints_) {
             if (constraint.deviation <= maxDeviation_) continue;
@@ -140,9 +142,9 @@ class Flattener {
         }
     }
 
-    /// Moves the vertices until the points of each CohyperplanarityConstraint lie in its hyperplane, within the
-    /// permitted distance. Returns false if this does not succeed, or if a vertex moves by more than `maxDistance`;
-    /// then the caller must restore the vertices.
+    /// Moves the vertices until the vertices of each CohyperplanarityConstraint lie in its hyperplane, within the
+    /// permitted distance. Returns false if this fails, or if a vertex moves by more than `maxDistance`; the caller
+    /// must then restore the vertices.
     bool run(double maxDistance) {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();
@@ -182,7 +184,7 @@ class Flattener {
         }
     }
 
-    // Adds the flats of the 2-faces between cells whose hyperplanes are nearly parallel.
+    // Adds a constraint for each 2-face between two cells whose hyperplanes are nearly parallel.
     void collectFaces() {
         std::vector<std::array<std::uint32_t, 2>> cellsOf(soup_.faces.size(), {kNone, kNone});
         for (std::uint32_t c = 0; c < soup_.cells.size(); ++c) {
@@ -206,14 +208,14 @@ class Flattener {
         farthest_ = kNone;
         for (std::uint32_t i = 0; i < constraints_.size(); ++i) {
             fit(i);
-            // A deviation that is not a number counts as the largest.
+            // A deviation that is NaN counts as the largest.
             if (farthest_ == kNone || !(constraints_[i].deviation <= deviation())) farthest_ = i;
         }
     }
 
-    // Fits the hyperplane of a CohyperplanarityConstraint to the points of the flat: first to a few points that are far
-    // apart, then to all points by least squares. The second fit changes the hyperplane only a little, so it adds only
-    // small rounding errors.
+    // Fits the hyperplane of a CohyperplanarityConstraint to its vertices: first to a few vertices that are far apart,
+    // then to all vertices by least squares. The second fit changes the hyperplane only a little, so it adds only small
+    // rounding errors.
     void fit(std::uint32_t i) {
         CohyperplanarityConstraint& constraint = constraints_[i];
         const auto corners = corners_[i];
@@ -273,7 +275,7 @@ class Flattener {
         }
     }
 
-    // Sets `out` to the product of the Jacobian and `change`. Element k is, to the first order, the change of
+    // Sets `out` to the product of the Jacobian and `change`. To the first order, element k is the change of
     // distances_[k].
     void multiplyByJacobian(const FlatteningUnknowns& change, std::vector<double>& out) const {
         for (std::size_t i = 0; i < constraints_.size(); ++i) {
@@ -300,9 +302,9 @@ class Flattener {
         }
     }
 
-    // Returns the least change of the unknowns that makes all distances_ 0, to the first order. `tolerance` says how
-    // precisely the equations are solved (see kFirstTolerance). Adds the work of the solution to `work`, which counts
-    // up to kMaxWork.
+    // Returns the least change of the unknowns that makes all distances_ 0, to the first order. `tolerance` is the
+    // precision of the solution (see kFirstTolerance). Adds the number of equations and unknowns of each step to `work`
+    // (see kMaxWork).
     FlatteningUnknowns solve(double tolerance, std::size_t& work) const {
         FlatteningUnknowns change(soup_.vertices.size(), constraints_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());
@@ -332,13 +334,13 @@ class Flattener {
     double maxDeviation_, goalDeviation_;
     std::vector<CohyperplanarityConstraint> constraints_;
     std::vector<std::uint32_t>
-        constraintOfCell_;           // per cell: its constraint; kNone for a cell of at most four vertices
-    geometry::JaggedArray corners_;  // the vertices of each flat
+        constraintOfCell_;           // per cell: the index of its constraint; kNone for a cell of at most four vertices
+    geometry::JaggedArray corners_;  // the vertices of each constraint
     std::vector<glm::dvec4>
         offsets_;  // per corner: its offset from CohyperplanarityConstraint::middle, divided by the radius
     std::vector<double> distances_;  // per corner: its signed distance from the hyperplane
     std::vector<glm::dvec4> rest_;
-    std::uint32_t farthest_ = kNone;  // the flat with the largest deviation
+    std::uint32_t farthest_ = kNone;  // the constraint with the largest deviation
 };
 
 }  // namespace

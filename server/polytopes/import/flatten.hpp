@@ -8,12 +8,12 @@
 
 namespace oval4d::polytopes {
 
-/// What flattenOrSplit() has changed.
+/// A report of what flattenOrSplit() has found and changed.
 struct FlatteningReport {
-    /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face before any change.
+    /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face, before any change.
     double deviation = 0;
-    /// The cell whose hyperplane has this deviation, or one of the two cells of a 2-face with this deviation. The value
-    /// is the number of the cell in the 4OFF file, counted from 0. If the polytope is not from a 4OFF file, it is the
+    /// The cell whose hyperplane has this deviation, or one of the two cells of a 2-face with this deviation. It is the
+    /// number of the cell in the 4OFF file, counted from 0. For a polytope that is not from a 4OFF file, it is the
     /// index of the cell in PolygonSoup::cells.
     std::uint32_t leastFlatCell = 0;
     std::size_t moved = 0;  ///< the number of vertices that were moved by more than the argument `rounding`
@@ -22,12 +22,13 @@ struct FlatteningReport {
 };
 
 /// Moves the vertices so that the vertices of each cell lie in one hyperplane, and the vertices of each 2-face in one
-/// plane. After the moves, the distance of a vertex from such a hyperplane or plane is at most 10⁻¹² of `size` or, if
-/// that is larger, twice the doublePrecisionErrorBound() of the vertices. `size` is halfDiagonal() of the vertices. If
-/// all distances are already so small, nothing is changed. The moves are needed because coordinates in files are
-/// rounded: a slicing hyperplane that nearly contains a rounded cell would cut it into pieces that do not fit together.
-/// The moves are about as small as possible: if the file is a rounded polytope, they are about as large as the
-/// rounding.
+/// plane. Coordinates in files are rounded: without the moves, a slicing hyperplane that nearly contains a rounded cell
+/// would cut it into pieces that do not fit together. The moves are about as small as possible: about as large as the
+/// rounding in the file, if the file is a rounded polytope.
+///
+/// After the moves, the distance of a vertex from its hyperplanes and planes is at most 10⁻¹² of `size` or, if that is
+/// larger, twice doublePrecisionErrorBound(). `size` is halfDiagonal() of the vertices. If all distances are already so
+/// small, nothing is changed.
 ///
 /// If a vertex would have to be moved by more than `maxDistance`, or if no places are found at which all cells and
 /// 2-faces are flat, moves no vertex. Instead, splitIntoSimplices() divides the 2-faces that are not flat into

@@ -28,17 +28,17 @@ using text_files::throwFileError;
 namespace {
 
 constexpr int kDimensions = 4;
-constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample
-constexpr double kPerturbation = 1e-11;          // the initial amplitude, in the coordinates of HullFrame
-constexpr std::size_t kMaxSimplicesPerCell = 4;  // times maxCells: the maximum number of simplices of a hull
+constexpr std::size_t kFirstSample = 256;        // the number of points in the first sample of the input
+constexpr double kPerturbation = 1e-11;          // the first amplitude of the perturbation, in the coordinates of
+                                                 // HullFrame
+constexpr std::size_t kMaxSimplicesPerCell = 4;  // the maximum number of simplices of a hull, as a multiple of maxCells
 constexpr int kMaxRounds = 4;                // the maximum number of rounds that remove points that are not vertices
 constexpr std::size_t kMessageBytes = 4096;  // the size of the stream that takes and discards Qhull's messages
 
 using Points = std::vector<glm::dvec4>;
 
-// A run of Qhull on randomly perturbed ("joggled") points. With the perturbation, all facets of the hull are simplices,
-// so Qhull need not merge facets. In four dimensions, Qhull does not guarantee that a hull with merged facets is
-// closed.
+// A run of Qhull on randomly perturbed ("joggled") points. The perturbation makes all facets of the hull simplices, so
+// that Qhull need not merge facets: a four-dimensional hull for which Qhull merges facets may not be closed.
 class QhullRun {
   public:
     /// Runs Qhull. `perturbation` is the initial amplitude; Qhull increases it if it is too small (see perturbation()).
@@ -112,16 +112,16 @@ class QhullRun {
     throw FileError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
 }
 
-// Returns the simplices of the hull, and calls frame.allowForPerturbation(). The number of simplices can grow with the
-// square of the number of points. Therefore first computes the hulls of samples of increasing size: if the hull of a
-// sample is too large, throws a FileError before memory is exhausted.
+// Returns the simplices of the hull of the points, and calls frame.allowForPerturbation(). First computes the hulls of
+// samples of increasing size, because the number of simplices can grow with the square of the number of points. If the
+// hull of a sample is too large, throws a FileError before memory is exhausted.
 std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame, std::size_t maxCells) {
     double perturbation = kPerturbation;
     for (std::size_t count = std::min(kFirstSample, points.size());; count = std::min(2 * count, points.size())) {
         QhullRun run(std::span<const glm::dvec4>(points).first(count), perturbation);
         const bool all = count == points.size();
         if (run.status() == qh_ERRmem) throw std::bad_alloc();
-        // Skip a sample whose run has failed: it may be flat although the set of all points is not.
+        // Ignore a failed run on a sample, because the sample may be flat although the set of all points is not.
         if (run.status() != 0 && all) refuseRun(run.status());
         if (run.status() != 0) continue;
         perturbation = run.perturbation();
@@ -139,8 +139,8 @@ std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame,
     }
 }
 
-// Returns, for each point, the points that share an edge of a simplex with it; an empty list for a point that is not on
-// the hull.
+// Returns, for each point, its neighbors: the points that share an edge of a simplex with it. The list of a point that
+// is not on the hull is empty.
 std::vector<std::vector<std::uint32_t>> linksOf(std::span<const SimplexFacet> simplices, std::size_t points) {
     std::vector<std::vector<std::uint32_t>> links(points);
     for (const SimplexFacet& simplex : simplices) {
@@ -164,9 +164,9 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
     return places;
 }
 
-// Returns, for each point, whether it is a vertex of the hull: whether it lies outside the hull of the other points by
-// more than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if rounding
-// and perturbation have moved these points outward and made them vertices of simplices.
+// Returns, for each point, whether it is a vertex of the hull, that is, whether it lies outside the hull of the other
+// points by more than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if
+// rounding or the perturbation made them vertices of simplices.
 std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
     const auto links = linksOf(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);
@@ -175,7 +175,7 @@ std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Poi
         vertex[v] = !liesInHull(points[v], placesOf(links[v], points), frame);
         doubtful[v] = !vertex[v];
     }
-    // A doubtful point lies in the hull of its neighbors, but some of these neighbors may be doubtful, too, and may be
+    // A point is doubtful if it lies in the hull of its neighbors. Some of these neighbors may be doubtful, too, and be
     // removed. Therefore each point of a connected component of doubtful points is tested against the hull of the
     // vertices around the component.
     for (std::uint32_t first = 0; first < points.size(); ++first) {
@@ -207,12 +207,12 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     }
     HullFrame frame(points, rounding);
     frame.allowForPerturbation(kPerturbation);
-    // Shuffle the points, so that the first ones are a random sample.
+    // Shuffle the points, so that the first points are a random sample.
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     std::shuffle(order.begin(), order.end(), std::mt19937(1));
-    // Merge points that may differ only by errors. `places` holds one point of each merged group, in the coordinates of
-    // `frame`.
+    // Merge points that differ only within the error bounds. `places` holds one point of each merged group, in the
+    // coordinates of `frame`.
     Points places;
     std::vector<std::uint32_t> numbers;  // per element of `places`: its index in `points`
     geometry::EqualPointFinder index(4 * 2 * frame.largestErrorBound());
@@ -251,7 +251,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     for (const std::uint32_t v : hull.faces.items) used.push_back(v);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    // Restore the order of `points`.
+    // Sort the vertices by their order in `points`.
     std::sort(used.begin(), used.end(), [&](auto a, auto b) { return numbers[a] < numbers[b]; });
     std::vector<std::uint32_t> number(places.size(), 0);
     for (const std::uint32_t v : used) {

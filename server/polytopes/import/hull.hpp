@@ -22,9 +22,11 @@ struct Hull {
 /// Computes the convex hull of points with Qhull. `rounding` is the maximum rounding error of a coordinate along each
 /// axis; 0 for exact coordinates. The error bound of a point is its rounding error plus the floating-point errors and
 /// the random perturbation of the computation (see HullFrame::errorBound()). Simplices whose hyperplanes agree within
-/// the error bounds become one cell. A point whose distance from the hull of the other points is within the error
-/// bounds is not a vertex. Throws a FileError if the points do not span four dimensions, if they are too imprecise, if
-/// the hull has more than `maxCells` cells, or if it has more than 4 · `maxCells` simplices before merging.
+/// the error bounds become one cell. A point that is outside the hull of the other points by no more than the error
+/// bounds is not a vertex.
+///
+/// Throws a FileError if the points do not span four dimensions, if they are too imprecise, if the hull has more than
+/// `maxCells` cells, or if it has more than 4 · `maxCells` simplices before merging.
 Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells);
 
 }  // namespace oval4d::polytopes

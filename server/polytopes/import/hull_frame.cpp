@@ -18,8 +18,8 @@ using text_files::throwFileError;
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-// The assumed ratio of the error of a hyperplane, far from the points through which it passes, to the rounding errors
-// of these points.
+// The assumed ratio of two errors: that of a hyperplane, far from the points through which it passes, to the rounding
+// errors of these points.
 constexpr double kTilt = 8;
 
 bool shorter(const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); }
@@ -34,7 +34,8 @@ HullFrame::HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& round
     }
     const glm::dvec4 middle = low + (high - low) / 2.0;
     const glm::dvec4 largest = glm::max(glm::abs(low), glm::abs(high));
-    // The points may have been rotated, so the error of any coordinate depends on the largest coordinate.
+    // The points may have been rotated, so the floating-point error of each coordinate depends on the largest
+    // coordinate.
     rounding_ += 2 * kEpsilon * std::max({largest.x, largest.y, largest.z, largest.w});
 
     origin_ = *std::max_element(points.begin(), points.end(),

@@ -9,16 +9,16 @@
 namespace oval4d::polytopes {
 
 /// An affine map to coordinates in which a set of points has an extent of about 1 along each axis. Affine maps preserve
-/// convex hulls. A hull that is computed in these coordinates does not depend on where the points lie, or on how large,
-/// rotated or flat the set of points is.
+/// convex hulls, so a hull can be computed in these coordinates. The result then does not depend on where the points
+/// lie, or on how large, rotated or flat the set of points is.
 ///
-/// The frame also bounds the errors of the points: the distances by which the rounding of their coordinates,
-/// floating-point errors and a random perturbation may have moved them.
+/// The frame also bounds the errors of the points, that is, how far the points may have been moved by the rounding of
+/// their coordinates, by floating-point errors and by a random perturbation.
 class HullFrame {
   public:
     /// Fits the frame to the points, of which there must be at least one. `rounding` is the maximum rounding error of a
-    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if they may do so
-    /// only because of the rounding.
+    /// coordinate along each axis. Throws a FileError if the points do not span four dimensions, or if rounding errors
+    /// may be the only reason why they do.
     HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& rounding);
 
     /// Converts a point to the coordinates of the frame.
@@ -31,8 +31,8 @@ class HullFrame {
     /// Returns an upper bound of errorBound() for all directions.
     double largestErrorBound() const;
 
-    /// Makes the error bounds allow for a random perturbation of the points by at most `amplitude` along each axis of
-    /// the frame. Replaces an amplitude set before. Does not perturb the points itself.
+    /// Makes the error bounds include a random perturbation of the points by at most `amplitude` along each axis of the
+    /// frame. Replaces an earlier amplitude. Does not perturb the points.
     void allowForPerturbation(double amplitude) { perturbation_ = amplitude; }
 
   private:

@@ -22,7 +22,7 @@ using text_files::throwFileError;
 
 namespace {
 
-constexpr double kMergeDistance = 1e-7;  // relative to halfDiagonal(): vertices that are closer than this are merged
+constexpr double kMergeDistance = 1e-7;  // vertices closer than this are merged; relative to halfDiagonal()
 
 void checkCells(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;
@@ -37,8 +37,8 @@ void checkCells(const PolygonSoup& soup) {
     }
 }
 
-// Throws a FileError if a 2-face in the file has fewer than three different vertices. Called when no valid polytope
-// could be built: the probable reason is that repair() has left this 2-face out.
+// Throws a FileError if a 2-face in the file has fewer than three different vertices. Called only if no valid polytope
+// could be built: the probable reason is then that repair() has left out such a 2-face.
 void checkCorners(const PolygonSoup& soup) {
     std::vector<std::uint32_t> list;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
@@ -53,16 +53,16 @@ void checkCorners(const PolygonSoup& soup) {
     }
 }
 
-// Moves the origin of the coordinates to the point that `centering` chooses, and returns this point.
+// Moves the points so that the point that `centering` chooses becomes the origin, and returns this point.
 glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering& centering) {
     const glm::dvec4 center = geometry::newOriginFor(centering, points);
     for (glm::dvec4& p : points) p -= center;
     return center;
 }
 
-// Makes the cells and 2-faces flat by flattenOrSplit(), and appends to `warnings` what flattenOrSplit() has changed.
-// Does not warn of moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether
-// cells or 2-faces were divided.
+// Makes the cells and 2-faces flat by flattenOrSplit(), and appends a warning for each kind of change. Does not warn of
+// moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether cells or 2-faces were
+// divided.
 bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
@@ -85,7 +85,7 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
     return true;
 }
 
-// A polytope, and whether cells or 2-faces were divided, so that its elements differ from the elements in the file.
+// A polytope, and whether some of its cells or 2-faces were divided, so that its elements are not those in the file.
 struct BuiltPolytope {
     ImportedPolytope imported;
     bool divided = false;
@@ -110,7 +110,7 @@ BuiltPolytope buildOff4(const PolygonSoup& soup, const std::string& name, const 
     try {
         return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
     } catch (const FileError&) {
-        // Coinciding vertices may belong to different components of a compound: try again without merging them.
+        // Coinciding vertices may belong to different components of a compound: try again without merging vertices.
         try {
             return repairAndBuild(soup, -1, name, centering);
         } catch (const FileError&) {
@@ -140,16 +140,15 @@ ImportedPolytope importOff4(std::string_view text, const std::string& name, cons
     return std::move(result);
 }
 
-// Returns the convex hull of points, to the precision with which their coordinates are written. Whole numbers, and
-// numbers of few decimals, are normally treated as exact. They are treated as rounded only if two conditions hold for
-// the hull that allows for rounding errors: it has no ambiguous cell pairs (see MergedHull), and it has at most half as
-// many cells as the hull of the exact points. Both conditions hold for a polytope that was scaled and then rounded to
-// whole numbers.
+// Returns the convex hull of points, to the precision with which their coordinates are written. Coordinates that are
+// all whole numbers, or have few decimals, are normally treated as exact. They are treated as rounded only if the hull
+// that allows for rounding errors meets two conditions: it has no ambiguous cell pairs (see MergedHull), and at most
+// half as many cells as the hull of the exact points. A polytope that was scaled and then rounded to whole numbers
+// meets both conditions.
 Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
             std::vector<std::string>& warnings) {
-    // If `size` is less than kMinUnits units of the last digit, rounding by half a unit exceeds the distance by which
-    // makeFlat() may move a vertex. Cells with such rounding errors might remain uneven, so the coordinates count as
-    // exact.
+    // If `size` is less than kMinUnits units of the last digit, rounding by half a unit moves a vertex farther than
+    // makeFlat() could. Cells might therefore remain uneven, so the coordinates count as exact.
     constexpr double kMinUnits = 0.5 / kFlatnessTolerance;
     const double size = halfDiagonal(points);
     const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
@@ -195,8 +194,8 @@ ImportedPolytope importPoints(std::string_view text, std::string name, const Imp
                                   " 2-faces, the coordinates are too imprecise to tell whether the two cells lie in "
                                   "one hyperplane");
     }
-    // The error of the hull is a multiple of the rounding, because cells extend beyond the points that determine their
-    // hyperplanes.
+    // The errors of the hull's vertices are a multiple of the rounding errors: a cell extends beyond the few points
+    // that determine its hyperplane, and its errors grow with the distance from them.
     constexpr double kAmplification = 32, kHullError = 1e-10;
     PolygonSoup soup{std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells), {}, {}};
     const double rounding = kAmplification * glm::length(hull.rounding) + kHullError * halfDiagonal(soup.vertices) +

@@ -23,23 +23,25 @@ using text_files::Tokenizer;
 
 namespace {
 
-// The lengths of the shortest records: "0 0 0 0\n", "3 0 1 2\n", "4 0 1 2 3\n".
+// The lengths in bytes of the shortest records of a vertex, a 2-face and a cell: "0 0 0 0\n", "3 0 1 2\n", "4 0 1 2
+// 3\n".
 constexpr std::size_t kVertexBytes = 8, kFaceBytes = 8, kCellBytes = 10;
 
-// How many numbers follow the coordinates of a vertex if the keyword has the letter C (a color: red, green, blue,
-// opacity), N (a normal vector) or ST (texture coordinates) (Geomview, OFF file format).
+// The keyword of a file may say that more numbers follow the coordinates of a vertex. These are their numbers for the
+// letter C (a color: red, green, blue, opacity), for N (a normal vector) and for ST (texture coordinates) (Geomview,
+// OFF file format).
 constexpr int kColorNumbers = 4, kNormalNumbers = 4, kTextureNumbers = 2;
 
 constexpr std::string_view kKeyword = "off";
 
-// The numbers in the header.
+// The numbers in the header of a 4OFF file.
 struct Header {
     std::uint32_t vertices = 0, faces = 0, edges = 0, cells = 0;
-    int numbersPerVertex = 4;  // how many numbers each vertex has, coordinates included
+    int numbersPerVertex = 4;  // the number of numbers for each vertex, including its coordinates
 };
 
-// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow the keyword in the same word. Returns how
-// many numbers each vertex has, coordinates included.
+// Reads the keyword: [ST][C][N][4][n]OFF. The number of vertices may follow the keyword in the same word. Returns the
+// number of numbers for each vertex, including its coordinates.
 int readKeyword(Tokenizer& file) {
     const std::string_view word = file.next();
     const std::string keyword = text::normalizedName(word);
@@ -80,8 +82,8 @@ Header readHeader(Tokenizer& file) {
     header.edges = count(file.next(), "a number of edges");
     word = file.nextOnLine();
     if (word.empty()) {
-        // The line has only three counts. Either the fourth count follows on a line of its own, or there are no cells,
-        // as in files of Geomview.
+        // The line has only three counts. Either the fourth count follows on a line of its own, or the file has no
+        // cells and no fourth count, as in files of Geomview.
         const Tokenizer afterThree = file;
         word = file.next();
         const bool alone = !word.empty() && file.nextOnLine().empty();
@@ -99,15 +101,15 @@ struct SingularAndPlural {
     std::string one, many;
 };
 
-// How the records of a kind are divided into lines:
+// The way in which the records of a kind (vertices, 2-faces or cells) are divided into lines:
 // - `lines`: each record begins on a new line and may continue on further lines; words after the record are ignored.
 // - `continuous`: line breaks do not matter.
 // - `own_lines`: each record begins and ends on a line of its own.
 enum class RecordLayout { lines, continuous, own_lines };
 
-// Returns the next word of a record. With RecordLayout::own_lines, the word must be on the current line; if this line
-// has ended, throws a FileError, which says that `record` has only `found` of `needed` `members`. With another layout,
-// returns an empty text at the end of the file.
+// Returns the next word of a record. With RecordLayout::own_lines, throws a FileError if the current line has no
+// further word; the error says that `record` has only `found` of `needed` `members`. With another layout, returns an
+// empty text at the end of the file.
 std::string_view nextOf(Tokenizer& file, RecordLayout layout, const std::string& record, std::uint32_t found,
                         std::uint32_t needed, const char* members) {
     if (layout != RecordLayout::own_lines) return file.next();
@@ -140,7 +142,7 @@ struct SizeRange {
 };
 
 // Reads `records` records into `lists`, and their positions in the file into `positions`. A record is a number within
-// `sizes`, followed by that many indices, each less than `below`. `what` and `member` are for error messages: if they
+// `sizes`, followed by that many indices, each less than `below`. Error messages contain `what` and `member`: if they
 // are "2-face" and "vertex", a message may say that "2-face 7" has too few vertices.
 void readLists(Tokenizer& file, RecordLayout layout, std::uint32_t records, std::size_t below, SizeRange sizes,
                const std::string& what, const SingularAndPlural& member, geometry::JaggedArray& lists,
@@ -175,17 +177,16 @@ void readLists(Tokenizer& file, RecordLayout layout, std::uint32_t records, std:
     }
 }
 
-// The layouts of the records of vertices, of 2-faces and of cells, in this order. They may differ: readOff4() tries
-// several combinations.
+// The layouts of the records of vertices, 2-faces and cells, in this order. readOff4() tries several combinations,
+// because the three layouts may differ.
 using RecordLayouts = std::array<RecordLayout, 3>;
 
-// Reads the records after the header. `file` is a copy, which begins after the header.
+// Reads the records after the header, at which `file` begins.
 PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayouts& layouts) {
     PolygonSoup soup;
     readVertices(file, header, layouts[0], soup.vertices);
     // The greatest sizes limit the use of memory. If there are cells, the loop of a 2-face may have more corners than
-    // the file has vertices, because the loop may pass through a vertex more than once; repair() splits it at this
-    // vertex.
+    // the file has vertices: it may pass through a vertex more than once, and repair() splits it at this vertex.
     const std::size_t mostCorners = std::size_t{header.vertices} * (header.cells > 0 ? 2 : 1);
     readLists(file, layouts[1], header.faces, header.vertices, {3, mostCorners}, "2-face", {"vertex", "vertices"},
               soup.faces, soup.faceSourcePositions);
@@ -197,9 +198,9 @@ PolygonSoup readRecords(Tokenizer file, const Header& header, const RecordLayout
     return soup;
 }
 
-// If the file has as many lines as records, returns the fault of the first record whose line has too few words;
-// otherwise an empty optional. Without this function, the error would name a later record: a reader that ignores line
-// breaks completes the short record with words of the next line. `file` is a copy, which begins after the header.
+// If the file has as many lines as records, returns the fault of the first record whose line has too few words.
+// Otherwise returns an empty optional. Without this function, the error would name a later record: a reader that
+// ignores line breaks completes the short record with words of the next line. `file` begins after the header.
 std::optional<FileError> shortRecordOf(Tokenizer file, const Header& header) {
     const std::size_t records = std::size_t{header.vertices} + header.faces + header.cells;
     Tokenizer counted = file;

@@ -15,27 +15,27 @@ namespace oval4d::polytopes {
 struct Off4 {
     PolygonSoup soup;
     std::uint32_t edges = 0;  ///< the number of edges that the file states
-    /// Set if the file has a line for each record, but some of these lines have too few words. In this case, the
-    /// records were read without regard to lines, and `shortRecord` is the fault of the first such record. If the
-    /// records do not form a polytope, this fault is the reason.
+    /// The fault of the first record whose line has too few words, in a file that has a line for each record. Such a
+    /// file was read without regard to lines. If its records do not form a polytope, this fault is the reason.
     std::optional<text_files::FileError> shortRecord;
 };
 
-/// Reads the text of a 4OFF file, as importPolytope() describes it. First assumes that each record begins on a line of
-/// its own, and ignores whatever follows the record on its line. If the file cannot be read in this way, reads the
-/// records of some or all kinds without regard to lines, as Geomview does. Throws a FileError if the file is malformed,
-/// or has more than `maxVertices` vertices. If the file has a line for each record, the error names the first record
-/// whose line has too few words.
+/// Reads the text of a 4OFF file, as described at importPolytope(). First assumes that each record begins on a line of
+/// its own, and ignores whatever follows the record on its line. If this fails, reads the records of some or all kinds
+/// without regard to lines, as Geomview does. Throws a FileError if the file is malformed, or has more than
+/// `maxVertices` vertices. If the file has a line for each record, the error names the first record whose line has too
+/// few words.
 Off4 readOff4(std::string_view text, std::size_t maxVertices);
 
-/// Returns whether a 4OFF file has cells: whether the fourth count in its header is not 0. In a file of Geomview, which
-/// has no cells, the header has only three counts. Reads only the header. Throws a FileError if the header is
-/// malformed.
+/// Returns whether a 4OFF file has cells, that is, whether the fourth count in its header is greater than 0. A header
+/// with only three counts, as in files of Geomview, means that there are no cells. Reads only the header. Throws a
+/// FileError if the header is malformed.
 bool listsCells(std::string_view text);
 
-/// Returns whether the first word of the file is a keyword of the OFF formats, in upper or lower case, even one that
-/// readOff4() refuses: "OFF" after digits and letters of ST, C and N, as in 4OFF, COFF or nOFF. The number of vertices
-/// may follow in the same word, but no other text: "offset" may name a column of a table.
+/// Returns whether the first word of the file is a keyword of the OFF formats, in upper or lower case: "OFF" after
+/// digits and letters of ST, C and N, as in 4OFF, COFF or nOFF. readOff4() does not accept all of them. The number of
+/// vertices may follow in the same word. Other words that begin with "off" are no keywords, because "offset" may name a
+/// column of a table.
 bool isOff(std::string_view text);
 
 }  // namespace oval4d::polytopes

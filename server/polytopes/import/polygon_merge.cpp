@@ -20,7 +20,7 @@ namespace {
 
 using geometry::kNone;
 
-// Returns the boundary loop of triangles that form a disk; an empty list if they do not form a disk.
+// Returns the boundary loop of triangles that form a disk. Returns an empty list if they do not form a disk.
 std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std::span<const Triangle> all) {
     std::vector<Triangle> triangles;
     std::vector<std::uint32_t> corners;
@@ -62,8 +62,8 @@ std::vector<std::uint32_t> boundaryOf(std::span<const std::uint32_t> group, std:
     return loop;
 }
 
-// Returns whether the polygon with this vertex loop, which lies in `plane`, turns the same way at all corners, within
-// the error bounds of the corners.
+// Returns whether a polygon turns the same way at all corners, within the error bounds of the corners. The polygon has
+// the vertex loop `loop` and lies in `plane`.
 bool isConvex(std::span<const std::uint32_t> loop, const PlaneThroughPoints& plane, std::span<const glm::dvec4> points,
               const HullFrame& frame) {
     std::vector<glm::dvec2> places;

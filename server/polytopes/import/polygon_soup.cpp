@@ -14,12 +14,12 @@ using text_files::throwFileError;
 
 namespace {
 
-constexpr double kThin = 1e-6;  // relative to halfDiagonal(): the minimum extent of a polytope in any direction
+constexpr double kThin = 1e-6;  // the minimum extent of a polytope in each direction, relative to halfDiagonal()
 
-// Returns the deviation of the points from a flat: a plane (`dimension` 2) or a hyperplane (3) through some of the
-// points, which are chosen greedily to be far apart. The deviation is the largest distance of a point from the flat.
+// Returns the largest distance of a point from a flat through some of the points. The flat is a plane if `dimension` is
+// 2, and a hyperplane if it is 3. The points that it passes through are chosen to be far apart.
 double deviation(std::vector<glm::dvec4> points, int dimension) {
-    if (points.empty()) return 0;  // a cell whose 2-faces were all removed; build() refuses it
+    if (points.empty()) return 0;  // no points: a cell that lost all its 2-faces, which build() will reject
     const glm::dvec4 origin = points.front();
     for (auto& p : points) p -= origin;
     const auto shorter = [](const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); };

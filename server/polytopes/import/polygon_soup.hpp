@@ -23,12 +23,13 @@ struct PolygonSoup {
 
     std::vector<glm::dvec4> vertices;
     geometry::JaggedArray faces, cells;  ///< the vertex loop of each 2-face, and the 2-faces of each cell
-    /// Parallel to `faces` and `cells`, or empty for a polytope that is not from a 4OFF file.
+    /// The positions of the elements of `faces` and `cells` in the file; empty for a polytope that is not from a 4OFF
+    /// file.
     std::vector<SourcePosition> faceSourcePositions, cellSourcePositions;
 };
 
-/// How far the vertices of a cell or 2-face in a file may be from one hyperplane or plane, relative to halfDiagonal().
-/// This allows for coordinates with three decimals.
+/// The greatest permitted distance of the vertices of a cell or 2-face in a file from one hyperplane or plane, relative
+/// to halfDiagonal(). Coordinates with three decimals are precise enough.
 inline constexpr double kFlatnessTolerance = 5e-3;
 
 /// Returns half the diagonal of the bounding box of the points; 0 if there are no points. The tolerances of the import
@@ -44,8 +45,8 @@ double doublePrecisionErrorBound(std::span<const glm::dvec4> points);
 /// hyperplane, to within 10⁻⁶ of halfDiagonal().
 void checkFlatnessAndDimension(const PolygonSoup& soup);
 
-/// Builds the polytope by makePolytope(). If makePolytope() throws InvalidPolytope, throws a FileError with the line
-/// number of the invalid element instead.
+/// Builds the polytope of the soup by makePolytope(). If the soup is not a valid polytope, throws a FileError with the
+/// line number of the invalid element.
 Polytope build(PolygonSoup soup, std::string name);
 
 }  // namespace oval4d::polytopes

@@ -22,20 +22,20 @@ std::string counted(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
-// Groups the points: two points are in one group if they are within `distance` of each other, or if they are joined by
-// a chain of points, each within `distance` of the next. Returns, for each point, the point with the least index in its
-// group. Sorts the points by their projections onto a line, so that only points with close projections are compared.
+// Groups points that coincide: two points are in one group if a chain of points joins them in which neighbors are
+// within `distance` of each other. Returns, for each point, the point with the least index in its group. Sorts the
+// points by their projections onto a line, so that only points with close projections are compared.
 std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
-    // A line in general position, on which points that have a coordinate in common have different projections.
+    // The direction of a line onto which points with a coordinate in common have different projections.
     const glm::dvec4 along(0.5477, 0.4472, 0.5099, 0.4899);
     std::vector<double> place;
     for (const auto& p : points) place.push_back(glm::dot(p, along));
     std::sort(order.begin(), order.end(),
               [&](auto a, auto b) { return std::pair(place[a], a) < std::pair(place[b], b); });
-    // A union–find structure. first[v] is the parent of v. A root is joined only to a root with a lesser index, so the
-    // root of a group is the point with the least index in the group.
+    // A union–find structure: first[v] is the parent of v. When two groups are joined, the lesser root becomes the
+    // parent, so the root of a group is the point with the least index in the group.
     std::vector<std::uint32_t> first(points.size());
     std::iota(first.begin(), first.end(), 0U);
     const auto rootOf = [&](std::uint32_t v) {
@@ -44,8 +44,8 @@ std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, d
     };
     for (std::size_t i = 0; i < order.size(); ++i) {
         const glm::dvec4& point = points[order[i]];
-        // If the previous point in this order is equal to `point`, all points that follow have already been compared
-        // with it.
+        // If `point` is equal to the previous point in this order, that point has already been compared with all points
+        // that follow.
         if (i > 0 && point == points[order[i - 1]]) continue;
         for (std::size_t j = i + 1; j < order.size() && place[order[j]] - place[order[i]] <= distance; ++j) {
             if (glm::distance(point, points[order[j]]) > distance) continue;
@@ -85,7 +85,7 @@ class Repairer {
   public:
     Repairer(PolygonSoup& soup, std::vector<std::string>& warnings) : soup_(soup), warnings_(warnings) {}
 
-    // Merges vertices within `distance` of each other: replaces all of them by the first one.
+    // Merges vertices within `distance` of each other: replaces each group of such vertices by its first vertex.
     void mergeVertices(double distance) {
         const auto first = firstOfGroup(soup_.vertices, distance);
         std::size_t doubled = 0;
@@ -97,7 +97,7 @@ class Repairer {
         doubled_ = doubled;
     }
 
-    // Splits 2-faces into simple loops, and removes the 2-faces of which no loop remains (see simpleLoops()).
+    // Splits 2-faces into simple loops (see simpleLoops()). Removes a 2-face if no loop of it remains.
     void simplifyFaces() {
         geometry::JaggedArray faces;
         std::vector<PolygonSoup::SourcePosition> positions;
@@ -108,7 +108,7 @@ class Repairer {
             vanished += loops.empty() ? 1 : 0;
             compound += loops.size() > 1 ? 1 : 0;
             for (std::size_t i = 0; i < loops.size(); ++i) {
-                // If the walk traverses a loop twice, the loop is kept once.
+                // A walk may traverse the same loop twice; keep the loop once.
                 const auto same = [&](const auto& other) { return sorted(other) == sorted(loops[i]); };
                 if (std::any_of(loops.begin(), loops.begin() + static_cast<std::ptrdiff_t>(i), same)) continue;
                 becomes[f].push_back(static_cast<std::uint32_t>(faces.size()));
@@ -128,7 +128,7 @@ class Repairer {
         renumberFaces(becomes);
     }
 
-    // Merges the two copies of a 2-face that the file gives once for each of its cells.
+    // Merges the two copies of a 2-face that the file lists twice, once for each of its cells.
     void mergeCopies() {
         std::vector<std::uint32_t> uses(soup_.faces.size(), 0);
         for (const std::uint32_t f : soup_.cells.items) ++uses[f];
@@ -198,7 +198,7 @@ class Repairer {
   private:
     void warn(std::string text) { warnings_.push_back(std::move(text)); }
 
-    // Replaces each 2-face f in the cells by the 2-faces becomes[f], of which there may be none or several.
+    // Replaces each 2-face f in the cells by the 2-faces becomes[f], which may be none, one or several.
     void renumberFaces(const std::vector<std::vector<std::uint32_t>>& becomes) {
         geometry::JaggedArray cells;
         std::vector<std::uint32_t> list;
@@ -225,8 +225,8 @@ class Repairer {
                 sides.emplace_back(std::minmax(loop[k], loop[(k + 1) % loop.size()]), i);
         }
         std::sort(sides.begin(), sides.end());
-        // If more than two 2-faces meet at an edge, the edge belongs to several pieces, so it does not show which of
-        // its 2-faces belong together.
+        // An edge at which more than two 2-faces meet belongs to several pieces, and does not show which of its 2-faces
+        // belong to the same piece. Only edges of two 2-faces join pieces.
         for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
             while (end < sides.size() && sides[end].first == sides[i].first) ++end;
             if (end - i == 2) piece[root(sides[i].second)] = root(sides[i + 1].second);
@@ -259,8 +259,8 @@ class Repairer {
 
     PolygonSoup& soup_;
     std::vector<std::string>& warnings_;
-    // The numbers of vertices and of 2-faces that were merged into others. dropOneUnused() removes them, but does not
-    // count them in the warnings about unused ones.
+    // The numbers of vertices (doubled_) and of 2-faces (joined_) that were merged into others. dropOneUnused() removes
+    // the merged elements, but does not count them in the warnings about unused elements.
     std::size_t doubled_ = 0, joined_ = 0;
 };
 

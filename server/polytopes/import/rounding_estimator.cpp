@@ -10,17 +10,17 @@ namespace oval4d::polytopes {
 
 namespace {
 
-constexpr int kSingleBits = 24;              // the significant bits of a single-precision number
-constexpr int kMinSingleExponent = -149;     // the last bit of a single-precision number is worth at least 2^−149
+constexpr int kSingleBits = 24;              // the number of significant bits of a single-precision number
+constexpr int kMinSingleExponent = -149;     // the least positive single-precision number is 2^−149
 constexpr double kSingleRounding = 0x1p-24;  // the maximum relative rounding error of a single-precision number
-// The least singleEvidence_ at which the coordinates count as single-precision numbers. Other numbers reach it with a
-// probability of at most 2^(−kSingleEvidence).
+// The least singleEvidence_ at which the coordinates count as single-precision numbers. Coordinates that are not
+// single-precision numbers reach this value with a probability of at most 2^(−kSingleEvidence).
 constexpr double kSingleEvidence = 10;
-constexpr double kMaxExactUnits = 400;  // see maxRoundingError(); in units of the last digit
+constexpr double kMaxExactUnits = 400;  // in units of the last digit; see maxRoundingError()
 
-constexpr int kMaxExponent = 10'000;  // the largest absolute value of an exponent; larger ones are clamped to it
+constexpr int kMaxExponent = 10'000;  // the largest absolute value of an exponent; larger exponents are clamped to it
 
-// The precision with which one number is written.
+// The precision with which a number is written in a text.
 struct NumberPrecision {
     int significant = 0;  // the number of digits from the first nonzero digit to the last digit written
     int last = 0;         // the exponent of ten of the last digit written
@@ -63,7 +63,7 @@ void RoundingEstimator::add(std::string_view word, int axis, double value) {
     const NumberPrecision digits = digitsOf(word);
     largest_[axis] = std::max(largest_[axis], std::abs(value));
     whole_ = whole_ && digits.whole;
-    if (digits.significant == 0) return;  // a zero does not show how it was rounded
+    if (digits.significant == 0) return;  // the digits of 0 do not show how it was rounded
     digits_ = std::max(digits_, digits.significant);
     lastPlace_ = std::min(lastPlace_, digits.last);
     if (single_ && value != 0) updateFloat32Evidence(digits.last, digits.lastNonzero, axis, value);
@@ -73,10 +73,10 @@ void RoundingEstimator::updateFloat32Evidence(int lastPlace, int lastNonzeroPlac
     const double away = std::abs(static_cast<double>(static_cast<float>(value)) - value);
     single_ = away <= std::pow(10.0, lastPlace) / 2 + std::numeric_limits<double>::epsilon() * std::abs(value);
     fromSingle_[axis] = std::max(fromSingle_[axis], away);
-    // `part` is the probability that a random decimal near `value`, with the same last place, is a rounded
-    // single-precision number: the distance of such decimals, divided by the distance of single-precision numbers. The
-    // last place is that of the last digit other than 0, because a number such as 0.50000000 is also a short decimal,
-    // so it is weak evidence.
+    // `part` is the probability that a random decimal with the same last place is a rounded single-precision number:
+    // the distance of neighboring decimals, divided by the distance of neighboring single-precision numbers. The last
+    // place is that of the last digit other than 0. A number such as 0.50000000 is also a short decimal, so it is weak
+    // evidence.
     const double part = std::pow(10.0, lastNonzeroPlace) / singleSpacing(value);
     if (part < 1) singleEvidence_ -= std::log2(part);
 }
@@ -94,8 +94,8 @@ glm::dvec4 RoundingEstimator::lastDigitUnit() const {
 
 glm::dvec4 RoundingEstimator::roundingErrorIfRounded() const {
     // Programs may write the single-precision number 0.100000001490116 as 0.1, the shortest decimal that is read back
-    // as this number. The error of 0.1 is 1.5e-9, which is more than half a unit of the last digit of a longer
-    // coordinate such as 0.102687284. Therefore fromSingle_ contains the largest such error.
+    // as the same number. The error of this decimal is 1.5e-9, more than half a unit of the last digit of a longer
+    // coordinate such as 0.102687284. Therefore fromSingle_, the largest such error, is a lower bound of the result.
     if (single_ && !whole_ && singleEvidence_ >= kSingleEvidence)
         return largest_ * kSingleRounding + glm::max(lastDigitUnit() / 2.0, fromSingle_);
     return lastDigitUnit() / 2.0;

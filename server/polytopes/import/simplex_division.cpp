@@ -19,9 +19,9 @@ using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
 VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
-// Divides the 2-faces and cells of a soup. The caller must call divideFaces() first, then divideCells(), which replaces
-// the 2-faces and cells of the soup by the new ones. If the soup has source positions, each new element gets the source
-// position of the element that was divided; a new triangle inside a cell gets that of the first 2-face of the cell.
+// Divides 2-faces and cells of a soup. The caller must call divideFaces() first, then divideCells(), which replaces the
+// 2-faces and cells of the soup by the new ones. Each new element gets the source position of the divided element; a
+// triangle inside a cell gets that of the first 2-face of the cell.
 class SimplexDivider {
   public:
     explicit SimplexDivider(PolygonSoup& soup) : soup_(soup), hasPositions_(!soup.cellSourcePositions.empty()) {}
@@ -74,15 +74,15 @@ class SimplexDivider {
         if (hasPositions_) cellPositions_.push_back(soup_.cellSourcePositions[from]);
     }
 
-    // Divides a cell into tetrahedra. The apex is the cell's vertex with the smallest index; each triangle without the
-    // apex, joined to the apex, becomes a tetrahedron.
+    // Divides a cell into tetrahedra. The apex is the cell's vertex with the smallest index. Each triangle of the
+    // surface that does not contain the apex is the base of a tetrahedron with this apex.
     void divideCell(std::uint32_t cell, std::span<const std::uint32_t> triangles) {
         std::uint32_t apex = kNone;
         for (const std::uint32_t t : triangles) {
             for (const std::uint32_t v : faces_[t]) apex = std::min(apex, v);
         }
-        // `upright` maps an edge without the apex to the triangle that joins this edge to the apex. The first loop adds
-        // the triangles on the surface of the cell, the second loop those inside the cell.
+        // `upright` maps an edge that does not contain the apex to the triangle of this edge and the apex. The first
+        // loop adds triangles on the surface of the cell; the second loop adds triangles inside the cell.
         std::map<VertexPair, std::uint32_t> upright;
         std::vector<std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> bases;
         for (const std::uint32_t t : triangles) {

@@ -19,8 +19,8 @@ struct TriangleEdge {
     std::uint32_t triangle;
 };
 
-/// Returns the edges of all triangles, sorted by their ends, then by triangle. `cornersOf` maps an element of
-/// `triangles` to its corners.
+/// Returns the edges of all triangles, sorted by their ends, then by triangle. cornersOf(t) must return the corners of
+/// an element t of `triangles`.
 template <typename Triangles, typename CornersOf>
 std::vector<TriangleEdge> sortedTriangleEdges(const Triangles& triangles, CornersOf cornersOf) {
     std::vector<TriangleEdge> edges;
