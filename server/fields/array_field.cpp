@@ -21,8 +21,8 @@ Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
         if (array.shape[static_cast<std::size_t>(axis)] == 1) {
             // Along this axis, the object extends from −reach to reach, and the box from middle − inBox to middle +
             // inBox. If `middle` is far from 0, 32-bit floats might not distinguish middle − reach from middle + reach;
-            // then inBox is greater than reach. The function is constant along this axis, so a longer box makes no
-            // difference.
+            // then inBox is made greater than reach. A longer box makes no difference, because the function is constant
+            // along this axis.
             constexpr double kMinRelativeReach = 1e-4;
             const double middle = box.center()[axis], reach = 0.25 * longest;
             const double inBox = std::max(reach, kMinRelativeReach * std::abs(middle));

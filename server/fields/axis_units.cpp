@@ -15,14 +15,15 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr double kTolerance = 1e-9;  // for the rounding errors of rotations
+constexpr double kTolerance = 1e-9;  // allows for the rounding errors of rotation matrices
 
-// Returns the map from the coordinates in the box, relative to its center, to those in the picture.
+// Returns the linear map from coordinates in the box, relative to its center, to coordinates in the picture.
 glm::dmat4 toPicture(const Field& field, const geometry::Rotation& orientation) {
     return orientation.matrix() * glm::inverse(field.toFunction);
 }
 
-// Returns the factors whose scalar product with the coordinates in the box is the coordinate along the axis.
+// Returns the factors of the coordinates in the box: their sum with these factors is the coordinate along the axis of
+// the picture.
 glm::dvec4 factorsOf(const glm::dmat4& toPicture, int axis) {
     return {toPicture[0][axis], toPicture[1][axis], toPicture[2][axis], toPicture[3][axis]};
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The units of the axes of a picture, which shows a field in a frame of reference and after a rotation.
+// The units of the axes of a picture. The picture shows a field after a transformation and a rotation, so an axis of
+// the picture may mix several axes of the field.
 
 #include <array>
 #include <optional>
@@ -12,46 +13,46 @@ namespace oval4d::fields {
 
 /// The unit of an axis of a picture.
 struct PictureAxisUnit {
-    std::string text;        ///< empty if it is unknown, or if the axis mixes axes of the box with different units
-    bool isToScale = false;  ///< whether a length of 1 along the axis in the picture is one such unit
+    std::string text;        ///< empty if the unit is unknown, or if the axis mixes axes of the box with different
+                             ///< units
+    bool isToScale = false;  ///< whether one unit has the length 1 in the picture
     bool operator==(const PictureAxisUnit&) const = default;
 };
 using PictureUnits = std::array<PictureAxisUnit, 4>;
 
-/// Returns the units of the axes x, y, z and w after the field has been rotated by `orientation`. Each coordinate in
-/// the picture is a linear combination of the coordinates in the box. The coordinate in the picture has a unit if all
-/// coordinates in the box with a nonzero factor have the same unit. It is to scale if the factors, as a vector, have
-/// the length 1. For example, the axis w of an array is not to scale if fieldFromArray() or ReferenceFrame::pace has
-/// scaled w.
+/// Returns the units of the axes x, y, z and w of the picture after a rotation of the field by `orientation`. Each
+/// coordinate in the picture is a linear combination of the coordinates in the box. It has a unit if all coordinates in
+/// the box with nonzero factors have the same unit. It is to scale if the vector of the factors has the length 1. For
+/// example, the axis w of an array is not to scale if fieldFromArray() or ReferenceFrame::pace has scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
-/// The coordinate in the box of a field that all points of a slice w = const of a picture have in common.
+/// A coordinate in the box of a field that is constant in each slice w = const of a picture.
 struct CommonCoordinate {
-    int axis = 3;       ///< 0 … 3 for x … w
+    int axis = 3;       ///< the axis of the box: 0 … 3 for x … w
     double center = 0;  ///< the coordinate in the slice w = 0
     double scale = 1;   ///< by how much the coordinate grows if w grows by 1
 
     double at(double w) const { return center + scale * w; }
-    /// Returns whether this is the coordinate along the axis w of the box and equals the w of the picture: at(w) = w.
+    /// Returns whether the coordinate is w itself: whether `axis` is the axis w of the box, and at(w) = w.
     bool isW() const;
 };
-/// Returns the coordinate that all points of a slice have in common after the field has been rotated by `orientation`;
-/// an empty optional if the slices are perpendicular to no axis of the box. For example, without a rotation, all points
-/// of a slice have the same w in the box of an array, and after a quarter turn in xw, the same x.
+/// Returns the coordinate in the box that is constant in each slice after a rotation of the field by `orientation`.
+/// Returns an empty optional if the slices are not perpendicular to an axis of the box. For example, all points of a
+/// slice have the same w in the box if there is no rotation, and the same x after a quarter turn in xw.
 std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation);
 
-/// Returns the coordinate in the box of a field that all points of the slice `w` have in common, as a text: "130 s" for a
+/// Returns the coordinate in the box of a field that all points of the slice `w` have in common as a text: "130 s" for a
 /// coordinate along the axis w whose unit is known, else "box x = 0.5 m" or "box w = 130". Returns an empty text if
 /// there is no such coordinate, or if it is w itself, without a unit. `spacing` is the distance between slices; the text
 /// has as many decimals as are needed to distinguish neighboring slices.
 std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing);
 
-/// Returns the unit of lengths in a hyperplane w = const of the picture: the unit of the axes x, y and z if all three
-/// have the same unit and are to scale, else an empty string.
+/// Returns the unit of lengths in a slice w = const of the picture: the common unit of the axes x, y and z if all three
+/// are to scale. Returns an empty string if their units differ, or if an axis is not to scale.
 std::string lengthUnit(const PictureUnits& units);
 
-/// Returns the label of an axis, 0 … 3 for x … w: "x, m" for the axis 0 with the unit m, and only "x" if the unit is
-/// unknown.
+/// Returns the label of an axis, 0 … 3 for x … w. The label of axis 0 is "x, m" if the unit is m, and "x" if the unit
+/// is unknown.
 std::string axisLabel(int axis, const PictureAxisUnit& unit);
 
 }  // namespace oval4d::fields

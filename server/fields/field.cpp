@@ -14,7 +14,7 @@ namespace oval4d::fields {
 
 namespace {
 
-/// Builds the box from −half to +half as a polytope. Bit a of a vertex index is set if coordinate a is positive.
+/// Builds the box from −half to +half as a polytope. Bit a of a vertex's index is set if its coordinate a is positive.
 polytopes::Polytope makeDomain(const std::string& name, const glm::dvec4& half) {
     std::vector<glm::dvec4> vertices;
     for (unsigned v = 0; v < 16; ++v) {
@@ -25,7 +25,8 @@ polytopes::Polytope makeDomain(const std::string& name, const glm::dvec4& half) 
         vertices.push_back(vertex);
     }
     geometry::JaggedArray faces, cells;
-    std::vector<std::vector<std::uint32_t>> facesOfCell(8);  // cell 2a + s: the lower (s = 0) or upper end of axis a
+    std::vector<std::vector<std::uint32_t>> facesOfCell(8);  // the cell 2a + s lies at the lower (s = 0) or upper (s =
+                                                             // 1) end of axis a
     for (unsigned a = 0; a < 4; ++a) {
         for (unsigned b = a + 1; b < 4; ++b) {
             for (unsigned rest = 0; rest < 16; ++rest) {

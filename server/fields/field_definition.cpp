@@ -24,7 +24,8 @@ FieldArray arrayOf(const ArrayFunction& function) {
 }
 
 SecondFunctionDefinition definitionOf(const SecondFunction& second) {
-    const auto& [function, formula, array, variable, quantity] = second;  // `function` is computed from the others
+    const auto& [function, formula, array, variable, quantity] = second;  // `function` is not stored, because the other
+                                                                          // members determine it
     SecondFunctionDefinition definition{formula, variable, {}};
     if (array) {
         definition.array = arrayOf(*array);
@@ -47,8 +48,8 @@ std::optional<Error> faultOf(const FieldArray& array) {
 
 }  // namespace
 
-// Not part of the definition are `shared`, which says where the field is kept, and what is computed: function, center,
-// toFunction, domain, isTransformed, initialLevel, initialInside, coloringRange.
+// Members of Field that the definition leaves out: `shared`, which says where the field is kept; and function, center,
+// toFunction, domain, isTransformed, initialLevel, initialInside and coloringRange, which are computed.
 static_assert(serialization::HasOwnMembers<Field, geometry::ObjectInfo, 18>, "the definition considers each member");
 FieldDefinition definitionOf(const Field& field) {
     if (!field.source) return definitionByFunctions(field);

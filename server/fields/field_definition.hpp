@@ -1,5 +1,5 @@
 #pragma once
-// What is stored of a field, and from which it can be made again.
+// Definitions of fields: the data that are stored of a field, and from which the field can be made again.
 
 #include <optional>
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace oval4d::fields {
 
-/// From what the second function of a field is made: a formula or an array.
+/// The definition of the second function of a field: a formula or an array.
 struct SecondFunctionDefinition {
     std::string formula;              ///< empty if the function is an array
     std::string variable;             ///< the name of the array in its file; empty if it has none
-    std::optional<FieldArray> array;  ///< without units of the axes, which are those of the field
+    std::optional<FieldArray> array;  ///< without units of the axes, because the axes are those of the field
 };
 void visitStoredMembers(serialization::ReadOrWritten<SecondFunctionDefinition> auto& second, auto& visit) {
     auto& [formula, variable, array] = second;
@@ -25,11 +25,11 @@ void visitStoredMembers(serialization::ReadOrWritten<SecondFunctionDefinition> a
     visit.member(2, array);
 }
 
-/// From what a field is made: a file in the server's data folder, a formula, or an array. The members of the other two
+/// The definition of a field: a file in the server's data folder, a formula, or an array. The members for the other two
 /// are empty.
 struct FieldDefinition {
-    geometry::ObjectInfo info;         ///< only the stored members, of which `originInFile` is 0
-    std::optional<FileSource> source;  ///< the file; the definition then has no second function
+    geometry::ObjectInfo info;         ///< only the stored members are set; `originInFile` is 0
+    std::optional<FileSource> source;  ///< the file; if it is set, the definition has no second function
     std::string formula;
     Box box;  ///< the domain of the formula
     std::optional<FieldArray> array;
@@ -45,17 +45,17 @@ void visitStoredMembers(serialization::ReadOrWritten<FieldDefinition> auto& defi
     visit.member(5, second);
 }
 
-/// Returns from what a field is made: its file if Field::source is not null; else its functions. `field` must not have
-/// been made by transformedTo(). The samples of arrays are shared with the field, not copied.
+/// Returns the definition of a field: its file if Field::source is not null, otherwise its functions. `field` must not
+/// be a result of transformedTo(). Shares the samples of arrays with the field, without copying them.
 FieldDefinition definitionOf(const Field& field);
 
-/// Returns the same as definitionOf(), but the functions even if they are in a file.
+/// Returns the definition of a field by its functions, even if Field::source is not null.
 FieldDefinition definitionByFunctions(const Field& field);
 
-/// Makes a field of a formula or of an array. Errors: those of fieldFromFormula(), fieldFromArray(), setSecondFormula()
-/// and setSecondArray(); `bad_field` if members contradict each other, such as a formula and an array, if the samples
-/// of an array do not match its shape, if quantityText() would change a unit or a quantity, or if the definition refers
-/// to a file.
+/// Makes the field of a formula or an array from its definition. Errors: those of fieldFromFormula(), fieldFromArray(),
+/// setSecondFormula() and setSecondArray(); and `bad_field` if members contradict each other, such as a formula and an
+/// array, if the number of samples does not match the shape, if quantityText() would change a unit or a quantity, or if
+/// the definition refers to a file.
 Result<Field> fieldFromDefinition(const FieldDefinition& definition);
 
 }  // namespace oval4d::fields

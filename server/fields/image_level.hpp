@@ -6,11 +6,11 @@
 
 namespace oval4d::fields {
 
-/// Which level of a multiscale image an array is.
+/// The level of a multiscale image that an array is. A multiscale image stores the same image at several resolutions.
 struct ImageLevel {
-    std::uint32_t level = 0;   ///< 0 for the finest level; less than `levels`, if that is not 0
-    std::uint32_t levels = 0;  ///< how many levels the image has; 0 if the array is no level of an image
-    std::uint32_t finer = 0;   ///< how many finer levels follow, one after another, as each fits into memory, too
+    std::uint32_t level = 0;   ///< 0 for the finest level; less than `levels`, unless `levels` is 0
+    std::uint32_t levels = 0;  ///< the number of levels of the image; 0 if the array is not a level of an image
+    std::uint32_t finer = 0;   ///< the number of successive finer levels that fit into memory, too
     bool operator==(const ImageLevel&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<ImageLevel> auto& image, auto& visit) {

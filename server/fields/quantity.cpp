@@ -11,8 +11,8 @@ namespace oval4d::fields {
 std::string quantityText(std::string_view text) {
     if (text.find_first_not_of(' ') == std::string_view::npos) return {};
     if (text.size() <= kMaxQuantityText) return text::printable(text, kMaxQuantityText);
-    // printable() keeps the characters that begin within the first kBegins bytes. The last of them may extend three
-    // bytes beyond, and the ellipsis has three bytes.
+    // printable() keeps the characters that begin within the first kBegins bytes, and may append an ellipsis. The last
+    // character may extend three bytes beyond kBegins, and the ellipsis has three bytes.
     constexpr std::size_t kBegins = kMaxQuantityText - 3 - 3;
     return text::printable(text, kBegins);
 }

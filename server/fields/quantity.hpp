@@ -1,5 +1,5 @@
 #pragma once
-// What the numbers of a field mean: what its values measure, and the units of its coordinates.
+// The meaning of the numbers of a field: the quantity that its values measure, and the units of its coordinates.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace oval4d::fields {
 
-/// What the values of a function measure, such as {"temperature", "K"}. A text is empty if it is unknown.
+/// What the values of a function measure, such as {"temperature", "K"}. The name or the unit is empty if it is unknown.
 struct Quantity {
     std::string name, unit;
     bool operator==(const Quantity&) const = default;
@@ -23,15 +23,15 @@ void visitStoredMembers(serialization::ReadOrWritten<Quantity> auto& quantity, a
     visit.member(1, unit);
 }
 
-/// The units of x, y, z and w; a text is empty if it is unknown.
+/// The units of x, y, z and w; an unknown unit is an empty text.
 using AxisUnits = std::array<std::string, 4>;
 
 /// The maximum length in bytes of the names of quantities and of units.
 inline constexpr std::size_t kMaxQuantityText = 64;
 
-/// Returns `text` as the name of a quantity or as a unit: valid UTF-8 of at most kMaxQuantityText bytes. Control
-/// characters and bytes that are not UTF-8 become "?" (see text::printable()), and "…" replaces the end of a text that
-/// is too long. Returns an empty string for a text of blanks only.
+/// Returns `text` as a valid name of a quantity or a unit: UTF-8 of at most kMaxQuantityText bytes. Replaces control
+/// characters and bytes that are not UTF-8 by "?" (see text::printable()), and the end of a text that is too long by
+/// "…". Returns an empty string for a text of blanks only.
 std::string quantityText(std::string_view text);
 
 /// Returns whether quantityText() leaves `text` as it is.
@@ -41,8 +41,8 @@ bool isQuantityText(std::string_view text);
 /// m/s. Returns an empty string if a unit is unknown.
 std::string unitOfProduct(std::span<const std::string> units);
 
-/// Returns "temperature, K" for {"temperature", "K"}, the only known text if one of them is unknown, and an empty
-/// string if both are unknown.
+/// Returns a label such as "temperature, K" for {"temperature", "K"}. If only the name or the unit is known, returns
+/// this text; if neither is known, returns an empty string.
 std::string labelOf(const Quantity& quantity);
 
 }  // namespace oval4d::fields

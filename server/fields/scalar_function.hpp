@@ -1,6 +1,6 @@
 #pragma once
-// The interface of 4-D scalar functions f(x, y, z, w). Formulas and arrays implement it. Slicing evaluates fields only
-// through this interface, except that slicing::FieldLattice also reads the samples of arrays.
+// The interface of 4-D scalar functions f(x, y, z, w), which formulas and arrays implement. Slicing evaluates fields
+// only through this interface, except that slicing::FieldLattice also reads the samples of arrays.
 
 #include <cstddef>
 #include <limits>
@@ -26,7 +26,8 @@ void visitStoredMembers(serialization::ReadOrWritten<Box> auto& box, auto& visit
     visit.member(1, max, geometry::Range::finite());
 }
 
-/// Bounds of the values of a function in a region. If the function has no value at any point of the region, min > max.
+/// Bounds of the values of a function in a region. min > max means that the function has no value at any point of the
+/// region.
 struct ValueBounds {
     double min = std::numeric_limits<double>::infinity(), max = -std::numeric_limits<double>::infinity();
     bool hasValueEverywhere = true;  ///< false if the function may have no value (NaN) somewhere in the region
@@ -42,21 +43,22 @@ struct PointBatch {
     std::size_t size() const { return x.size(); }
 };
 
-/// Memory for gradients, as a structure of arrays: `x` holds the derivatives with respect to x, and so on. All arrays
-/// must have the same size.
+/// Memory for gradients as a structure of arrays. `x` holds the derivatives with respect to x; likewise `y`, `z` and
+/// `w`. All arrays must have the same size.
 struct GradientBatch {
     std::span<float> x, y, z, w;
 };
 
-/// Estimated times of evaluations in nanoseconds, on one core of a processor from 2020. The estimates depend only on
-/// the function, not on the machine on which the program runs.
+/// Estimated times of evaluations, in nanoseconds on one core of a processor from 2020. The estimates depend only on
+/// the function, not on the processor that runs the program.
 struct EvaluationCost {
-    double value = 1, gradient = 5;  ///< for each point
-    double bounds = 100;             ///< for each region
+    double value = 1, gradient = 5;  ///< for one point
+    double bounds = 100;             ///< for one region
 };
 
-/// A function from R⁴ to the real numbers. Immutable, so any number of threads may use it at once. Where the function
-/// has no value, evaluate() writes NaN. The value at a point does not depend on the other points of a batch.
+/// A function from R⁴ to the real numbers. Where the function has no value, evaluate() writes NaN. The value at a point
+/// does not depend on the other points of a batch. Immutable, so any number of threads may use a function at the same
+/// time.
 class ScalarFunction {
   public:
     /// Batches are fastest if their size is a multiple of this number, and at least 64.
@@ -67,20 +69,19 @@ class ScalarFunction {
     ScalarFunction& operator=(const ScalarFunction&) = delete;
     virtual ~ScalarFunction() = default;
 
-    /// Writes f at each point to `values`. Infinite values are allowed.
+    /// Writes the value of f at each point to `values`. Values may be infinite.
     virtual void evaluate(const PointBatch& points, std::span<float> values) const = 0;
 
-    /// Writes f and its gradient at each point. The gradient is (0, 0, 0, 0) where it does not exist.
+    /// Writes the value of f and its gradient at each point. Where the gradient does not exist, writes (0, 0, 0, 0).
     virtual void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                                       const GradientBatch& gradients) const = 0;
 
     /// Returns bounds that contain every value that evaluate() can return in `region`. The bounds need not be tight.
     virtual ValueBounds boundsIn(const Box& region) const = 0;
 
-    /// Returns the function that the caller should evaluate on lattices with these steps: this function, or a coarser
-    /// version of it that is faster to evaluate and lives as long as this object. `steps` are the vectors between
-    /// neighboring points of the lattices, in the function's coordinates. A coarser version may lack details that are
-    /// smaller than the steps.
+    /// Returns the function to evaluate on lattices with these steps: this function, or a coarser version of it. The
+    /// coarser version is faster, but may lack details that are smaller than the steps. It lives as long as this
+    /// object. `steps` are the vectors between neighboring points of the lattices, in the function's coordinates.
     virtual const ScalarFunction& versionForSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
 
     /// Releases memory that the next evaluations can restore quickly, such as pages of a mapped file that are also in

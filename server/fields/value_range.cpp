@@ -7,9 +7,8 @@
 
 namespace oval4d::fields {
 
-// Coordinate j (0 … 3) of point n is the fractional part of 1/2 + n / g^(j + 1). Here, g is kRoot, the real root of g⁵
-// = g + 1. The coordinates are computed as 32-bit integers in units of 2⁻³². When such an integer overflows, only the
-// fractional part of the coordinate remains.
+// Coordinate j (0 … 3) of point n is the fractional part of 1/2 + n / g^(j + 1), where g, kRoot, is the real root of g⁵
+// = g + 1. The coordinates are computed as 32-bit integers in units of 2⁻³². Their overflow removes the integer part.
 void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
     constexpr double kRoot = 1.1673039782614187;
     double fraction = 1;
@@ -24,8 +23,8 @@ void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out) {
 
 namespace {
 
-// Returns the full and the typical range. The typical range is the range of the middle 98 % of the values, extended at
-// both ends by `margin` times its length, but not beyond the full range.
+// Returns the full and the typical range of the values. The typical range contains the middle 98 % of the values, and
+// is extended at both ends by `margin` times its length, but not beyond the full range.
 FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
     std::vector<float> found;
     found.reserve(values.size());
@@ -50,14 +49,14 @@ FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(
 
 const ValueRange& TypicalRangeOnBox::typicalRange() const {
     std::call_once(measured_, [&] {
-        // The slower the function, the fewer batches are evaluated.
-        constexpr double kTime = 1e6;  // nanoseconds, for all points
+        // A slower function is evaluated in fewer batches.
+        constexpr double kTime = 1e6;  // nanoseconds for all evaluations together
         constexpr std::size_t kMaxBatches = 8, kCorners = 81;
         const double batches = kTime / (static_cast<double>(kQuasirandomPoints) * function_->cost().value);
         const auto count = static_cast<std::size_t>(std::clamp(batches, 1.0, double{kMaxBatches}));
         std::vector<float> values((count + 1) * kQuasirandomPoints);
-        // With the step 0, versionForSteps() returns the function itself. However, if the function is an array that is
-        // too large for memory, it returns a selection of the samples, which is in memory.
+        // The step 0 asks for the function itself. However, an array that is too large for memory returns a selection
+        // of its samples that is in memory.
         const ScalarFunction& function = function_->versionForSteps(std::array{glm::dvec4(0)});
         UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {
@@ -75,7 +74,7 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
             function.evaluate({points[0], points[1], points[2], points[3]},
                               std::span(values).subspan(batch * kQuasirandomPoints, kQuasirandomPoints));
         }
-        constexpr double kMargin = 0.5;  // large, because a color scale should include the extreme values if possible
+        constexpr double kMargin = 0.5;  // large, so that a color scale includes the extreme values if possible
         range_ = rangesWith(values, kMargin).typical;
     });
     return range_;

@@ -28,20 +28,21 @@ using UnitCubePoints = std::array<std::array<float, kQuasirandomPoints>, 4>;
 /// recurrence that fills the cube evenly (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
 void writeQuasirandomPoints(std::size_t first, UnitCubePoints& out);
 
-/// Two ranges of a set of values. `full` is from the least to the greatest value. `typical` leaves out outliers, such
-/// as values near a pole: it is the range of the middle 98 % of the values, extended by a tenth of its length at both
-/// ends, but not beyond `full`. For most functions, the two ranges are equal.
+/// Two ranges of a set of values. `full` extends from the least to the greatest value. `typical` ignores outliers, such
+/// as values near a pole: it contains the middle 98 % of the values, and is extended at both ends by a tenth of its
+/// length, but not beyond `full`. For most functions, the two ranges are equal.
 struct FullAndTypicalRange {
     ValueRange full, typical;
 };
 
-/// Returns the two ranges of those values that are finite. If no value is finite, both ranges are 0 … 1.
+/// Returns the full and the typical range of the finite numbers in `values`. If no number is finite, both ranges are 0
+/// … 1.
 FullAndTypicalRange rangesOf(std::span<const float> values);
 
-/// The range of a function on a box, without outliers: like FullAndTypicalRange::typical, but extended at both ends by
-/// half of its length instead of a tenth. The first call of typicalRange() computes the range from a few thousand
-/// points of the box, including the corners and the midpoints of edges, faces and cells. The range depends only on the
-/// function and the box. Thread-safe.
+/// The range of the values of a function on a box, without outliers. It is like FullAndTypicalRange::typical, but
+/// extended at both ends by half of its length instead of a tenth. The first call of typicalRange() computes the range
+/// from a few thousand points of the box, including the corners and the midpoints of edges, faces and cells. The range
+/// depends only on the function and the box. Thread-safe.
 class TypicalRangeOnBox {
   public:
     TypicalRangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)

@@ -22,10 +22,10 @@ SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
     return samples;
 }
 
-// Returns the indices along an axis of the first and the last sample on which interpolated values at coordinates from
-// `min` to `max` depend. Rounding to floats and LatticeAxis::continuousIndex() are monotonic. Therefore every float
-// from `min` to `max` has a position between those of the two rounded ends. If `min` or `max` is NaN, returns the first
-// and the last sample of the axis.
+// Returns the indices of the first and the last sample on one axis on which interpolated values at coordinates from
+// `min` to `max` depend. Rounding to floats and LatticeAxis::continuousIndex() are monotonic, so every float from `min`
+// to `max` has a position between those of the two rounded ends. If `min` or `max` is NaN, returns the first and the
+// last sample of the axis.
 std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, double min, double max) {
     const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
     const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));
@@ -62,8 +62,8 @@ ValueBounds ArrayFunction::boundsIn(const Box& region) const {
     }
     ValueBounds bounds = bricks_.boundsOf(range);
     if (!(bounds.min < bounds.max)) return bounds;
-    // Interpolation takes four steps, one along each axis. Each step has a rounding error of at most 4.3 · 2⁻²⁴ ·
-    // extent, and all four together of less than 2⁻¹⁹ · extent. The summand 2⁻¹⁴⁶ covers underflow. If the extent is
+    // Interpolation takes four steps, one along each axis. A step has a rounding error of at most 4.3 · 2⁻²⁴ · extent,
+    // and the four steps together of less than 2⁻¹⁹ · extent. The summand 2⁻¹⁴⁶ allows for underflow. If the extent is
     // greater than the largest float, an interpolated value may be NaN.
     const double extent = bounds.max - bounds.min, rounding = extent * 0x1p-19 + 0x1p-146;
     if (extent > double{std::numeric_limits<float>::max()}) bounds.hasValueEverywhere = false;
@@ -89,7 +89,7 @@ const ArrayFunction& ArrayFunction::selection() const {
 const ScalarFunction& ArrayFunction::versionForSteps(std::span<const glm::dvec4> steps) const {
     if (!isEager()) return selection().versionForSteps(steps);
     const bool areLong = std::ranges::all_of(steps, [this](const glm::dvec4& step) {
-        double squaredLength = 0;  // of the step, in cells
+        double squaredLength = 0;  // the squared length of the step, in cells
         for (std::size_t i = 0; i < 4; ++i) {
             const double along = step[static_cast<glm::length_t>(i)] * lattice_.axes[i].scale;
             squaredLength += along * along;
@@ -100,8 +100,7 @@ const ScalarFunction& ArrayFunction::versionForSteps(std::span<const glm::dvec4>
 }
 
 void ArrayFunction::releasePages() const {
-    // If the constructor has read the samples, their pages stay resident, because reading them again would take longer
-    // than the interpolation.
+    // Samples that the constructor has read stay resident: reading them again would take longer than the interpolation.
     if (!isEager() && samples_.file()) samples_.file()->releasePages();
 }
 
@@ -109,7 +108,8 @@ std::size_t ArrayFunction::memoryBytes() const {
     std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
     if (!isEager()) {
         const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
-        coarser = bytes + bytes / 10;  // the selection, and a tenth more for its bricks and downsampled versions
+        coarser = bytes + bytes / 10;  // the selection, and a tenth more for its BrickBounds and its downsampled
+                                       // versions
     }
     return samples_.memoryBytes() + bricks_.memoryBytes() + coarser;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// A 4-D array as a function.
+// A 4-D array of samples as a function.
 
 #include <cstddef>
 #include <memory>
@@ -14,67 +14,66 @@
 
 namespace oval4d::fields {
 
-/// The quadrilinear interpolant of samples on a regular 4-D lattice whose first and last samples lie at the min and max
-/// of a box.
+/// A function that interpolates samples quadrilinearly. The samples lie on a regular 4-D lattice, which extends from
+/// the min to the max of a box.
 ///
 /// - Outside the box, the function has the value of the nearest point of the box. Along an axis with one sample, the
 ///   function is constant.
 /// - Samples that are NaN or infinite are missing. The function has no value wherever a missing sample has a nonzero
-///   weight. If a corner of a cell is missing, the function has no value inside the cell, and none on the faces and
-///   edges that contain this corner. On the other faces of the cell, it has values.
+///   weight. So if a corner of a cell is missing, the function has no value inside the cell, and none on the faces and
+///   edges that contain this corner. It has values on the other faces of the cell.
 /// - At a point with a NaN coordinate, the function has no value.
 /// - Values are computed with 32-bit floats, and are the same on all processors, with and without AVX2. If all corners
-///   of a cell are equal, the value is exactly equal to them. Otherwise, its rounding error is at most 2⁻¹⁹ times the
-///   difference between the greatest and the least corner.
+///   of a cell have the same value, the function has exactly this value in the cell. Otherwise, its rounding error is
+///   at most 2⁻¹⁹ times the difference between the greatest and the least corner.
 class ArrayFunction final : public ScalarFunction {
   public:
-    /// The default of `eagerSamples` in the constructor.
+    /// The default of `eagerSamples`, a parameter of the constructor.
     static constexpr std::size_t kEagerSamples = std::size_t{1} << 27U;
-    /// Arrays of up to this many samples have no coarser version, because slicing them is fast anyway.
+    /// Arrays of up to this many samples have no coarser version, because slicing them is fast without one.
     static constexpr std::size_t kMaxSamplesWithoutCoarser = std::size_t{1} << 15U;
-    /// The maximum number of samples in the selection that versionForSteps() returns for an array that the constructor
-    /// does not read.
+    /// The maximum number of samples of a selection. versionForSteps() returns a selection for an array that the
+    /// constructor does not read.
     static constexpr std::size_t kSelectedSamples = std::size_t{1} << 20U;
 
     /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all samples if there are at
-    /// most `eagerSamples`; otherwise, samples are read when they are needed (see BrickBounds). Throws
+    /// most `eagerSamples`. Otherwise, each sample is read when it is needed (see BrickBounds). Throws
     /// std::invalid_argument if the constructor of Lattice does, or if there are not sampleCount(shape) samples.
     ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples = kEagerSamples);
 
-    /// See ScalarFunction. Does not allocate memory. Takes about 4 ns per point with AVX2 if the samples are in the
-    /// processor's cache.
+    /// See ScalarFunction::evaluate(). Does not allocate memory. Takes about 4 ns per point with AVX2 if the samples
+    /// are in the processor's cache.
     void evaluate(const PointBatch& points, std::span<float> values) const override;
 
-    /// See ScalarFunction. The gradient is that of the cell that contains the point; on a face between two cells, that
-    /// of the cell with the greater coordinates. Outside the box, it is the gradient at the nearest point of the box,
-    /// so it does not jump at the surface of the box. It is (0, 0, 0, 0) if a corner of the cell is missing. Its
-    /// component along an axis with one sample is 0.
+    /// See ScalarFunction::evaluateWithGradient(). The gradient is that of the cell that contains the point. On a face
+    /// between two cells, it is that of the cell with the greater coordinates. Outside the box, it is the gradient at
+    /// the nearest point of the box, so it does not jump at the surface of the box. It is (0, 0, 0, 0) if a corner of
+    /// the cell is missing. Its component along an axis with one sample is 0.
     void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                               const GradientBatch& gradients) const override;
 
-    /// See ScalarFunction. The bounds are those of all bricks that meet the region (see BrickBounds), widened by the
-    /// rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks may be missing.
-    /// It is also false if the difference of the bounds exceeds the largest float, because an interpolated value may
-    /// then be NaN. If the minimum or maximum of the region along an axis is NaN, the region is taken to extend along
-    /// the whole axis.
+    /// See ScalarFunction::boundsIn(). The bounds are those of all bricks that meet the region (see BrickBounds),
+    /// widened by the rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks
+    /// may be missing. It is also false if the difference of the bounds exceeds the largest float, because an
+    /// interpolated value may then be NaN. A region whose minimum or maximum along an axis is NaN extends along the
+    /// whole axis.
     ValueBounds boundsIn(const Box& region) const override;
 
-    /// Returns this array or one of its downsampled versions: the coarsest one in which each step is at least one cell
-    /// long. If a step is shorter than a cell of this array, returns this array. However, if the constructor has not
-    /// read this array, returns a selection of at most kSelectedSamples of its samples, or a downsampled version of the
+    /// Returns this array or a downsampled version: the coarsest version in which each step is at least one cell long.
+    /// If a step is shorter than a cell of this array, returns this array. However, if the constructor has not read
+    /// this array, returns a selection of at most kSelectedSamples of its samples, or a downsampled version of this
     /// selection.
     const ScalarFunction& versionForSteps(std::span<const glm::dvec4> steps) const override;
 
-    /// Releases the resident pages of the samples if they are in a mapped file and the constructor has not read them:
-    /// see MappedFile::releasePages().
+    /// Releases the resident pages of the samples (see MappedFile::releasePages()). Does nothing if the samples are not
+    /// in a mapped file, or if the constructor has read them.
     void releasePages() const override;
 
     EvaluationCost cost() const override { return {10, 25, 100}; }
 
-    /// Returns the sum of the memory, in bytes, of the BrickBounds, of the downsampled versions (at most about 1/15 of
-    /// the memory of the samples), and of the samples unless they are in a mapped file. For an array that the
-    /// constructor has not read, the sum contains the maximum that the BrickBounds and the selection of
-    /// versionForSteps() may take.
+    /// Returns the memory in bytes of the BrickBounds, of the downsampled versions (at most about 1/15 of the memory of
+    /// the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
+    /// read, includes the maximum that the BrickBounds and the selection of versionForSteps() may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }
@@ -83,16 +82,16 @@ class ArrayFunction final : public ScalarFunction {
     const SampleStorage& storage() const { return samples_; }
 
     /// Returns the least and the greatest sample and the number of missing samples. If statisticsAreExact() is false,
-    /// only a selection of about 260,000 samples is considered.
+    /// considers only a selection of about 260,000 samples.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     /// Returns whether statistics() considers all samples.
     bool statisticsAreExact() const { return isEager(); }
 
     /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. A sample of the
-    /// result is the mean of the interpolant over a box around the sample. This box is as long as a coarse cell along
-    /// each axis, but has no extent along an axis on which the sample is the first or the last one. Missing samples are
-    /// left out of a mean; if all samples of a mean are missing, the result is missing. Reads all samples once, in
-    /// order. Returns an equal array if no axis has more than one cell.
+    /// result is the mean of the interpolant over a box around the sample. Along each axis, this box is as long as a
+    /// coarse cell, or has no extent if the sample is the first or the last one on the axis. Missing samples are left
+    /// out of a mean; if all samples of a mean are missing, the result is missing. Reads all samples once, in order.
+    /// Returns an equal array if no axis has more than one cell.
     std::shared_ptr<const ArrayFunction> downsampled() const;
 
   private:
@@ -105,8 +104,9 @@ class ArrayFunction final : public ScalarFunction {
     const std::size_t eagerSamples_;
     const SampleStorage samples_;
     const BrickBounds bricks_;
-    const std::shared_ptr<const ArrayFunction> coarser_;  // downsampled(); null for small arrays and unless isEager()
-    // The result of selection(), which is made when it is first needed; always null if isEager().
+    const std::shared_ptr<const ArrayFunction> coarser_;  // the result of downsampled(); null for small arrays, and
+                                                          // unless isEager()
+    // The selection for versionForSteps(), which is made when it is first needed; always null if isEager().
     mutable std::once_flag selected_;
     mutable std::shared_ptr<const ArrayFunction> selection_;
 };

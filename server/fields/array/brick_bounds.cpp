@@ -13,13 +13,13 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::size_t kCells = BrickBounds::kCells;
-constexpr std::size_t kRun = 64;  // the maximum number of bricks along x that are read at once
+constexpr std::size_t kRun = 64;  // the maximum number of neighboring bricks along x that are read together
 constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 
 // Returns the entry of a brick: its minimum (high half) and maximum (low half) in 8 bytes, so that threads can write
-// the entry atomically. The lowest bit of the stored maximum is 1 if a sample is missing, else 0. If the lowest bit of
-// the actual maximum is different, the next greater float, which has the right lowest bit, is stored in its place. A
-// minimum of 0 is stored as −0, so that no entry is 0: the number 0 stands for an empty slot of the cache.
+// the entry atomically. The lowest bit of the stored maximum is 1 if a sample is missing, else 0. If the maximum has
+// another lowest bit, the next greater float with the right bit is stored. A minimum of 0 is stored as −0, so no entry
+// is 0: the number 0 stands for an empty slot of the cache.
 std::uint64_t pack(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
     float max = brick.max;
@@ -85,10 +85,11 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleIndexRange
     return statistics;
 }
 
-// Writes to `bricks` the statistics of bricks that are neighbors along x and together have the samples in `range`. If a
-// brick has missing samples, reads the brick a second time, to count these samples and leave them out of the bounds.
+// Writes to `bricks` the statistics of a run: bricks that are neighbors along x, which together have the samples in
+// `range`. If a brick has missing samples, reads the brick again, to count these samples and leave them out of the
+// bounds.
 void readRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
-    std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample is missing
+    std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample of the column is missing
     const std::size_t count = range.last[0] - range.first[0] + 1;
     std::fill_n(low.begin(), count, kInfinityF);
     std::fill_n(high.begin(), count, -kInfinityF);
@@ -118,8 +119,8 @@ void readRun(const SampledLattice& from, const SampleIndexRange& range, std::spa
     }
 }
 
-// Returns the number of missing samples of a brick. Does not count samples on faces that the brick shares with an
-// earlier brick, so that the sum over all bricks counts each sample once.
+// Returns the number of missing samples of a brick, without samples on faces that the brick shares with an earlier
+// brick. So the sum over all bricks counts each sample once.
 std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
     SampleIndexRange range = rangeOf(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
@@ -143,7 +144,7 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
         return;
     }
     slotCount_ = std::min(std::bit_ceil(count), kMaxLazyBytes / sizeof(CacheSlot));
-    // With calloc, unlike with new, the slots take memory only when they are written.
+    // Unlike new, calloc returns memory whose pages are allocated only when they are written.
     slots_.reset(
         static_cast<CacheSlot*>(std::calloc(slotCount_, sizeof(CacheSlot))));  // NOLINT(cppcoreguidelines-no-malloc)
     if (!slots_) throw std::bad_alloc();
@@ -176,8 +177,8 @@ void BrickBounds::readAll() {
 void BrickBounds::estimateStatistics() {
     constexpr std::size_t kRuns = 4096, kSamples = 64;
     // Each run is a sequence of samples that are neighbors in memory. Run i begins at the fraction (i · kGoldenRatio)
-    // mod 1 of the array. The beginnings are spread evenly, but not at equal distances. At equal distances, all runs
-    // might begin at the same phase of a periodic array.
+    // mod 1 of the array. So the beginnings are spread evenly, but not at equal distances, at which all runs might
+    // begin at the same phase of a periodic array.
     constexpr double kGoldenRatio = 0.6180339887498949;
     const std::size_t count = sampleCount(from_.lattice.shape), length = std::min(kSamples, count);
     for (std::size_t run = 0; run < kRuns; ++run) {
@@ -187,7 +188,7 @@ void BrickBounds::estimateStatistics() {
     }
 }
 
-// Adds a level to the pyramid. Each brick of the new level joins up to 2⁴ bricks of the coarsest level so far.
+// Adds a level to the pyramid. A brick of the new level joins up to 2⁴ bricks of the level below.
 void BrickBounds::joinBricks() {
     const PyramidLevel fine = levels_.back();
     PyramidLevel coarse;
@@ -214,13 +215,13 @@ std::uint64_t BrickBounds::entryAt(const PyramidLevel& level, const BrickIndex& 
     const std::size_t index =
         ((brick[3] * level.size[2] + brick[2]) * level.size[1] + brick[1]) * level.size[0] + brick[0];
     if (eager_) return level.entries[index];
-    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // 2⁶⁴/φ; as a factor, spreads neighbors over the slots
+    constexpr std::uint64_t kGoldenRatio = 0x9E3779B97F4A7C15U;  // 2⁶⁴/φ; multiplication by it spreads neighbors over
+                                                                 // the slots
     CacheSlot& slot = slots_[(index * kGoldenRatio >> 32U) & (slotCount_ - 1)];
     const std::atomic_ref<std::uint64_t> check(slot.check), entry(slot.entry);
     std::uint64_t known = entry.load(std::memory_order_relaxed);
     if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
-    // Several threads may compute an entry at the same time. No lock is needed, because all of them store the same
-    // entry.
+    // Several threads may compute this entry at the same time without a lock, because they store the same entry.
     known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));
     entry.store(known, std::memory_order_relaxed);
     check.store(known ^ index, std::memory_order_relaxed);

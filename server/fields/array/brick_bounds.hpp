@@ -1,5 +1,5 @@
 #pragma once
-// Bounds of an array's values in regions, from the minimum and maximum of each brick of 4 × 4 × 4 × 4 cells.
+// Bounds of an array's values in regions. They come from the minimum and maximum of each brick of 4 × 4 × 4 × 4 cells.
 
 #include <array>
 #include <cstddef>
@@ -15,14 +15,14 @@
 
 namespace oval4d::fields {
 
-/// The least and the greatest sample, and the number of missing samples (NaN or infinite).
+/// The least and the greatest sample, and the number of missing samples (samples that are NaN or infinite).
 struct SampleStatistics {
     float min = std::numeric_limits<float>::infinity();  ///< greater than `max` if no sample has a value
     float max = -std::numeric_limits<float>::infinity();
     std::size_t missing = 0;
 };
 
-/// A part of a lattice: the indices of its first and last samples along x, y, z, w, both inclusive.
+/// A part of a lattice, given by the indices of its first and last samples along x, y, z and w, both inclusive.
 struct SampleIndexRange {
     std::array<std::size_t, 4> first, last;
 };
@@ -33,46 +33,46 @@ struct SampleIndexRange {
 /// - The constructor reads small arrays once, and makes a pyramid of coarser bricks, each of which joins up to 2⁴
 ///   bricks of the level below. From this pyramid, a query of any size reads at most kMaxEntries entries (an entry is
 ///   the bounds of one brick).
-/// - Large arrays may be in files that are larger than the memory; each brick of a large array is read when a query
-///   first needs it. A cache of at most kMaxLazyBytes keeps the bounds of the bricks that were read; the bounds of a
-///   brick may replace those of another one. A query that needs more than kMaxLazyBricks bricks would have to read a
-///   large part of the file. Therefore its result is unbounded, and it reads nothing.
+/// - Large arrays may be in files that are larger than the memory. Each brick of a large array is read when a query
+///   first needs it. A cache of at most kMaxLazyBytes keeps the bounds of bricks that were read; new bounds may replace
+///   others. A query that needs more than kMaxLazyBricks bricks would have to read a large part of the file. Therefore
+///   such a query reads nothing, and its result is unbounded.
 class BrickBounds {
   public:
-    static constexpr std::size_t kCells = 4;         ///< cells of a brick along each axis
+    static constexpr std::size_t kCells = 4;         ///< the number of cells of a brick along each axis
     static constexpr std::size_t kMaxEntries = 256;  ///< the maximum number of entries that a query reads
     static constexpr std::size_t kMaxLazyBricks = 64;
     static constexpr std::size_t kMaxLazyBytes = std::size_t{32} << 20U;
 
-    /// The lattice and the samples must outlive this object. `eager`: whether the constructor reads all samples.
+    /// The lattice and the samples must outlive this object. `eager` is whether the constructor reads all samples.
     BrickBounds(const SampledLattice& from, bool eager);
     ~BrickBounds() = default;
     BrickBounds(const BrickBounds&) = delete;
     BrickBounds& operator=(const BrickBounds&) = delete;
 
-    /// Returns bounds of the samples in `range`, which must lie within the lattice. In the result, `hasValueEverywhere`
-    /// is false if a sample may be missing.
+    /// Returns bounds of the samples in `range`, which must lie within the lattice. ValueBounds::hasValueEverywhere is
+    /// false if one of these samples may be missing.
     ValueBounds boundsOf(const SampleIndexRange& range) const;
 
     /// Returns the statistics of all samples if the constructor has read them, else of a selection of samples.
     const SampleStatistics& statistics() const { return statistics_; }
 
-    /// Returns the memory used, in bytes. If the constructor has not read the samples, returns the maximum that the
-    /// cache may use.
+    /// Returns the memory used, in bytes. If the constructor has not read the samples, the result includes the maximum
+    /// size of the cache.
     std::size_t memoryBytes() const;
 
   private:
-    using BrickIndex = std::array<std::size_t, 4>;  // a brick's indices in its level, along x, y, z, w
+    using BrickIndex = std::array<std::size_t, 4>;  // the indices of a brick in its level, along x, y, z, w
 
-    // A level of the pyramid; `entries` are the packed bounds of the bricks of this level, empty unless eager_.
+    // A level of the pyramid. `entries` are the packed bounds of the bricks of this level; empty unless eager_.
     struct PyramidLevel {
         BrickIndex size;  // the number of bricks along each axis
         std::span<std::uint64_t> entries;
     };
 
     void readAll();
-    /// Sets statistics_ to the statistics of a selection of samples that are spread evenly over the array, because the
-    /// array is too large to be read in full.
+    /// Sets statistics_ to the statistics of a selection of samples, spread evenly over the array. Used for an array
+    /// that is too large to be read in full.
     void estimateStatistics();
     void joinBricks();
     std::uint64_t entryAt(const PyramidLevel& level, const BrickIndex& brick) const;
@@ -81,10 +81,10 @@ class BrickBounds {
     const bool eager_;
     SampleStatistics statistics_;
     std::vector<std::vector<std::uint64_t>> eagerEntries_;
-    // A cache of the bricks that were read, in the manner of R. Hyatt and T. Mann, "A lockless transposition table
-    // implementation for parallel search": `check` is the brick's index XOR its entry. If two threads have written the
-    // two members of a slot for different bricks, `check` XOR `entry` is practically never the index of a brick that is
-    // looked up, so the slot counts as empty.
+    // A slot of the cache of bricks that were read. It works without locks, after R. Hyatt and T. Mann, "A lockless
+    // transposition table implementation for parallel search": `check` is the brick's index XOR its entry. If two
+    // threads have written the two members for different bricks, `check` XOR `entry` is practically never the index of
+    // the brick that is looked up, and the slot counts as empty.
     struct CacheSlot {
         std::uint64_t check, entry;
     };
@@ -92,9 +92,9 @@ class BrickBounds {
         void operator()(CacheSlot* slots) const { std::free(slots); }  // NOLINT(cppcoreguidelines-no-malloc): of calloc
     };
     std::unique_ptr<CacheSlot[], FreeDeleter>
-        slots_;                         // zero-initialized: the entry 0 means an empty slot; null if eager
+        slots_;                         // zero-initialized, because the entry 0 means an empty slot; null if eager
     std::size_t slotCount_ = 0;         // a power of 2
-    std::vector<PyramidLevel> levels_;  // from fine to coarse; only the finest one unless eager_
+    std::vector<PyramidLevel> levels_;  // from fine to coarse; only the finest level unless eager_
 };
 
 }  // namespace oval4d::fields

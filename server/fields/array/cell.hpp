@@ -1,5 +1,5 @@
 #pragma once
-// Quadrilinear interpolation at one point, in portable code that gives the same bits as the code with AVX2.
+// Quadrilinear interpolation at one point. This portable code gives the same bits as the code with AVX2.
 
 #include <array>
 #include <cmath>
@@ -19,8 +19,8 @@ inline bool isFinite(float value) { return std::abs(value) <= std::numeric_limit
 inline constexpr std::size_t kCellRows = 8;
 
 /// For each row of a cell, the distance in memory from the cell's first sample to the row's first sample, in samples.
-/// Bits 0, 1 and 2 of the row's index are set if the row lies at the upper end of the cell along y, z and w,
-/// respectively.
+/// Bit 0 of a row's index is set if the row lies at the upper end of the cell along y; bit 1 and bit 2 likewise for z
+/// and w.
 using CellRowOffsets = std::array<std::size_t, kCellRows>;
 
 inline CellRowOffsets rowOffsets(const Lattice& lattice) {
@@ -33,11 +33,11 @@ inline CellRowOffsets rowOffsets(const Lattice& lattice) {
     return offsets;
 }
 
-/// Returns (1 − t) a + t b. If a and b are equal, the result is exactly equal to them.
+/// Returns (1 − t) a + t b. If a and b are equal, returns exactly their value.
 inline float mix(float a, float b, float t) { return a + t * (b - a); }
 
-/// The interpolated value at a point, and its derivatives along each axis with respect to CellPoint::t, not to the
-/// coordinates of the point.
+/// The interpolated value at a point, and its derivatives along each axis with respect to CellPoint::t, which are not
+/// those with respect to the coordinates of the point.
 struct ValueAndDerivatives {
     float value;
     std::array<float, 4> derivatives;
@@ -45,7 +45,8 @@ struct ValueAndDerivatives {
 
 /// A point in a cell: the 16 samples at the cell's corners, and the position in the cell, from 0 to 1 along each axis.
 struct CellPoint {
-    std::array<float, 2 * kCellRows> corners;  // the rows' samples at the lower x, then those at the upper x
+    std::array<float, 2 * kCellRows> corners;  // the sample at the lower x of each row, then that at the upper x of
+                                               // each row
     std::array<float, 4> t;
 
     CellPoint(const SampledLattice& from, const CellRowOffsets& offsets, const std::array<float, 4>& point) {
@@ -78,7 +79,8 @@ struct CellPoint {
     /// Returns the interpolated value and its derivatives. If a corner is NaN or infinite, none of these numbers is
     /// finite.
     ValueAndDerivatives valueAndDerivatives() const {
-        std::array<std::array<float, 4>, 2> ends{};  // at x = 0 and x = 1 of the cell: value, derivatives along y, z, w
+        std::array<std::array<float, 4>, 2> ends{};  // at the lower and the upper x of the cell: the value, and its
+                                                     // derivatives along y, z, w
         for (std::size_t x = 0; x < 2; ++x) {
             const float* const c = &corners[x * kCellRows];
             std::array<float, 4> v{}, dw{};  // at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) of the cell
@@ -96,7 +98,7 @@ struct CellPoint {
     }
 
   private:
-    // Interpolates along w, z, y, and then x. Each step calls `mixed`, which is mix() or a variant of it.
+    // Interpolates along w, z, y, and then x. Each step calls `mixed`, which has the parameters of mix().
     template <typename Mix>
     float interpolateCorners(const Mix& mixed) const {
         std::array<float, 2> ends{};

@@ -11,20 +11,20 @@ namespace oval4d::fields {
 
 namespace {
 
-// The weight with which a sample of the array contributes to the sample with the index `coarse` of the downsampled
-// array.
+// A contribution to a sample of the downsampled array: the index of this sample along an axis, `coarse`, and the
+// weight.
 struct CoarseSampleWeight {
     std::uint32_t coarse;
     float weight;
 };
 
-// Along one axis, the coarse samples to which each sample of the array contributes, with the weights: those of sample i
-// are items[begin[i]] … items[begin[i + 1] − 1].
+// The contributions along one axis. Sample i of the original array contributes to the samples of the downsampled array
+// in items[begin[i]] … items[begin[i + 1] − 1].
 struct ScatterWeights {
     std::vector<std::uint32_t> begin{0};  // size() + 1 indices into items
     std::vector<CoarseSampleWeight> items;
 
-    // The number of samples of the array along the axis.
+    // Returns the number of samples of the original array along the axis.
     std::size_t size() const { return begin.size() - 1; }
     std::span<const CoarseSampleWeight> operator[](std::size_t i) const {
         return std::span(items).subspan(begin[i], begin[i + 1] - begin[i]);
@@ -61,8 +61,8 @@ ScatterWeights weightsOf(std::size_t fine, std::size_t coarse) {
     return weights;
 }
 
-// For each sample in a row of the downsampled array: the weighted sum of samples of the original array, and the sum of
-// their weights.
+// For each sample in a row of the downsampled array, the weighted sum of samples of the original array and the sum of
+// the weights.
 struct RowSums {
     std::vector<float> values, weights;
 
@@ -83,7 +83,7 @@ void addWeighted(std::span<const float> row, float weight, float* to) {
     for (std::size_t i = 0; i < row.size(); ++i) to[i] += weight * row[i];
 }
 
-// Advises the system that the samples with the indices first + places[i] are needed soon. `places` must be increasing.
+// Advises the system that the samples first + places[i] are needed soon. `places` must be in ascending order.
 void prefetchRow(const SampleStorage& samples, std::size_t first, std::span<const std::size_t> places) {
     if (!samples.file()) return;
     constexpr std::size_t kPage = 4096 / sizeof(float);
@@ -138,7 +138,7 @@ Shape selectionShape(Shape shape, std::size_t maxSamples) {
 }
 
 std::vector<float> selectSamples(const Shape& shape, const SampleStorage& samples, const Shape& size) {
-    // For each axis, the distances in memory from the first sample to the selected ones, in samples.
+    // For each axis, the distances in memory from the first sample of the array to the selected samples, in samples.
     std::array<std::vector<std::size_t>, 4> places;
     std::size_t stride = 1;
     for (std::size_t axis = 0; axis < 4; stride *= shape[axis++]) {
@@ -151,8 +151,7 @@ std::vector<float> selectSamples(const Shape& shape, const SampleStorage& sample
     const std::span<const float> from = samples.values();
     for (const std::size_t w : places[3]) {
         for (const std::size_t z : places[2]) {
-            // All rows are announced to the system before the first row is read, so that the system reads them in
-            // parallel, in much less time.
+            // First announces all rows to the system, which then reads them in parallel, in much less time.
             for (const std::size_t y : places[1]) prefetchRow(samples, w + z + y, places[0]);
             for (const std::size_t y : places[1]) {
                 for (const std::size_t x : places[0]) selected.push_back(from[w + z + y + x]);

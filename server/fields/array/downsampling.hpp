@@ -1,5 +1,5 @@
 #pragma once
-// Makes coarser versions of arrays.
+// Downsampled versions and selections of the samples of arrays.
 
 #include <cstddef>
 #include <span>
@@ -10,21 +10,20 @@
 
 namespace oval4d::fields {
 
-/// Returns the shape of a downsampled array: half as many cells along each axis, rounded up.
+/// Returns the shape of a downsampled array, which has half as many cells along each axis, rounded up.
 Shape downsampledShape(const Shape& shape);
 
-/// Returns the samples of the downsampled array, as ArrayFunction::downsampled() specifies. `shape` is the shape of
-/// `samples`.
+/// Returns the samples of a downsampled array, which is described at ArrayFunction::downsampled(). `shape` is the shape
+/// of `samples`.
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples);
 
 /// Returns the shape of a selection of at most `maxSamples` samples of an array with the shape `shape`. Halves the
-/// number of samples along the axis that has the most samples, rounding up, and repeats this until there are few enough
-/// samples in all.
+/// number of samples along the axis with the most samples, rounding up, until there are few enough samples in all.
 Shape selectionShape(Shape shape, std::size_t maxSamples);
 
-/// Returns a selection of `samples`: for each point of a lattice with the shape `size` in the same box, the nearest
-/// sample. Along an axis with several points, the selection includes the first and the last sample; along an axis with
-/// one point, only the first. `shape` is the shape of `samples`. Reads only the selected samples.
+/// Returns a selection of `samples`. The selection has the nearest sample for each point of a lattice with the shape
+/// `size` in the same box. Along an axis with several points, this includes the first and the last sample; along an
+/// axis with one point, it is the first sample. `shape` is the shape of `samples`. Reads only the selected samples.
 std::vector<float> selectSamples(const Shape& shape, const SampleStorage& samples, const Shape& size);
 
 }  // namespace oval4d::fields

@@ -50,7 +50,7 @@ Batch subBatch(const Batch& batch, std::size_t begin, std::size_t count) {
             batch.w.subspan(begin, count)};
 }
 
-// A batch of fewer than kLanes points, filled up to kLanes points with points at the origin.
+// A batch of fewer than kLanes points, followed by points at the origin up to kLanes points.
 class PaddedBatch {
   public:
     explicit PaddedBatch(const PointBatch& points) {

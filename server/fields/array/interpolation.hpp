@@ -9,26 +9,26 @@
 
 namespace oval4d::fields {
 
-/// The instruction set that interpolation uses. The results of all instruction sets are the same, bit for bit.
+/// The instruction set that interpolation uses. All instruction sets give the same results, bit for bit.
 enum class InstructionSet : std::uint8_t {
     portable,  ///< runs on every processor
-    avx2,      ///< must not be used unless fastestInstructions() returns it
+    avx2,      ///< only for a processor for which fastestInstructions() returns avx2
 };
 
 /// Returns the fastest instruction set that this processor has.
 InstructionSet fastestInstructions();
 
-/// The samples to be interpolated, and the lattice at whose points they lie.
+/// The samples to interpolate, and the lattice on which they lie.
 struct SampledLattice {
     const Lattice& lattice;
     const float* samples;  ///< sampleCount(lattice.shape) numbers, in the order of Lattice
 };
 
-/// Writes the values of the quadrilinear interpolant at the points, as ArrayFunction::evaluate() specifies.
+/// Writes the values of the quadrilinear interpolant at the points, as described at ArrayFunction::evaluate().
 void interpolate(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                  InstructionSet instructions);
 
-/// Like interpolate(), but also writes the gradients, as ArrayFunction::evaluateWithGradient() specifies.
+/// Writes the values and the gradients of the interpolant, as described at ArrayFunction::evaluateWithGradient().
 void interpolateWithGradient(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                              const GradientBatch& gradients, InstructionSet instructions);
 

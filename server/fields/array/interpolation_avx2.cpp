@@ -17,34 +17,33 @@ namespace oval4d::fields::avx2 {
 
 namespace {
 
-// Only AVX2, without FMA: products are rounded before they are added, as in the portable code.
+// Compiles a function for AVX2 without FMA, because the portable code, too, rounds products before it adds them.
 #define OVAL4D_AVX2 [[gnu::target("avx2")]]
 
 constexpr std::size_t kLanes = ScalarFunction::kLanes;
 
-// While the values of a group of 8 points are computed, the samples for the group that comes kAhead groups later are
-// prefetched. Only the samples of every second point are prefetched, because neighboring points often share cache
-// lines.
+// While the values of a group of 8 points are computed, samples for the group kAhead groups later are prefetched. This
+// is done only for every second point, because neighboring points often share cache lines.
 constexpr std::size_t kAhead = 4;
 
-// The members of LatticeAxis, each copied to all lanes.
+// The members of a LatticeAxis, each copied to all lanes.
 struct AxisLanes {
     __m256 origin, scale, shift, last, lastCell;
     __m256d stride;
 };
 
-// The cells of eight points: for each point, the index of the cell's first sample, the position in the cell, and
+// The cells of eight points. For each point: the index of the cell's first sample, the position in the cell, and
 // whether a coordinate of the point is NaN.
 struct CellLanes {
     std::array<std::int64_t, kLanes> first;
     __m256 t[4], nan;
 };
 
-// One row of samples from each of four cells, or numbers interpolated from such rows. Each pair of numbers belongs to
-// one cell: the number at the lower x, then the one at the upper x.
+// One row of samples from each of four cells, or numbers interpolated from such rows. Each cell has a pair of
+// neighboring numbers: the number at the lower x, then that at the upper x.
 using PairLanes = __m256;
 
-// The results of the interpolation along w, z and y in four cells: the values and the derivatives along y, z and w.
+// The results of the interpolation along w, z and y in four cells: the values, and the derivatives along y, z and w.
 struct InterpolatedAlongWzy {
     PairLanes value, dy, dz, dw;
 };
@@ -53,15 +52,14 @@ OVAL4D_AVX2 inline __m256 mix(__m256 a, __m256 b, __m256 t) {
     return _mm256_add_ps(a, _mm256_mul_ps(t, _mm256_sub_ps(b, a)));
 }
 
-// Converts whole numbers from 0 to 2^51 to integers: after 2^52 is added, the low bits of the floating-point sum are
-// the integer.
+// Converts whole numbers from 0 to 2^51 to integers: adds 2^52, which moves the integer to the low bits of the sum.
 OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
     const __m256d rounder = _mm256_set1_pd(0x1p52);
     const __m256d integers = _mm256_xor_pd(_mm256_add_pd(numbers, rounder), rounder);
     std::memcpy(to, &integers, sizeof integers);
 }
 
-// Sets `cells` to the cells that contain the kLanes points from index `begin` on.
+// Sets `cells` to the cells that contain the kLanes points from the index `begin` on.
 OVAL4D_AVX2 inline void locate(const AxisLanes* axes, const PointBatch& points, std::size_t begin, CellLanes& cells) {
     const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
                           _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
@@ -94,14 +92,15 @@ inline double pairAt(const float* at) {
     return pair;
 }
 
-// Loads one row from each of four cells. On some processors, gather instructions are slower than these loads.
+// Loads one row from each of four cells. These loads are used because on some processors, gather instructions are
+// slower.
 OVAL4D_AVX2 inline PairLanes rowAt(const float* samples, const std::int64_t* first) {
     return _mm256_castpd_ps(_mm256_set_pd(pairAt(samples + first[3]), pairAt(samples + first[2]),
                                           pairAt(samples + first[1]), pairAt(samples + first[0])));
 }
 
-// Interpolates along w, z and y in four cells. `first` are the indices of the cells' first samples; y, z and w are the
-// positions in the cells, each position twice, once for each number of a pair.
+// Interpolates along w, z and y in four cells. `first` holds the indices of the cells' first samples. y, z and w are
+// the positions in the cells; each position occurs twice, once for each number of a pair.
 template <bool kGradient>
 OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const CellRowOffsets& offsets,
                                             const std::int64_t* first, const __m256& y, const __m256& z,
@@ -121,7 +120,7 @@ OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const CellRowO
     }
 }
 
-// Numbers at the lower and at the upper x of eight cells.
+// The numbers at the lower x and at the upper x of eight cells.
 struct ValuesAtXEnds {
     __m256 low, high;
 };
@@ -168,7 +167,7 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
     const CellRowOffsets offsets = rowOffsets(from.lattice);
     const __m256i firstFour = _mm256_setr_epi32(0, 0, 1, 1, 2, 2, 3, 3);
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
-    CellLanes upcoming[kAhead];  // the cells of the next kAhead groups; those of group g are at g % kAhead
+    CellLanes upcoming[kAhead];  // the cells of the next kAhead groups; group g has the index g % kAhead
     for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
         locate(axes, points, i, upcoming[i / kLanes]);
     for (std::size_t i = 0; i < points.size(); i += kLanes) {
@@ -205,8 +204,8 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
             _mm256_storeu_ps(&gradients.w[i], _mm256_and_ps(w, exists));
         }
         if (_mm256_movemask_ps(valid) == 0xff) continue;
-        // At a point on a face of its cell, the value may exist although the result so far is not finite, because a
-        // corner that is not finite may have the weight 0.
+        // On a face of a cell, a corner that is not finite may have the weight 0. At such points, compute again by the
+        // code that handles this case, if the result so far is not finite.
         const int unknown = _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), onFaces(cells)));
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if ((unknown >> lane & 1) == 0) continue;

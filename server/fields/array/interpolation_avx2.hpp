@@ -7,10 +7,10 @@
 
 namespace oval4d::fields::avx2 {
 
-/// Returns whether this processor has AVX2. If it returns false, interpolate() must not be called.
+/// Returns whether this processor has AVX2. If the result is false, interpolate() must not be called.
 bool isSupported();
 
-/// Writes the values at the points and, unless `gradients` is null, the gradients. The number of points must be a
+/// Writes the values at the points, and the gradients unless `gradients` is null. The number of points must be a
 /// multiple of 8, and the lattice must have at least two samples along x.
 void interpolate(const SampledLattice& from, const PointBatch& points, std::span<float> values,
                  const GradientBatch* gradients);

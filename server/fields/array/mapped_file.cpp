@@ -16,20 +16,20 @@ namespace oval4d::fields {
 
 namespace {
 
-/// An entry in the list of mapped files, in which the signal handler looks for the address of a fault. The entry is
-/// free if `begin` is 0. The handler reads only atomic members, because a signal handler may not wait for a mutex.
+/// An entry in the list of mapped files, in which the handler of SIGBUS looks for the address of a fault. A free entry
+/// has a `begin` of 0. The handler reads only atomic members, because a signal handler may not wait for a mutex.
 struct MappedRange {
     std::atomic<std::uintptr_t> begin = 0;
     std::atomic<std::size_t> size = 0;
     std::atomic<int> protection = 0;
     std::atomic<bool> lost = false;
-    timespec modified{};  // the file's time of modification when it was mapped; not read by the handler
+    timespec modified{};  // the file's time of modification when it was mapped; the handler does not read it
 };
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 constexpr std::size_t kMaxFiles = 4096;
-std::array<MappedRange, kMaxFiles> mappedRanges;  // global, because signal handlers have no arguments of their own
-std::mutex mappedRangesMutex;                     // locked while an entry is taken or freed
+std::array<MappedRange, kMaxFiles> mappedRanges;  // global, because a signal handler has no arguments of its own
+std::mutex mappedRangesMutex;                     // locked while a thread takes or frees an entry
 
 void onBusError(int number, siginfo_t* info, void* /*context*/) {
     const int fault = errno;
@@ -37,9 +37,9 @@ void onBusError(int number, siginfo_t* info, void* /*context*/) {
     for (MappedRange& range : mappedRanges) {
         const std::uintptr_t begin = range.begin.load();
         if (begin == 0 || address < begin || address - begin >= range.size.load()) continue;
-        // One mapping replaces the whole file, because a process may have only a limited number of mappings. The system
-        // call itself is safe in a handler. The function mmap() is not used, because ThreadSanitizer replaces it, and
-        // reports it as a write that races with the threads that read the file.
+        // One mapping of zeros replaces the whole file, because a process may have only a limited number of mappings. A
+        // system call is safe in a signal handler. mmap() is not called, because ThreadSanitizer replaces it, and
+        // reports a data race with the threads that read the file.
         const long zeros = syscall(SYS_mmap, begin, range.size.load(), range.protection.load(),
                                    MAP_FIXED | MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
         if (zeros == -1) break;
@@ -47,7 +47,7 @@ void onBusError(int number, siginfo_t* info, void* /*context*/) {
         errno = fault;
         return;
     }
-    std::signal(number, SIG_DFL);  // the instruction that failed is repeated, and ends the process
+    std::signal(number, SIG_DFL);  // the failed instruction is repeated, and ends the process
 }
 
 void handleBusErrors() {
@@ -127,17 +127,17 @@ MappedFile::~MappedFile() {
 bool MappedFile::isLost() const {
     const MappedRange& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
-    // Any modification since the file was mapped counts as a loss, even if the file has its full size now. It may have
-    // been shortened and then restored; in between, another process of the server that has mapped the file may have
-    // read zeros.
+    // Any modification of the file since it was mapped counts as a loss, even if the file has its full size now.
+    // Someone may have shortened and then restored it. In between, another process of the server that has mapped the
+    // file may have read zeros.
     struct stat status{};
     return fstat(file_->descriptor(), &status) != 0 || static_cast<std::size_t>(status.st_size) < size_ ||
            status.st_mtim.tv_sec != range.modified.tv_sec || status.st_mtim.tv_nsec != range.modified.tv_nsec;
 }
 
 void MappedFile::releasePages() const {
-    // The mapping is shared, so this call only takes the pages out of the page table; changed pages are still written
-    // to the file.
+    // The mapping is shared, so this call only removes the pages from the page table. The system still writes changed
+    // pages to the file.
     if (!isLost()) madvise(at_, size_, MADV_DONTNEED);
 }
 

@@ -9,8 +9,8 @@
 
 namespace oval4d::fields {
 
-/// Memory that results of SampleStorage::followedBy() share: each result begins with the samples of the result that it
-/// extends. A result reads only its own samples, so another thread may append further samples at the same time.
+/// Memory that results of SampleStorage::followedBy() share. Each result begins with the samples of the result that it
+/// extends. A result reads only its own samples, so another thread may append samples at the same time.
 struct SampleStorage::SharedGrowthBuffer {
     std::mutex mutex;
     std::vector<float> values;  // guarded by mutex; never reallocated, because results refer to it
@@ -63,7 +63,7 @@ void SampleStorage::advise(std::size_t first, std::size_t count, int advice) con
     static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(values_.data() + first) / page * page;
     const auto end = reinterpret_cast<std::uintptr_t>(values_.data() + first + count);
-    // A failure is ignored, because the advice affects only the speed.
+    // The result is ignored, because the advice affects only the speed.
     static_cast<void>(madvise(reinterpret_cast<void*>(begin), end - begin, advice));
 }
 

@@ -19,27 +19,27 @@ class SampleStorage {
     explicit SampleStorage(std::vector<float> values);
     /// Shares samples in memory that `owner` keeps valid.
     SampleStorage(std::shared_ptr<const void> owner, std::span<const float> values);
-    /// Uses `count` samples in a mapped file, from the byte `offset` on. Throws std::invalid_argument if they are not
-    /// all in the file, or if `offset` is not a multiple of the size of a sample.
+    /// Uses `count` samples in a mapped file, from the byte `offset` on. Throws std::invalid_argument if some of these
+    /// samples are not in the file, or if `offset` is not a multiple of the size of a sample.
     SampleStorage(MappedFilePtr file, std::size_t offset, std::size_t count);
 
     std::span<const float> values() const { return values_; }
-    /// Returns the memory that the samples use, in bytes; 0 if they are in a mapped file, whose pages the system can
-    /// drop.
+    /// Returns the memory that the samples use, in bytes. Returns 0 if the samples are in a mapped file, whose pages
+    /// the system can drop.
     std::size_t memoryBytes() const { return file_ ? 0 : values_.size_bytes(); }
-    /// Returns the mapped file that contains the samples; null if they are in memory.
+    /// Returns the mapped file that contains the samples; null if the samples are in memory.
     const MappedFilePtr& file() const { return file_; }
     /// Returns the position of the first sample in the file, in bytes. The samples must be in a mapped file.
     std::size_t byteOffsetInFile() const;
 
-    /// Returns these samples, followed by `others`. Normally, copies these and the others into new memory, which has
-    /// room for 1.5 times as many samples. However, if an earlier call has returned these samples, if their memory has
-    /// room for `others`, and if nothing has been appended to them yet, copies only `others` into this memory. The
-    /// result then shares the memory of these samples. Thread-safe.
+    /// Returns these samples, followed by `others`. Normally, copies all samples into new memory, which has room for
+    /// 1.5 times as many samples. However, copies only `others` if an earlier call has returned these samples, if
+    /// nothing has been appended to them yet, and if their memory has room for `others`. The result then shares this
+    /// memory. Thread-safe.
     SampleStorage followedBy(std::span<const float> others) const;
 
-    /// The order in which samples of a mapped file are going to be read: `random`, so that the system reads only the
-    /// pages that are needed; or `sequential`, so that it reads ahead.
+    /// The order in which samples of a mapped file are going to be read. `random` makes the system read only the pages
+    /// that are needed; `sequential` makes it read ahead.
     enum class AccessOrder : std::uint8_t { random, sequential };
     /// Advises the system of the order in which the samples are going to be read. Does nothing for samples in memory.
     void expectAccess(AccessOrder access) const;
@@ -54,7 +54,8 @@ class SampleStorage {
     std::shared_ptr<const void> owner_;
     std::span<const float> values_;
     MappedFilePtr file_;
-    std::shared_ptr<SharedGrowthBuffer> growthBuffer_;  // contains the samples if followedBy() made them; else null
+    std::shared_ptr<SharedGrowthBuffer> growthBuffer_;  // the memory of the samples if followedBy() made this object;
+                                                        // else null
 };
 
 }  // namespace oval4d::fields
