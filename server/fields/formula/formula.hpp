@@ -17,34 +17,34 @@ namespace oval4d::fields {
 /// A formula with the values of its named constants. Copies are cheap.
 class Formula {
   public:
-    /// The named constants: first those of a shared formula (see parseFormula()), then those that the text defines, in
-    /// the order of the text.
+    /// The named constants. Those of a shared formula (see parseFormula()) come first, then those that the text
+    /// defines, in the order of the text.
     const std::vector<FormulaConstant>& constants() const { return parsed_->constants; }
 
-    /// Returns this formula with other values for the constants that `values` names. Errors: `bad_expression` if the
-    /// formula has no constant of this name; `out_of_range` if a value is not finite, or if the result exceeds a limit
-    /// (see FormulaLimits).
+    /// Returns this formula with other values of the constants that `values` names. Errors: `bad_expression` if the
+    /// formula has no constant with such a name; `out_of_range` if a value is not finite, or if the result exceeds a
+    /// limit (see FormulaLimits).
     Result<Formula> with(std::span<const FormulaConstant> values) const;
 
-    /// Returns the formula as normalized text, with the values of its constants. parseFormula() reads it as the same
-    /// function. Formulas that differ only in spaces, superfluous parentheses or the spelling of symbols have the same
-    /// text.
+    /// Returns the formula as normalized text, with the values of its constants. From this text, parseFormula() makes
+    /// the same function. Formulas that differ only in spaces, superfluous parentheses or the spelling of symbols have
+    /// the same text.
     const std::string& text() const { return text_; }
 
-    /// Returns the parsed formula. parseSyntax() needs it as `shared` if another formula uses the names of this
-    /// formula.
+    /// Returns the parsed formula. Another formula that uses the names of this formula passes it to parseSyntax() as
+    /// `shared`.
     const ParsedFormula& parsed() const { return *parsed_; }
 
     const Tape& tape() const { return *tape_; }
 
-    /// Returns the memory used, in bytes, including what copies share.
+    /// Returns the memory used, in bytes, including the memory that copies share.
     std::size_t memoryBytes() const;
 
   private:
     friend Result<Formula> parseFormula(std::string_view, FormulaMistake*, const FormulaLimits&, const Formula*);
 
     Formula(ParsedFormula parsed, const FormulaLimits& limits);
-    // Returns a message if the formula exceeds a limit, else an empty string.
+    // Returns a message if the formula exceeds a limit of FormulaLimits, else an empty string.
     std::string exceededLimitMessage() const;
 
     std::shared_ptr<const ParsedFormula> parsed_;
@@ -53,9 +53,9 @@ class Formula {
     std::shared_ptr<const Tape> tape_;
 };
 
-/// Parses a formula (see parseSyntax() for the syntax). Error: `bad_expression`, with the position of the mistake in
-/// characters; also writes the mistake to `mistake` unless this is null. If `shared` is not null, the formula may use
-/// the names that `shared` defines; the text() of the result does not repeat their definitions.
+/// Parses a formula (see parseSyntax() for the syntax). If `shared` is not null, the formula may use the names that
+/// `shared` defines; the text() of the result does not repeat their definitions. Error: `bad_expression`, with the
+/// position of the mistake in characters. Also writes the mistake to `mistake` unless this pointer is null.
 Result<Formula> parseFormula(std::string_view text, FormulaMistake* mistake = nullptr, const FormulaLimits& limits = {},
                              const Formula* shared = nullptr);
 

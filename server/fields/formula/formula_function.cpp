@@ -13,13 +13,13 @@ namespace {
 
 static_assert(ScalarFunction::kLanes == kKernelLanes);
 
-// One float for each of the kKernelLanes points that are computed at once, aligned for an AVX2 register.
+// One float for each of kKernelLanes points, which are computed at once. Aligned for an AVX2 register.
 struct alignas(32) Lanes {
     std::array<float, kKernelLanes> values;
 };
 
-// Returns memory for at least `size` floats; may return null if `size` is 0. Each thread has its own memory, which
-// stays allocated, and which the next call on this thread reuses.
+// Returns memory for at least `size` floats. May return null if `size` is 0. Each thread has its own memory, which the
+// next call on the thread reuses.
 float* scratch(std::size_t size) {
     thread_local std::vector<Lanes> memory;
     const std::size_t lanes = (size + kKernelLanes - 1) / kKernelLanes;
@@ -28,8 +28,8 @@ float* scratch(std::size_t size) {
 }
 
 using PaddedPoints = std::array<Lanes, 4>;  // the coordinates x, y, z and w of kKernelLanes points
-// Returns kKernelLanes points: first the points from index `begin` to the end of the batch, then copies of the last
-// point. There must be fewer than kKernelLanes points from `begin` on.
+// Returns kKernelLanes points: the points from the index `begin` to the end of the batch, then copies of the last
+// point. The batch must have fewer than kKernelLanes points from `begin` on.
 PaddedPoints padded(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
     const std::array<std::span<const float>, 4> coordinates{points.x, points.y, points.z, points.w};
@@ -100,7 +100,7 @@ void FormulaFunction::evaluateWithGradient(const PointBatch& points, std::span<f
 
 namespace {
 
-// Returns the estimated time of an operation for one point, in nanoseconds.
+// Returns the estimated time of an operation at one point, in nanoseconds.
 double nanosecondsOf(Operation operation) {
     switch (operation) {
         case Operation::power:
@@ -144,7 +144,7 @@ ValueBounds FormulaFunction::boundsIn(const Box& region) const {
         const ValueBounds& b = next.form == OperandForm::register_and_number ? number : intervals[next.b];
         const int exponent = next.operation == Operation::integer_power ? static_cast<int>(next.number) : 0;
         const ValueBounds result = intervalOf(next.operation, a, b, exponent);
-        // Copying the members one by one, not by a vector instruction, is faster: see fields/CMakeLists.txt.
+        // It is faster to copy the members one by one than by a vector instruction: see fields/CMakeLists.txt.
         intervals[next.result].min = result.min;
         intervals[next.result].max = result.max;
         intervals[next.result].hasValueEverywhere = result.hasValueEverywhere;

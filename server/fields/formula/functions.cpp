@@ -18,7 +18,7 @@ Ref unary(Graph& graph, Arguments a) {
     return graph.unary(operation, a[0]);
 }
 
-// Applies the binary operation to any number of arguments, from left to right.
+// Applies a binary operation to any number of arguments, from left to right.
 template <Operation operation>
 Ref combined(Graph& graph, Arguments a) {
     Ref result = a[0];
@@ -38,9 +38,9 @@ Ref clamp(Graph& graph, Arguments a) {
 
 Ref mix(Graph& graph, Arguments a) { return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2])); }
 
-// Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0); min(a, b) if k ≤ 0. The
-// correction k h² / 4 is computed as (k h)² / max(4 k, kLeastDivisor): for k ≤ 0, the overlap k h is 0, and the
-// positive divisor makes the correction 0, not 0/0.
+// Adds Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0), or min(a, b) if k ≤ 0.
+// The correction k h² / 4 is computed as (k h)² / max(4 k, kLeastDivisor). For k ≤ 0, k h is 0, and the positive
+// divisor makes the correction 0 instead of 0/0.
 Ref smoothMin(Graph& graph, Arguments a) {
     const Ref distance = graph.unary(Operation::abs, graph.subtract(a[0], a[1]));
     const Ref overlap = graph.binary(Operation::max, graph.subtract(a[2], distance), graph.constant(0));

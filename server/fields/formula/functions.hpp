@@ -10,17 +10,17 @@
 
 namespace oval4d::fields {
 
-/// A function that formulas may call: a row of the table that functions() returns.
+/// A function that formulas may call, such as sqrt: a row of the table that functions() returns.
 struct BuiltinFunction {
     std::string_view name;
     std::string_view arguments;  ///< the arguments as shown in help, such as "a, b"
     std::string_view meaning;    ///< the explanation shown in help
     std::size_t minArguments, maxArguments;
-    /// Adds the operations of a call to the graph. Returns the node of the result.
+    /// Adds the operations of a call of the function to the graph. Returns the node of the result.
     Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);
 };
 
-/// Returns all functions.
+/// Returns all functions that formulas may call.
 std::span<const BuiltinFunction> functions();
 
 /// Returns the index in functions() of the function with this name; an empty optional if there is none.

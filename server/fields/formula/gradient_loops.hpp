@@ -1,5 +1,5 @@
 #pragma once
-// The loops that compute values and gradients. They are templates for the reasons given in value_loops.hpp.
+// The loops that compute values and gradients. They are templates, for the reasons in the comments of value_loops.hpp.
 
 #include <cstddef>
 
@@ -7,8 +7,9 @@
 
 namespace oval4d::fields {
 
-/// Forward-mode automatic differentiation: a register consists of five arrays, the value and its derivatives with
-/// respect to x, y, z, w. The array of a derivative that is 0 everywhere, according to Instruction::axes, is not used.
+/// The loops of forward-mode automatic differentiation. A register consists of five arrays: the value, and its
+/// derivatives with respect to x, y, z, w. If Instruction::axes says that a derivative is 0 everywhere, its array is
+/// not used.
 template <typename Math>
 class GradientLoops : private ValueLoops<Math> {
     using Base = ValueLoops<Math>;
@@ -66,8 +67,8 @@ class GradientLoops : private ValueLoops<Math> {
                                       : outputRegister(block, index) + (1 + axis) * kGradientBlockPoints;
     }
     // Returns the derivatives of the register `index` along `axis`, which must not be 0 everywhere. For the register of
-    // a coordinate, `axis` must be the axis of this coordinate; the derivatives are then 1, and the result is `ones`,
-    // an array of ones.
+    // a coordinate, `axis` must be the axis of this coordinate. Its derivative is 1, so the result is then `ones`, an
+    // array of ones.
     static const float* inputDerivative(const GradientBlock& block, const float* ones, unsigned index, unsigned axis) {
         return index < Tape::kResult ? ones : outputDerivative(block, index, axis);
     }
@@ -80,9 +81,9 @@ class GradientLoops : private ValueLoops<Math> {
         float value, byA, byB;
     };
 
-    // The chain rule: writes the derivative of the result to `out`. `ofA` and `ofB` are the derivatives of the
-    // operands. `byA` and `byB` say whether `ofA` and `ofB` may differ from 0; a derivative that is always 0 is not
-    // read. min and max take the derivative of one operand, even if the other derivative is not finite.
+    // Writes the derivative of the result to `out`, by the chain rule. `ofA` and `ofB` are the derivatives of the
+    // operands. `byA` and `byB` say whether these may differ from 0; a derivative that is always 0 is not read. min and
+    // max take the derivative of one operand, even if the derivative of the other operand is not finite.
     static void applyChainRule(const Instruction& instruction, const BlockValuesAndPartials& partials, bool byA,
                                bool byB, float* out, const float* ofA, const float* ofB, std::size_t size) {
         const NumberOperand zero{0};
@@ -104,8 +105,8 @@ class GradientLoops : private ValueLoops<Math> {
         for (std::size_t i = 0; i < size; ++i) out[i] = partials.byA[i] * ofA[i] + partials.byB[i] * ofB[i];
     }
 
-    // Sets to 0 the derivatives that the last instruction has not written. Then sets each gradient to 0 if one of its
-    // components, or the value at its point, is not finite.
+    // Sets to 0 the derivatives that the last instruction has not written. Then sets a gradient to 0 if one of its
+    // components, or the value at the same point, is not finite.
     static void zeroInvalidGradients(const Instruction& last, const GradientBlock& block) {
         for (unsigned axis = 0; axis < 4; ++axis) {
             if ((last.axes >> axis & 1U) == 0)
@@ -115,7 +116,7 @@ class GradientLoops : private ValueLoops<Math> {
         const float* values = block.values;
 #pragma omp simd
         for (std::size_t i = 0; i < block.size; ++i) {
-            // 0 · a is 0 if a is finite, otherwise NaN.
+            // 0 · a is 0 if a is finite, otherwise NaN. So `zero` is 0 only if all five numbers are finite.
             const float zero = (0 * values[i] + 0 * x[i]) + (0 * y[i] + 0 * z[i]) + 0 * w[i];
             const bool isFinite = zero == zero;
             x[i] = isFinite ? x[i] : 0;
@@ -148,7 +149,7 @@ class GradientLoops : private ValueLoops<Math> {
                 return fill(f, out, number, ArrayOperand{b}, size);
         }
     }
-    // Sets out.byA to f(operand, out.value) for an operation with one operand.
+    // Sets out.byA to f(operand, out.value), the partial derivative of an operation with one operand.
     template <typename F>
     static void setPartialByA(F f, BlockValuesAndPartials& out, const float* a, std::size_t size) {
 #pragma omp simd
@@ -207,7 +208,7 @@ class GradientLoops : private ValueLoops<Math> {
         powerOrAtan2(instruction, out.value, a, b, size);
     }
 
-    // ∂(a^b)/∂a = b a^(b − 1), ∂(a^b)/∂b = a^b log a. For a = 0 and b > 0, ∂(a^b)/∂b is 0.
+    // Sets the partial derivatives of a^b: ∂/∂a = b a^(b − 1), and ∂/∂b = a^b log a, or 0 for a = 0 and b > 0.
     static void powerPartials(const Instruction& instruction, BlockValuesAndPartials& out, const float* a,
                               const float* b, std::size_t size) {
         if (instruction.axesOfB != 0) {

@@ -8,8 +8,8 @@ namespace oval4d::fields {
 
 namespace {
 
-// The greatest absolute value of an exponent of integer_power. Beyond it, pow computes the power, which is more
-// accurate than many multiplications.
+// The greatest absolute value of an exponent of integer_power. For greater exponents, pow is more accurate than the
+// many multiplications of integer_power.
 constexpr double kMaxIntegerExponent = 64;
 
 bool isPowerOfTwo(double value) {
@@ -59,8 +59,8 @@ Graph::Ref Graph::binary(Operation operation, Ref a, Ref b) {
     return node(operation, a, b, 0);
 }
 
-// The exponent is rounded to a float first, so that the kernels (in floats) and interval arithmetic (in doubles) agree
-// on whether it is an integer.
+// Returns the node of a power. First rounds the exponent to a float, so that the kernels (in floats) and interval
+// arithmetic (in doubles) agree on whether it is an integer.
 Graph::Ref Graph::power(Ref a, double exponent) {
     exponent = static_cast<float>(exponent);
     const bool isInteger = std::floor(exponent) == exponent && std::abs(exponent) <= kMaxIntegerExponent;
@@ -74,7 +74,7 @@ Graph::Ref Graph::power(Ref a, double exponent) {
     return node(Operation::power, a, constant(exponent), 0);
 }
 
-// Returns the node of a simpler expression with the same values, or an empty optional if the operation cannot be
+// Returns the node of a simpler expression with the same values. Returns an empty optional if the operation cannot be
 // simplified. If the operation is commutative, `a` must not be a constant.
 std::optional<Graph::Ref> Graph::simplified(Operation operation, Ref a, Ref b) {
     const auto left = constantAt(a), right = constantAt(b);

@@ -16,7 +16,7 @@ using std::numbers::pi;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kMaxFloat = std::numeric_limits<float>::max();
 
-// Bounds of the error of an operation: relative to its result, and absolute for subnormal results.
+// Bounds of the rounding error of an operation: relative to its result, and an absolute bound for subnormal results.
 struct RoundingError {
     double relative, absolute;
 };
@@ -28,7 +28,7 @@ bool isEmpty(const ValueBounds& a) { return a.min > a.max; }
 bool contains(const ValueBounds& a, double value) { return a.min <= value && value <= a.max; }
 bool mayBeInfinite(const ValueBounds& a) { return a.min == -kInfinity || a.max == kInfinity; }
 
-// Returns an upper bound of the floats computed for real results up to `max`.
+// Returns an upper bound of the floats that are computed for real results up to `max`.
 double upperBound(double max, RoundingError error) {
     if (max == 0 || std::isinf(max)) return max;
     const double wider = max + std::abs(max) * error.relative + error.absolute;
@@ -36,7 +36,7 @@ double upperBound(double max, RoundingError error) {
     return max < 0 ? std::min(wider, 0.0) : wider;
 }
 
-// Returns the interval of floats computed for the real results [min, max]. An end that is NaN becomes infinite.
+// Returns an interval of the floats that are computed for real results in [min, max]. A NaN end becomes infinite.
 ValueBounds widened(double min, double max, bool hasValueEverywhere, RoundingError error) {
     return {std::isnan(min) ? -kInfinity : -upperBound(-min, error),
             std::isnan(max) ? kInfinity : upperBound(max, error), hasValueEverywhere};
@@ -54,7 +54,7 @@ ValueBounds hull(std::initializer_list<double> candidates, bool hasValueEverywhe
     return widened(min, max, hasValueEverywhere, error);
 }
 
-// Returns the interval of f on `a`. f must be monotonic.
+// Returns the interval of f on `a`, for a monotonic function f.
 template <typename F>
 ValueBounds monotonic(F f, const ValueBounds& a, RoundingError error = kFunction) {
     return hull({f(a.min), f(a.max)}, a.hasValueEverywhere, error);
@@ -71,8 +71,8 @@ ValueBounds negate(const ValueBounds& a) { return {-a.max, -a.min, a.hasValueEve
 ValueBounds multiply(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere &&
                                     !(contains(a, 0) && mayBeInfinite(b)) && !(contains(b, 0) && mayBeInfinite(a));
-    // An infinite end stands for large finite numbers, whose products with 0 are 0. `hasValueEverywhere` covers 0 · ∞,
-    // which is NaN.
+    // An infinite end stands for large finite numbers, whose products with 0 are 0. The product 0 · ∞ is NaN, for which
+    // `hasValueEverywhere` is false.
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
     return hull({product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)},
                 hasValueEverywhere, kCorrectlyRounded);
@@ -114,7 +114,7 @@ ValueBounds log(const ValueBounds& a) {
     return widened(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0, kFunction);
 }
 
-// Returns whether `a`, widened by possible rounding errors, contains phase + k · period for some integer k.
+// Returns whether `a`, widened by possible rounding errors, contains phase + k · period for an integer k.
 bool containsPhase(const ValueBounds& a, double phase, double period) {
     const double slack = 1e-9 * std::max({1.0, std::abs(a.min), std::abs(a.max)});
     return std::floor((a.max + slack - phase) / period) >= std::ceil((a.min - slack - phase) / period);
@@ -123,7 +123,7 @@ bool containsPhase(const ValueBounds& a, double phase, double period) {
 // Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where `f` is 1.
 template <typename F>
 ValueBounds sine(F f, double top, const ValueBounds& a) {
-    constexpr double kLarge = 1e6;  // beyond ±kLarge, the slack of containsPhase() is too large to be useful
+    constexpr double kLarge = 1e6;  // beyond ±kLarge, containsPhase() is too imprecise
     const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
     if (a.min < -kLarge || a.max > kLarge) return widened(-1, 1, hasValueEverywhere, kFunction);
     const double first = f(a.min), last = f(a.max);
@@ -152,11 +152,11 @@ ValueBounds hyperbolicCosine(const ValueBounds& a) {
     return widened(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
 }
 
-// Returns the interval of a^b for a ≥ 0. The extrema of a^b over the rectangle of all (a, b) are at its corners,
-// because a^b has no extrema inside, and is monotonic along each side.
+// Returns the interval of a^b for a ≥ 0. On the rectangle of all pairs (a, b), a^b has no extrema inside and is
+// monotonic along each side, so the extrema are at the corners.
 ValueBounds powerOfPositive(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
-    // A zero in `a` may be −0, which to the power of an odd negative number is −∞, not ∞.
+    // A zero in `a` may be −0. A power of −0 with an odd negative exponent is −∞, not ∞.
     if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, hasValueEverywhere};
     return hull({std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)},
                 hasValueEverywhere, kFunction);
@@ -166,7 +166,7 @@ ValueBounds power(const ValueBounds& a, const ValueBounds& b) {
     if (a.min >= 0) return powerOfPositive(a, b);
     const bool mayBeInteger = std::floor(b.max) >= b.min;
     if (!mayBeInteger) {
-        // `b` contains no integers. With such exponents, C's pow is NaN for finite negative bases, and pow(−∞, b) is
+        // `b` contains no integers. For such an exponent b, pow is NaN for finite negative bases, and pow(−∞, b) is
         // pow(∞, b).
         if (a.max < 0 && a.min > -kInfinity) return kEmpty;
         const ValueBounds positive{0, a.min == -kInfinity ? kInfinity : a.max, false};
@@ -188,7 +188,7 @@ ValueBounds arctangent2(const ValueBounds& y, const ValueBounds& x) {
 }
 
 // Returns the interval of a − b⌊q⌋, where q is the computed quotient: a/b times a factor from 1 − 2⁻²⁴ to 1 + 2⁻²⁴. The
-// computed value is between 0 and b, or outside by at most a few rounding errors of numbers up to |a| + |b|.
+// computed value lies between 0 and b, or outside by a few rounding errors of numbers up to |a| + |b|.
 ValueBounds modulo(const ValueBounds& a, const ValueBounds& b) {
     const ValueBounds quotient = divide(a, b);
     if (mayBeInfinite(quotient) || mayBeInfinite(a) || mayBeInfinite(b)) return {-kInfinity, kInfinity, false};

@@ -1,6 +1,6 @@
-// This file is compiled with -mavx2. If an inline function is compiled in several files, the linker keeps only one
-// copy; if that were the one from this file, processors without AVX2 could not run it. Therefore all functions here
-// have internal linkage, or are templates with an argument type that only this file has.
+// This file is compiled with -mavx2. If several files compile the same inline function, the linker keeps only one copy.
+// If it kept the copy of this file, processors without AVX2 could not run it. Therefore all functions here have
+// internal linkage, or are templates with an argument type that only this file has.
 #include "fields/formula/kernels_avx2.hpp"
 
 #ifdef __AVX2__
@@ -14,7 +14,7 @@ namespace oval4d::fields {
 
 #ifdef OVAL4D_LIBMVEC
 
-// The vector functions of glibc, for eight floats at once.
+// The vector functions of glibc, which compute eight floats at once.
 __m256 exp8(__m256) __asm__("_ZGVdN8v_expf");
 __m256 log8(__m256) __asm__("_ZGVdN8v_logf");
 __m256 sin8(__m256) __asm__("_ZGVdN8v_sinf");

@@ -5,7 +5,8 @@
 
 namespace oval4d::fields {
 
-/// Returns the kernels, or nullptr if this processor has no AVX2 or the program was compiled without it.
+/// Returns the kernels for AVX2. Returns nullptr if this processor has no AVX2, or if the program was compiled without
+/// it.
 const Kernels* avx2Kernels();
 
 }  // namespace oval4d::fields

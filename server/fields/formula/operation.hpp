@@ -1,12 +1,13 @@
 #pragma once
-// The operations of compiled formulas. The functions that formulas may call (functions.hpp) are composed of these.
+// The operations of compiled formulas. The functions that formulas may call (functions.hpp) consist of these
+// operations.
 
 #include <cstdint>
 
 namespace oval4d::fields {
 
-/// An operation of a compiled formula on the operands a and b. Its result is NaN if an operand is NaN; so pow(1, NaN)
-/// and pow(NaN, 0) are NaN, unlike in C.
+/// An operation of a compiled formula on the operands a and b. The result is NaN if an operand is NaN. Therefore pow(1,
+/// NaN) and pow(NaN, 0) are NaN, unlike in C.
 enum class Operation : std::uint8_t {
     // without operands
     constant,  ///< a number
@@ -48,8 +49,8 @@ enum class Operation : std::uint8_t {
 /// Returns whether the operation has two operands.
 constexpr bool isBinary(Operation operation) { return operation >= Operation::add; }
 
-/// Returns the result in double precision. The operation must be neither `constant` nor `variable`. `b` is the second
-/// operand, or the exponent of integer_power; other operations ignore it.
+/// Returns the result of an operation in double precision. The operation must be neither `constant` nor `variable`. `b`
+/// is the second operand, or the exponent of integer_power; other operations ignore `b`.
 double apply(Operation operation, double a, double b);
 
 }  // namespace oval4d::fields

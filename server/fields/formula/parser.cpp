@@ -50,14 +50,14 @@ bool isTaken(std::string_view name) {
     return contains(kVariablesAndConstants, name) || contains(kUnits, name) || functionNamed(name).has_value();
 }
 
-// Converts the index of a byte of `text` to the position that is shown to users, counted in characters from 1.
+// Converts the index of a byte of `text` to the position that users see: the number of the character, counted from 1.
 std::size_t positionOf(std::string_view text, std::size_t byte) {
     const auto startsCharacter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
     return 1 + static_cast<std::size_t>(
                    std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), startsCharacter));
 }
 
-// A recursive-descent parser. Throws SyntaxError, which parseSyntax() catches.
+// A recursive-descent parser of formulas. Throws SyntaxError, which parseSyntax() catches. The grammar:
 //   formula = sum [comparison sum] {(;|,) name = sum}   sum = product {(+|−) product}
 //   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]   angle = atom [unit]
 // The formula and each definition are parsed to separate trees, whose nodes are then collected in one tree.
@@ -101,8 +101,8 @@ class Parser {
     }
 
   private:
-    // An operand whose sign is not yet part of the tree. The parser moves signs out of products, and turns a + −b into
-    // a − b and a − −b into a + b, so that toText() never needs to write "--".
+    // An operand whose sign is not yet in the tree. The parser moves signs out of products, and turns a + −b into a − b
+    // and a − −b into a + b. Therefore toText() never needs to write "--".
     struct SignedOperand {
         Index node;
         bool isNegative;
@@ -144,8 +144,8 @@ class Parser {
             return {add(NodeKind::power, {value, exponent}), isNegative};
         }
         if (tree_.nodes[value].kind != NodeKind::negate) return {value, isNegative};
-        // The value is a negation in parentheses. The node of the negation is the last node of the tree; it is removed,
-        // because the returned SignedOperand holds the sign.
+        // The value is a negation in parentheses. Its node is the last node of the tree. The node is removed, because
+        // the returned SignedOperand holds the sign.
         const Index operand = tree_.operands.back();
         tree_.operands.pop_back();
         tree_.nodes.pop_back();
@@ -217,7 +217,7 @@ class Parser {
         }
         return addCall(function, arguments);
     }
-    // Takes the ')' of a parenthesis or call.
+    // Takes the ')' that closes a parenthesis or a call.
     void expectClosingParenthesis() {
         if (take(")")) return;
         if (isAtComparison()) fail("a comparison is allowed only outside of parentheses");
@@ -226,8 +226,8 @@ class Parser {
         fail("an operator or ')' is expected" + hint());
     }
 
-    // A name in the formula. The formula is parsed before the definitions. The SyntaxNode::index of the name's node is
-    // the index of this NameUse in uses_, until resolveNames() is called after the last definition.
+    // A name in the formula. The formula is parsed before the definitions of its names. Until resolveNames() is called,
+    // after the last definition, SyntaxNode::index of the name's node is the index of this NameUse in uses_.
     struct NameUse {
         std::string_view name;
         std::size_t byte;
@@ -239,8 +239,8 @@ class Parser {
         if (found == uses_.end()) uses_.push_back({name, byte});
         return add(NodeKind::constant, {}, index);
     }
-    // Adds a node for `name`, which occurs in the definition of another name. Fails unless `name` is defined before
-    // that definition.
+    // Adds a node for `name`, which occurs in the definition of another name. `name` must be defined before this
+    // definition; otherwise, throws SyntaxError.
     Index earlierName(std::string_view name, std::size_t byte) {
         isConstantDefinition_ = false;
         if (const auto found = resolve(name)) return add(found->kind, {}, found->index);
@@ -274,17 +274,18 @@ class Parser {
             expressions_.expressions.push_back({std::move(name), tree_.left + nodeOffset});
         }
     }
-    // Defines a constant by the expression in tree_, which must contain neither variables nor defined names.
+    // Defines a constant by the expression in tree_, which must not contain variables or defined names.
     void defineConstant(std::string name, std::size_t start, std::size_t valueStart) {
         if (constants_.size() - expressions_.sharedConstants == limits_.constants)
             failAt(start, "a formula may have at most " + std::to_string(limits_.constants) + " constants");
         Graph graph;
-        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // the graph folds the operations
+        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // buildGraph() folds operations on
+                                                                               // constants
         if (!std::isfinite(value)) failAt(valueStart, "the value of " + name + " is not a finite number");
         constants_.push_back({std::move(name), value});
     }
-    // Appends the nodes of a tree to those of expressions_. Returns nodeOffset: node i of the tree becomes the node
-    // i + nodeOffset of expressions_.
+    // Appends the nodes of a tree to those of expressions_. Returns the number of nodes before them, nodeOffset: node i
+    // of the tree becomes node i + nodeOffset of expressions_.
     std::uint32_t appendToExpressions(const SyntaxTree& tree) {
         const auto nodeOffset = static_cast<std::uint32_t>(expressions_.nodes.size());
         const auto firstOperand = static_cast<Index>(expressions_.operands.size());
@@ -296,7 +297,7 @@ class Parser {
         return nodeOffset;
     }
     struct ResolvedName {
-        NodeKind kind;  // constant or expression
+        NodeKind kind;  // NodeKind::constant or NodeKind::expression
         Index index;
     };
     void resolveNames(SyntaxTree& formula) const {
@@ -342,7 +343,7 @@ class Parser {
         return true;
     }
     bool takeMinus() { return take("-") || take(kMinusSign); }
-    // Like take(), but takes nothing if the word is followed by another character of a name, as "deg" in "degree".
+    // Takes a word like take(), but not if another character of a name follows: "deg" is not taken from "degree".
     bool takeWord(std::string_view word) {
         skipBlanks();
         const std::string_view rest = text_.substr(at_);
@@ -377,7 +378,7 @@ class Parser {
         return isOperand ? " (a product is written 2*x)" : "";
     }
     static std::string suggestion(std::string_view name) {
-        if (name.size() == 1) return "";  // any other letter would be equally similar
+        if (name.size() == 1) return "";  // there is no suggestion, because all other letters are equally similar
         std::vector<std::string_view> known(kVariablesAndConstants.begin(), kVariablesAndConstants.end());
         for (const auto& function : functions()) known.push_back(function.name);
         return text::didYouMean(name, known);
@@ -387,7 +388,7 @@ class Parser {
         for (const auto& function : functions()) known.push_back(function.name);
         return text::commaSeparated(known);
     }
-    // Returns the last part of the message for a name that is not defined: how to correct this mistake.
+    // Returns the last part of the message about a name that is not defined: a hint how to correct the mistake.
     static std::string explanation(std::string_view name) {
         if (name.size() > 1 && name.find_first_not_of("xyzwtr") == std::string_view::npos) {
             std::string product(1, name[0]);
@@ -419,9 +420,10 @@ class Parser {
     std::size_t at_ = 0;
     int depth_ = 0;
     bool isInDefinition_ = false;
-    bool isConstantDefinition_ = false;  // whether the current definition has so far used no variable or defined name
-    SyntaxTree tree_;                    // of the formula or the current definition
-    SyntaxTree expressions_;             // of the shared definitions and the definitions before the current one
+    bool isConstantDefinition_ = false;  // whether the current definition has used no variable or defined name so far
+    SyntaxTree tree_;                    // the tree of the formula or of the current definition
+    SyntaxTree expressions_;             // the trees of the shared definitions and of the definitions before the
+                                         // current one
     std::vector<NameUse> uses_;
     std::vector<FormulaConstant> constants_;
 };

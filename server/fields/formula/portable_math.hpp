@@ -1,5 +1,5 @@
 #pragma once
-// The mathematical functions of the C library, applied to arrays.
+// The mathematical functions of the C library, applied to the elements of arrays.
 
 #include <math.h>  // not <cmath>: see ValueLoops for why its inline functions must not be used
 
@@ -9,8 +9,8 @@
 
 namespace oval4d::fields {
 
-/// The `Math` argument of ValueLoops that runs on every processor. `Source` must be a type that only the including
-/// source file has, so that the code is not shared with other source files (see ValueLoops).
+/// The `Math` argument of ValueLoops for every processor. `Source` must be a type that only the including source file
+/// has, so that other source files do not share the code (see ValueLoops).
 template <typename Source>
 struct PortableMath {
     static void unary(Operation operation, float* out, const float* a, std::size_t size) {

@@ -21,8 +21,8 @@ Ref buildVariable(std::uint32_t index, Graph& graph) {
     return graph.sqrt(sum);
 }
 
-// Adds the operation of `node`, a node of the tree, to the graph, and returns the new node of the graph. `operands` are
-// the graph's nodes for the operands of `node`.
+// Adds the operation of `node`, a node of the tree, to the graph. Returns the new node of the graph. `operands` are the
+// nodes of the graph for the operands of `node`.
 Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<const FormulaConstant> constants,
               Graph& graph) {
     switch (node.kind) {
@@ -74,18 +74,19 @@ std::string_view symbolOf(Relation relation) {
     return "";
 }
 
-// How tightly an expression binds: the precedence of its outermost operation, from the loosest to the tightest.
+// The precedence of the outermost operation of an expression, from the operation that binds least to that which binds
+// most.
 enum class Precedence { sum, product, negation, power, unit, atom };
 
 struct TextWithPrecedence {
     std::string text;
     Precedence precedence;
 
-    // Returns the text, in parentheses if it binds less tightly than `least`.
+    // Returns the text; adds parentheses if its precedence is lower than `least`.
     std::string atLeast(Precedence least) && { return precedence < least ? "(" + text + ")" : std::move(text); }
 };
 
-// Stands for a space that is written only outside of parentheses.
+// A placeholder for a space that is written only outside of parentheses.
 constexpr char kOuterSpace = '\1';
 
 class FormulaWriter {
@@ -133,8 +134,8 @@ class FormulaWriter {
     std::string operand(const SyntaxNode& node, std::size_t i, Precedence least) {
         return std::move(written_[tree_.operandsOf(node)[i]]).atLeast(least);
     }
-    // The negation of a product is written −a·b, without parentheses. The parser moves the sign of a factor out of the
-    // product, so −a·b is parsed to the same tree.
+    // Writes a negation. The negation of a product is −a·b, without parentheses: the parser moves the sign of a factor
+    // out of the product, so it makes the same tree of −a·b.
     TextWithPrecedence writeNegation(const SyntaxNode& node) {
         const bool isProduct = written_[tree_.operandsOf(node)[0]].precedence == Precedence::product;
         return {"-" + operand(node, 0, Precedence::product), isProduct ? Precedence::product : Precedence::negation};

@@ -1,6 +1,6 @@
 #pragma once
-// The syntax tree of a formula. The parser returns the tree; toText() writes a tree as text, and buildGraph() converts
-// a tree to a graph.
+// The syntax tree of a formula. The parser returns the tree, toText() writes the tree as text, and buildGraph()
+// converts the tree to a graph.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct FormulaConstant {
     bool operator==(const FormulaConstant&) const = default;
 };
 
-/// How the two sides of a formula are compared; `none` if the formula is not a comparison.
+/// The comparison of the two sides of a formula; `none` if the formula is not a comparison.
 enum class Relation : std::uint8_t { none, equal, less, less_equal, greater, greater_equal };
 
 /// A node of a syntax tree: a number, a name, an operation or a call.
@@ -29,20 +29,20 @@ struct SyntaxNode {
         number,  ///< the value is `number`, which is not negative
         pi,
         phi,
-        variable,    ///< `index`: 0 … 3 for x … w; 4 for r
-        constant,    ///< `index`: in ParsedFormula::constants
-        expression,  ///< `index`: in SyntaxTree::expressions
+        variable,    ///< `index` is 0 … 3 for x … w, and 4 for r
+        constant,    ///< `index` is an index into ParsedFormula::constants
+        expression,  ///< `index` is an index into SyntaxTree::expressions
         negate,
         add,
         subtract,
         multiply,
         divide,
         power,
-        call,  ///< `index`: in functions()
+        call,  ///< `index` is an index into functions()
     };
     NodeKind kind = NodeKind::number;
     std::uint32_t index = 0;
-    std::uint32_t firstOperand = 0, operandCount = 0;  ///< a range of SyntaxTree::operands
+    std::uint32_t firstOperand = 0, operandCount = 0;  ///< the operands: a range of SyntaxTree::operands
     double number = 0;
 };
 
@@ -52,19 +52,21 @@ struct NamedExpression {
     std::uint32_t root = 0;  ///< the node that the name stands for
 };
 
-/// A formula as a tree. Signs are normalized: an operand of a product, quotient or negation is not a negation, and
-/// neither is the second operand of a sum or difference.
+/// A formula as a tree. Signs are normalized: no operand of a product, quotient or negation is a negation, nor is the
+/// second operand of a sum or difference.
 struct SyntaxTree {
     static constexpr std::uint32_t kR = 4;  ///< the index of the variable r
 
-    std::vector<SyntaxNode> nodes;  ///< each follows its operands, and is an operand of at most one node
+    std::vector<SyntaxNode> nodes;  ///< each node follows its operands, and is an operand of at most one node
     std::vector<std::uint32_t> operands;
-    /// Each expression uses only earlier ones. The nodes of all expressions precede those of the formula itself.
+    /// The named expressions; an expression uses only earlier expressions. The nodes of all expressions precede those
+    /// of the formula itself.
     std::vector<NamedExpression> expressions;
     Relation relation = Relation::none;
-    std::uint32_t left = 0, right = 0;  ///< the root nodes of both sides; without a comparison, only `left` is used
-    /// The number of constants and the number of expressions that the shared formula defines (see parseSyntax()). The
-    /// shared constants and expressions come first in ParsedFormula::constants and in `expressions`.
+    std::uint32_t left = 0, right = 0;  ///< the root nodes of the two sides of a comparison; `left` only, without a
+                                        ///< comparison
+    /// The numbers of constants and of expressions that the shared formula defines (see parseSyntax()). These constants
+    /// come first in ParsedFormula::constants, and these expressions in `expressions`.
     std::size_t sharedConstants = 0, sharedExpressions = 0;
 
     std::span<const std::uint32_t> operandsOf(const SyntaxNode& node) const {
@@ -72,13 +74,14 @@ struct SyntaxTree {
     }
 };
 
-/// Adds the tree to the graph, with these values of the constants. Returns the node of the formula's function: left −
-/// right for a comparison, right − left if the relation is greater or greater_equal, and `left` without a comparison.
+/// Adds the tree to the graph, with these values of the constants. Returns the node of the formula's function. This is
+/// `left` without a comparison, right − left if the relation is greater or greater_equal, and left − right for other
+/// comparisons.
 Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants, Graph& graph);
 
-/// Returns the tree as text, with as few parentheses as possible and, if `isSpaced`, with spaces outside of
-/// parentheses. Parsing this text, with the same `shared` formula (see parseSyntax()), gives the same function. The
-/// text never nests more deeply than the text from which the tree was parsed.
+/// Returns the tree as text with as few parentheses as possible. If `isSpaced`, writes spaces outside of parentheses.
+/// Parsing this text, with the same `shared` formula (see parseSyntax()), gives the same function. The text never nests
+/// more deeply than the text from which the tree was parsed.
 std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced);
 
 }  // namespace oval4d::fields

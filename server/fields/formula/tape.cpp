@@ -37,8 +37,8 @@ class Compiler {
     Tape take() { return std::move(tape_); }
 
   private:
-    // Sets lastUse_ of each node to the last of the nodes that have this node as an operand. If the result does not
-    // depend on a node, the node's lastUse_ remains kNever. The last use of the result is the result itself.
+    // Sets lastUse_ of each node to the last node that has this node as an operand. lastUse_ remains kNever for a node
+    // on which the result does not depend. The last use of the result is the result itself.
     void findLastUses() {
         lastUse_[result_] = result_;
         for (Ref user = result_ + 1; user-- > 0;) {
@@ -94,7 +94,7 @@ class Compiler {
     void release(Ref operand, Ref user) {
         if (lastUse_[operand] != user || isLeaf(nodes_[operand])) return;
         free_.push_back(registers_[operand]);
-        lastUse_[operand] = kNever;  // an operand that the operation uses twice is released once
+        lastUse_[operand] = kNever;  // prevents a second release if both operands are the same node
     }
     std::uint16_t allocate() {
         if (free_.empty()) return static_cast<std::uint16_t>(Tape::kFirstScratch + tape_.scratchRegisters++);

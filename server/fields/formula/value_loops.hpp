@@ -1,7 +1,7 @@
 #pragma once
 // The loops that evaluate instructions. They are templates, so that each source file that includes this header compiles
-// them for its own instruction set. The compiler vectorizes these plain loops; "omp simd" tells it that an output is
-// either one of the inputs or does not overlap them.
+// them for its own instruction set. The compiler vectorizes these plain loops. "omp simd" tells the compiler that an
+// output is the same array as an input, or does not overlap any input.
 
 #include <cstddef>
 
@@ -9,11 +9,12 @@
 
 namespace oval4d::fields {
 
-/// `Math` must have static functions unary(operation, out, a, size) for exp, log, sin …, and
-/// powerOrAtan2(operation, out, a, b, size). It must be a type that only the including source file has, for example in
-/// an anonymous namespace: if several files instantiated the same template, the linker would keep one copy (by the
-/// one-definition rule), possibly one with instructions that this processor lacks. For the same reason, nothing here
-/// calls inline functions of other headers.
+/// The loops of all operations. `Math` must have static functions unary(operation, out, a, size) for exp, log, sin …,
+/// and powerOrAtan2(operation, out, a, b, size).
+///
+/// `Math` must be a type that only the including source file has, for example in an anonymous namespace. If several
+/// files instantiated the same template, the linker would keep one copy (by the one-definition rule), perhaps one with
+/// instructions that this processor lacks. For the same reason, nothing here calls inline functions of other headers.
 template <typename Math>
 class ValueLoops {
   public:
@@ -115,15 +116,15 @@ class ValueLoops {
         }
     }
 
-    // Returns whether min or max returns its first operand, `first`. `compared` is whether `first` is the smaller
-    // operand (for min) or the larger one (for max). If `first` is NaN, returns true.
+    // Returns whether the result of min or max is its first operand, `first`. `compared` says whether `first` is the
+    // smaller operand (for min) or the larger operand (for max). If `first` is NaN, returns true.
     static bool choosesFirst(bool compared, float first) {
         return static_cast<int>(compared) | static_cast<int>(first != first);
     }
     static float step(float x) { return x != x ? x : (x < 0 ? 0.0F : 1.0F); }
     static float sign(float x) { return x != x ? x : (x < 0 ? -1.0F : (x > 0 ? 1.0F : 0.0F)); }
 
-    // Returns whether a power with this exponent is computed as an integer power times the square root of the base.
+    // Returns whether a power with this exponent, n + 1/2, is computed as aⁿ times the square root of the base a.
     static bool usesHalfIntegerPower(float exponent) {
         return exponent >= 0.5F && exponent <= 8.5F && 2 * exponent == __builtin_floorf(2 * exponent) &&
                exponent != __builtin_floorf(exponent);
@@ -134,7 +135,7 @@ class ValueLoops {
         map([](float x, float y) { return x * __builtin_sqrtf(y); }, out, ArrayOperand{power}, ArrayOperand{a}, size);
     }
 
-    // Computes power or atan2. The result is NaN if an operand is NaN, unlike that of C's pow.
+    // Computes power or atan2. Unlike that of C's pow, the result is NaN whenever an operand is NaN.
     static void powerOrAtan2(const Instruction& instruction, float* out, const float* a, const float* b,
                              std::size_t size) {
         const auto number = static_cast<float>(instruction.number);
@@ -151,7 +152,7 @@ class ValueLoops {
         for (std::size_t i = 0; i < size; ++i) out[i] = a[i] != a[i] || b[i] != b[i] ? kNotANumber : results[i];
     }
 
-    // Returns aⁿ, computed by repeated squaring.
+    // Returns aⁿ, by repeated squaring.
     template <unsigned n>
     static float integerPower(float a) {
         if constexpr (n == 0) {
