@@ -83,8 +83,8 @@ bool AxisMapping::isInOrder() const {
 }
 
 std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
-    // Each slab has one index along each of the first `divided` dimensions, up to `group` indices along the next
-    // dimension, and all indices along the other dimensions.
+    // Each slab has one index along each of the first `divided` dimensions, at most `group` indices along the next
+    // dimension, and all indices along the remaining dimensions.
     std::size_t divided = 0, inner = count() / layout_.size[0];
     for (; divided < 3 && inner > maxCount; inner /= layout_.size[divided]) ++divided;
     const std::size_t group = std::clamp<std::size_t>(maxCount / inner, 1, layout_.size[divided]);
@@ -111,7 +111,7 @@ std::vector<Slab> AxisMapping::slabs(std::size_t maxCount) const {
 Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<const std::byte> bytes,
                                            const NumberFormat& format, const FieldReadOptions& options) const {
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
-    // Floats in memory must be aligned, but the bytes of a file may lie anywhere.
+    // Floats in memory must be aligned, but numbers in a file need not be.
     const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;
     if (format.type == NumberType::f4 && native && aligned && format.isPlain() && isInOrder()) {
         if (file.file)

@@ -1,5 +1,5 @@
 #pragma once
-// Maps the dimensions of an array in a file to the axes of a field.
+// The mapping of the dimensions of an array in a file to the axes x, y, z and w of a field.
 
 #include <array>
 #include <cstddef>
@@ -15,11 +15,11 @@
 
 namespace oval4d::fields {
 
-/// The maximum number of elements of a slab. A slab is a part of an array in a file that is read and converted at once.
-/// After each slab, the readers release the pages of mapped files.
+/// The maximum number of elements of a slab. A slab is a part of an array that is read and converted at once. After
+/// each slab, the readers release the pages of mapped files.
 inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
 
-/// The size in bytes of the cache in which the libraries for HDF5 and NetCDF keep decompressed chunks, because several
+/// The size in bytes of the caches of the libraries for HDF5 and NetCDF. They keep decompressed chunks, because several
 /// slabs may need the same chunk.
 inline constexpr std::size_t kChunkCacheSize = std::size_t{192} << 20U;
 
@@ -30,10 +30,11 @@ struct Dimension {
     bool reversed = false;  ///< whether the coordinate decreases along the dimension
 };
 
-/// Returns the axis, 0 … 3 for x, y, z, w, of each dimension of an array, in the order of its indices. `axes` has a
-/// letter for each dimension: x, y, z, w, or t for w. If `axes` is empty, uses "tzyx", "zyx", "yx" or "x", depending on
-/// the number of dimensions. Errors: `bad_field` if there are no dimensions or more than 4; `out_of_range` if `axes`
-/// does not have as many letters as there are dimensions, or contains another letter, or an axis twice.
+/// Returns the axis of each dimension of an array, 0 … 3 for x, y, z, w, in the order of the array's indices. `axes`
+/// has a letter for each dimension: x, y, z, w, or t for w. If `axes` is empty, uses "tzyx", "zyx", "yx" or "x",
+/// depending on the number of dimensions. Errors: `bad_field` if there are no dimensions, or more than 4;
+/// `out_of_range` if `axes` does not have as many letters as there are dimensions, has another letter, or has an axis
+/// twice.
 Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t dimensions);
 
 /// Returns the indices of the dimensions of an array that are mapped to axes, in ascending order. `sizes` are the sizes
@@ -42,29 +43,29 @@ Result<std::vector<std::size_t>> parseAxes(std::string_view axes, std::size_t di
 /// too many dimensions are larger; parseAxes() refuses such an array.
 std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes);
 
-/// A part of an array that is read at once.
+/// A part of an array that is read and converted at once.
 struct Slab {
-    std::array<std::size_t, 4> start;  ///< the indices of its first number, in the order of StridedLayout::size
-    StridedLayout layout;              ///< the sizes of the slab, and its strides among the samples of the field
-    std::size_t first;                 ///< the index of its first number among the samples of the field
+    std::array<std::size_t, 4> start;  ///< the indices of the slab's first number, in the order of StridedLayout::size
+    StridedLayout layout;              ///< the sizes of the slab, and its strides in the samples of the field
+    std::size_t first;                 ///< the index of the slab's first number in the samples of the field
 };
 
-/// Maps the dimensions of an array in a file to the axes of the samples of a field. This determines where each number
-/// of the file belongs among the samples.
+/// Maps the dimensions of an array in a file to the axes of the samples of a field: says where each number of the file
+/// belongs among the samples.
 class AxisMapping {
   public:
-    /// `dimensions` are the dimensions of the array from the slowest to the fastest; their axes must differ. Errors:
-    /// `bad_field` if a dimension has the size 0; `too_large` if an axis has more than kMaxSamplesPerAxis samples, or
-    /// if there are more than `maxSamples` in all.
+    /// `dimensions` are the dimensions of the array, from the slowest to the fastest; all must have different axes.
+    /// Errors: `bad_field` if a dimension has the size 0; `too_large` if an axis has more than kMaxSamplesPerAxis
+    /// samples, or if there are more than `maxSamples` samples in all.
     static Result<AxisMapping> of(std::span<const Dimension> dimensions, std::size_t maxSamples);
 
     const Shape& shape() const { return shape_; }
     std::size_t count() const { return sampleCount(shape_); }
 
-    /// Returns the sizes of the array's dimensions, and their strides among the samples. An array with fewer than 4
-    /// dimensions gets leading dimensions of size 1.
+    /// Returns the sizes of the array's dimensions and their strides in the samples. If the array has fewer than 4
+    /// dimensions, dimensions of size 1 precede them.
     const StridedLayout& layout() const { return layout_; }
-    /// Returns the index of the array's first number among the samples. It is 0 unless a dimension is reversed.
+    /// Returns the index in the samples of the array's first number. It is 0 unless a dimension is reversed.
     std::size_t firstSampleIndex() const { return first_; }
 
     /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see
@@ -72,13 +73,13 @@ class AxisMapping {
     bool isInOrder() const;
 
     /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. The slabs are as large as
-    /// possible, because a part of a compressed file may be decompressed again for each slab that needs it.
+    /// possible: a part of a compressed file may be decompressed again for each slab that needs it.
     std::vector<Slab> slabs(std::size_t maxCount) const;
 
-    /// Returns the samples. `bytes` is the part of the file that stores them, in the format `format`; it must contain
-    /// at least count() numbers. Uses the bytes in place if they are aligned, in order (see isInOrder()), and plain
-    /// 32-bit floats (see NumberFormat::isPlain()) in this processor's byte order; otherwise, converts them. Errors:
-    /// those of SampleBuffer::of().
+    /// Returns the samples of the array. `bytes` is the part of the file that stores the numbers in the format
+    /// `format`; it must contain at least count() numbers. Uses the bytes in place if they are aligned, in order (see
+    /// isInOrder()), and plain 32-bit floats (see NumberFormat::isPlain()) in this processor's byte order. Otherwise,
+    /// converts them. Errors: those of SampleBuffer::of().
     Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
                                   const NumberFormat& format, const FieldReadOptions& options) const;
 

@@ -75,9 +75,10 @@ std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimens
 
 std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
                                                 std::vector<std::string>& warnings) {
-    constexpr double kUnevenness = 1e-3;  // the accepted deviation from even spacing, in steps
+    constexpr double kUnevenness = 1e-3;  // the accepted deviation from even spacing, in mean distances between
+                                          // coordinates
     const double step = at.size() > 1 ? (at.back() - at.front()) / static_cast<double>(at.size() - 1) : 1;
-    double largest = 0;  // the largest deviation of a coordinate from even spacing, in steps
+    double largest = 0;  // the largest deviation of a coordinate from even spacing, in mean distances
     bool monotone = std::isfinite(step) && step != 0 && std::isfinite(at.front());
     for (std::size_t i = 1; i < at.size() && monotone; ++i) {
         monotone = (at[i] - at[i - 1]) * step > 0;
@@ -96,7 +97,8 @@ std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, cons
 
 void countFromLeastIfFar(CoordinateEnds& ends, std::size_t count, const std::string& name, std::string& unit,
                          std::vector<std::string>& warnings) {
-    constexpr double kClose = 2e-5;  // makeField() refuses boxes that are smaller for their distance from 0
+    constexpr double kClose = 2e-5;  // makeField() rejects boxes whose size is less than this times their distance from
+                                     // 0
     if (count < 2) return;
     const double step = std::abs(ends.last - ends.first) / static_cast<double>(count - 1);
     if (!(step < kClose * std::max(std::abs(ends.first), std::abs(ends.last)))) return;

@@ -30,8 +30,7 @@ Result<std::monostate> inflated(GzipReader::StreamFormat format, std::span<const
 
 Result<std::monostate> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
     std::size_t size = 0;
-    // blosc_decompress_ctx() trusts the sizes in the header of the chunk, so blosc_cbuffer_validate() checks them
-    // first.
+    // First check the sizes in the header of the chunk, which blosc_decompress_ctx() trusts.
     if (chunk.size() < BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(chunk.data(), chunk.size(), &size) < 0 ||
         size != to.size() ||
         blosc_decompress_ctx(chunk.data(), to.data(), to.size(), 1) != static_cast<int>(to.size())) {

@@ -11,7 +11,7 @@
 
 namespace oval4d::fields {
 
-/// A way in which chunks are compressed.
+/// The compression format of chunks.
 enum class ChunkCodec : std::uint8_t {
     gzip,   ///< RFC 1952
     zlib,   ///< RFC 1950
@@ -22,9 +22,9 @@ enum class ChunkCodec : std::uint8_t {
 /// Returns the codec that has this name in Zarr's metadata; an empty optional if the name is unknown.
 std::optional<ChunkCodec> chunkCodecNamed(std::string_view name);
 
-/// Decompresses a chunk into `to`, which must have exactly the size of the decompressed chunk. The size that the chunk
-/// itself states is never used to allocate memory, so a wrong size is harmless. Error: `bad_field` if the chunk is
-/// damaged, too short or too long.
+/// Decompresses a chunk into `to`, which must have exactly the size of the decompressed chunk. A wrong size in the
+/// header of a chunk is harmless, because no memory is allocated for it. Error: `bad_field` if the chunk is damaged,
+/// too short or too long.
 Result<std::monostate> decompress(ChunkCodec codec, std::span<const std::byte> chunk, std::span<std::byte> to);
 
 }  // namespace oval4d::fields

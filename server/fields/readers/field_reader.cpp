@@ -34,7 +34,7 @@ constexpr std::array<FieldFormat, 4> kFormats{{{"npy", isNpyStart, readNpy},
                                                {"hdf5", isHdf5Start, readHdf5},
                                                {"nifti", isNiftiOrGzipStart, readNifti}}};
 
-// Removes the digits at the start of `rest`, however many, and returns them without leading zeros.
+// Removes all digits at the start of `rest`, and returns them without leading zeros.
 std::string_view takeNumber(std::string_view& rest) {
     const auto digits =
         static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), text::isDigit) - rest.begin());
@@ -60,24 +60,26 @@ bool comesBefore(const std::string& a, const std::string& b) {
     return restA.empty() != restB.empty() ? restA.empty() : a < b;
 }
 
-// Sets the box of a series (see readSeries()). `times` has, for each file of the series, the w at which its box begins.
+// Sets the box of a series of files (see readSeries()). `times` has, for each file, the w at which the box of the file
+// begins.
 void setSeriesBox(FieldArray& series, std::span<const double> times, const FieldReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     CoordinateEnds ends{0, static_cast<double>(times.size() - 1)};
     if (known) {
-        static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // warns of uneven spacing
+        static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // adds a warning if the times are not
+                                                                            // evenly spaced
         ends = {times.front(), times.back()};
         if (!options.box) countFromLeastIfFar(ends, times.size(), "w", series.units[3], series.warnings);
     }
-    // If the files state no times, all times are equal, which needs no warning.
+    // Files that state no times all have the same time, which needs no warning.
     const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();
     if (series.boxIsKnown && !known && differ && !options.box) {
         series.warnings.emplace_back(
             "the times that the files state do not increase in the order of the files' names and are ignored; w is the "
             "number of the file, from 0 on");
     }
-    if (!known) series.units[3].clear();  // w is then the number of the file
+    if (!known) series.units[3].clear();  // w is the number of the file, without a unit
     series.box.min.w = ends.first;
     series.box.max.w = ends.last;
     if (!series.boxIsKnown) series.box = defaultBox(series.shape, true);
@@ -116,8 +118,8 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const FieldRe
     std::optional<SampleBuffer> all;
     std::vector<double> times;
     bool unitsDiffer = false;
-    // The first file of the series has a decompressed file of its own, and all later files share another one: the
-    // samples of each file are copied to `all` before the next file is decompressed.
+    // The first file of the series is decompressed to a file of its own. All later files are decompressed to one file:
+    // the samples of each file are copied to `all` before the next file is decompressed.
     std::shared_ptr<MappedFile> decompressed;
     const MappedFileMaker reuseFile = [&](std::size_t bytes) -> Result<std::shared_ptr<MappedFile>> {
         if (decompressed && decompressed->bytes().size() >= bytes) return decompressed;

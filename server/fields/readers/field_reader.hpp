@@ -1,5 +1,5 @@
 #pragma once
-// Reads fields from files of all formats.
+// Reads fields from single files of all formats.
 
 #include <cstddef>
 #include <filesystem>
@@ -13,10 +13,12 @@
 
 namespace oval4d::fields {
 
-/// A file format. The functions have no side effects, except on the state of the libraries that they call.
+/// A format of files that contain fields. The functions have no side effects, except on the state of the libraries that
+/// they call.
 struct FieldFormat {
-    std::string_view name;                              ///< the name in messages and on the command line
-    bool (*isStart)(std::span<const std::byte> start);  ///< whether the bytes are the start of such a file
+    std::string_view name;                              ///< the name of the format in messages and on the command line
+    bool (*isStart)(std::span<const std::byte> start);  ///< returns whether the bytes are the start of a file of this
+                                                        ///< format
     Result<FieldArray> (*read)(const FileContents& file, const FieldReadOptions& options);
 };
 
@@ -26,13 +28,13 @@ inline constexpr std::size_t kRecognizedBytes = 352;
 /// Returns the formats: "npy", "netcdf", "hdf5", "nifti".
 std::span<const FieldFormat> fieldFormats();
 
-/// Returns the format of a file; null if it has none of the formats. `start` must be the first kRecognizedBytes bytes
-/// of the file, or the whole file if it is shorter. A gzip file counts as NIfTI, the only format whose files may be
-/// compressed as a whole.
+/// Returns the format of a file, or null if the file has none of the formats. `start` must be the first
+/// kRecognizedBytes bytes of the file, or the whole file if it is shorter. A gzip file counts as NIfTI, the only format
+/// whose files may be compressed as a whole.
 const FieldFormat* formatOfFile(std::span<const std::byte> start);
 
-/// Reads a file in the format that its first bytes show. Errors: `unsupported_format`, also if the options have a
-/// region; and those of FieldFormat::read.
+/// Reads a file in the format that its first bytes show. Errors: those of FieldFormat::read; `unsupported_format` if
+/// the file has none of the formats, or if the options have a region.
 Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. All files must have the same shape, with one sample
@@ -46,12 +48,12 @@ Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& o
 ///   file, from 0 on; unless all times are equal, there is a warning.
 ///
 /// Errors: those of readField(), with the number of the file; `bad_field` if there are no files, or if their shapes or
-/// boxes are not as required; `too_large` if there are more than `options.maxSamples` samples in all.
+/// boxes do not meet these conditions; `too_large` if there are more than `options.maxSamples` samples in all.
 Result<FieldArray> readSeries(std::span<const FileContents> files, const FieldReadOptions& options);
 
 /// Returns the files in a folder that have one of the formats, sorted by name. Numbers in names are compared by value:
-/// t2 comes before t10. Does not follow symbolic links, and leaves out names that begin with a dot. Error: `not_found`
-/// if the folder cannot be read.
+/// t2 comes before t10. Ignores symbolic links, and names that begin with a dot. Error: `not_found` if the folder
+/// cannot be read.
 Result<std::vector<std::filesystem::path>> seriesFiles(const std::filesystem::path& folder);
 
 }  // namespace oval4d::fields

@@ -45,7 +45,7 @@ Result<FileContents> FileContents::map(int file) {
 }
 
 Result<FileContents> FileContents::map(const std::filesystem::path& path) {
-    // With O_NONBLOCK, opening a named pipe does not wait for its writer.
+    // O_NONBLOCK is for named pipes: without it, opening a pipe waits until another process writes to it.
     const FileHandle file(open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (file.descriptor() < 0)
         return Error{ErrorCode::not_found, "the file cannot be opened: " + std::generic_category().message(errno)};

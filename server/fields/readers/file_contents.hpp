@@ -20,8 +20,8 @@ namespace oval4d::fields {
 struct FilePart {
     static constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
-    std::uint64_t offset = 0;   ///< of the part's first byte; ignored if `fromEnd` is true
-    std::uint64_t size = kAll;  ///< in bytes; a part that extends beyond the end of the file is cut off there
+    std::uint64_t offset = 0;   ///< the offset of the part's first byte; ignored if `fromEnd` is true
+    std::uint64_t size = kAll;  ///< the size in bytes; a part beyond the end of the file is cut off there
     bool fromEnd = false;       ///< whether the part consists of the last `size` bytes of the file
 
     bool isWhole() const { return size == kAll && (offset == 0 || fromEnd); }
@@ -31,14 +31,14 @@ struct FilePart {
 struct FileContents {
     std::shared_ptr<const void> owner;  ///< keeps the bytes valid
     std::span<const std::byte> bytes;
-    MappedFilePtr file = {};  ///< the file of which the bytes are a part, if it is mapped; null if they are in memory
+    MappedFilePtr file = {};  ///< the mapped file that contains the bytes; null if they are in memory
 
-    /// Releases the resident pages of the mapped file, if there is one: see MappedFile::releasePages().
+    /// Releases the resident pages of the mapped file (see MappedFile::releasePages()), if the bytes are in one.
     void releasePages() const {
         if (file) file->releasePages();
     }
 
-    /// Returns the bytes of a part, or as many of them as the file has.
+    /// Returns the bytes of a part, without those beyond the end of the file.
     FileContents cutTo(const FilePart& part) const;
 
     /// Returns a copy of the bytes.

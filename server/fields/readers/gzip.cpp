@@ -8,8 +8,8 @@
 namespace oval4d::fields {
 
 namespace {
-// The output grows by this many bytes at a time, so a file that states a large array but contains little takes little
-// memory.
+// The number of bytes by which the output grows at a time. A file that states a large array but contains little
+// therefore takes little memory.
 constexpr std::size_t kStep = std::size_t{64} << 20U;
 }  // namespace
 
@@ -17,7 +17,7 @@ struct GzipReader::State {
     inflate_state inflate;
     std::span<const std::byte> rest;
 
-    // Gives the library the next compressed bytes if it has used all earlier ones.
+    // Gives the library the next compressed bytes if it has used all bytes that it was given.
     void refill() {
         if (inflate.avail_in > 0) return;
         const std::size_t count = std::min<std::size_t>(rest.size(), kStep);
@@ -27,11 +27,11 @@ struct GzipReader::State {
         rest = rest.subspan(count);
     }
 
-    // Prepares the library for its next call: if a member of a gzip file (RFC 1952, section 2.2) has ended, begins the
-    // next member; then calls refill(). Returns false if the member or zlib stream has ended and no member follows.
+    // Prepares the library for its next call. If a member of a gzip file (RFC 1952, section 2.2) has ended, begins the
+    // next member. Calls refill(). Returns false if the member or zlib stream has ended and no member follows.
     bool proceed() {
         if (inflate.block_state == ISAL_BLOCK_FINISH) {
-            // The bytes of `rest` directly follow the bytes that the library has received but not used.
+            // The bytes of `rest` directly follow the bytes that the library has not used yet.
             const std::span left(reinterpret_cast<const std::byte*>(inflate.next_in), inflate.avail_in + rest.size());
             if (inflate.crc_flag != ISAL_GZIP || !isGzipStart(left)) return false;
             isal_inflate_reset(&inflate);
@@ -81,7 +81,7 @@ Result<std::monostate> GzipReader::fill(std::span<std::byte> to) {
 bool GzipReader::verifyEnd() {
     inflate_state& inflate = state_->inflate;
     std::uint8_t more = 0;
-    while (state_->proceed()) {  // the checksum may be in the next part of the input, and an empty member may follow
+    while (state_->proceed()) {  // the checksum or an empty member may follow the last decompressed byte
         inflate.next_out = &more;
         inflate.avail_out = 1;
         if (isal_inflate(&inflate) != ISAL_DECOMP_OK || inflate.avail_out == 0) return false;

@@ -1,5 +1,5 @@
 #pragma once
-// Decompression of gzip files.
+// Decompression of gzip files and zlib streams.
 
 #include <cstddef>
 #include <memory>
@@ -14,8 +14,8 @@ namespace oval4d::fields {
 /// Returns whether the bytes are the start of a gzip file (RFC 1952).
 bool isGzipStart(std::span<const std::byte> start);
 
-/// Decompresses a gzip file only as far as requested. Memory grows only with the bytes that are decompressed, so a
-/// small file that claims to be large takes little memory.
+/// Decompresses a gzip file or zlib stream step by step. The memory grows only with the bytes that were decompressed,
+/// so a small file that claims to be large takes little memory.
 class GzipReader {
   public:
     /// The format around the deflate data (RFC 1951): a gzip file (RFC 1952) or a zlib stream (RFC 1950).
@@ -27,15 +27,15 @@ class GzipReader {
     GzipReader(const GzipReader&) = delete;
     GzipReader& operator=(const GzipReader&) = delete;
 
-    /// Appends the next decompressed bytes to `to` until `to` has `size` bytes in all. Error: `bad_field` if the file
-    /// is faulty or ends earlier.
+    /// Appends the next decompressed bytes to `to`, until `to` has `size` bytes in all. Error: `bad_field` if the file
+    /// is damaged, or ends before `size` bytes.
     Result<std::monostate> extendTo(std::size_t size, std::vector<std::byte>& to);
 
     /// Fills `to` with the next decompressed bytes. Errors: those of extendTo().
     Result<std::monostate> fill(std::span<std::byte> to);
 
-    /// Returns whether the caller has read all decompressed bytes and their checksum is correct. Do not read from this
-    /// object afterward: if bytes were left, this function has skipped one of them.
+    /// Returns whether the caller has read all decompressed bytes and the checksum of the bytes is correct. Do not read
+    /// from this object after the call, because it skips a byte if bytes were left.
     bool verifyEnd();
 
   private:

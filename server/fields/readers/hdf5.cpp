@@ -22,9 +22,9 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxDatasets = 10'000;  // a file with this many datasets, or more, is refused
+constexpr std::size_t kMaxDatasets = 10'000;  // a file with this many datasets or more is an error
 
-// The identifier of an object of the HDF5 library; the destructor closes the object.
+// The identifier of an object of the HDF5 library. The destructor closes the object.
 class Handle {
   public:
     Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -42,9 +42,8 @@ class Handle {
     herr_t (*close_)(hid_t);
 };
 
-// The HDF5 library calls these functions to get memory for a copy of the file, and to fill this memory. To avoid the
-// copy, the functions return the file's own bytes. The library does not write to these bytes, because it opens the file
-// only for reading.
+// The functions with which the HDF5 library gets memory for a copy of the file and fills it. To avoid the copy, they
+// return the file's own bytes. The library does not write to these bytes, because it opens the file only for reading.
 void* giveBytes(std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* bytes) { return bytes; }
 void* copyNothing(void* to, const void* from, std::size_t /*size*/, H5FD_file_image_op_t /*purpose*/, void* /*bytes*/) {
     return to == from ? to : nullptr;
@@ -56,11 +55,13 @@ herr_t keepBytes(void* /*memory*/, H5FD_file_image_op_t /*purpose*/, void* /*byt
 void* sameBytes(void* bytes) { return bytes; }
 herr_t keepAll(void* /*bytes*/) { return 0; }
 
-// Opens a file in memory. Returns a negative number if the file is not valid. Does not use H5LTopen_file_image, which
-// leaks memory if the file is not valid.
+// Opens a file that is in memory. Returns a negative number if the file is not valid. Does not use H5LTopen_file_image,
+// which leaks memory if the file is not valid.
 hid_t openBytes(std::span<const std::byte> bytes) {
-    constexpr std::size_t kIncrement = 65536;                   // the step by which the file would grow
-    auto* const memory = const_cast<std::byte*>(bytes.data());  // the library's type is not const
+    constexpr std::size_t kIncrement = 65536;                   // the number of bytes by which the library would let
+                                                                // the file grow
+    auto* const memory = const_cast<std::byte*>(bytes.data());  // the library does not write to the bytes, although its
+                                                                // type is not const
     H5FD_file_image_callbacks_t callbacks{giveBytes, copyNothing, refuseToGrow, keepBytes, sameBytes, keepAll, memory};
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     if (!access || H5Pset_fapl_core(*access, kIncrement, false) < 0 ||
@@ -76,7 +77,7 @@ struct DatasetListing {
     bool hasScales = false;  // whether a dataset has dimension scales, as all variables of NetCDF-4 files have
 };
 
-// The HDF5 library calls visitLink() for each link and visitObject() for each object in the file, until a call returns
+// The HDF5 library calls visitLink() for each link in the file, and visitObject() for each object, until a call returns
 // a number other than 0. The two functions must not throw, because the library is written in C.
 herr_t visitLink(hid_t /*group*/, const char* /*name*/, const H5L_info_t* info, void* to) noexcept {
     auto& contents = *static_cast<DatasetListing*>(to);
@@ -111,8 +112,8 @@ std::optional<std::vector<std::size_t>> sizeOfDataset(hid_t dataset) {
     return std::vector<std::size_t>(size.begin(), size.begin() + dimensions);
 }
 
-// Returns whether a type is that of IEEE 754 floats of two bytes, as h5py writes them. The HDF5 library has no name for
-// this type before version 1.14.4.
+// Returns whether an HDF5 type is that of IEEE 754 floats of two bytes, as h5py writes them. Before version 1.14.4, the
+// HDF5 library has no name for this type.
 bool isHalf(hid_t type) {
     std::size_t sign = 0, exponent = 0, exponentBits = 0, fraction = 0, fractionBits = 0;
     const H5T_order_t order = H5Tget_order(type);
@@ -122,7 +123,7 @@ bool isHalf(hid_t type) {
            H5Tget_norm(type) == H5T_NORM_IMPLIED && H5Tget_offset(type) == 0 && H5Tget_precision(type) == 16;
 }
 
-// Returns how a file stores numbers of this HDF5 type; an empty optional if the type is none of NumberType.
+// Returns how a file stores numbers of this HDF5 type. Returns an empty optional if the type is not one of NumberType.
 std::optional<NumberFormat> formatOf(hid_t type) {
     static constexpr std::array kSigned{NumberType::i1, NumberType::i2, NumberType::i4, NumberType::i8};
     static constexpr std::array kUnsigned{NumberType::u1, NumberType::u2, NumberType::u4, NumberType::u8};
@@ -144,7 +145,7 @@ std::optional<NumberFormat> formatOf(hid_t type) {
         format.type = NumberType::f2;
         return format;
     }
-    if (kind == H5T_ENUM) {  // h5py's Booleans: FALSE is 0, TRUE is 1
+    if (kind == H5T_ENUM) {  // h5py stores Booleans as an enumeration: FALSE is 0, TRUE is 1
         const Handle base(H5Tget_super(type), H5Tclose);
         if (size != 1 || H5Tget_nmembers(type) != 2 || H5Tget_member_index(type, "TRUE") < 0) return {};
         format.type = NumberType::boolean;
@@ -156,8 +157,8 @@ std::optional<NumberFormat> formatOf(hid_t type) {
     return format;
 }
 
-// Returns the `size` bytes of a dataset; an empty optional unless the dataset is stored in one piece, without filters,
-// in the file itself.
+// Returns the `size` bytes of a dataset in the file. Returns an empty optional unless the dataset is stored in one
+// piece, without filters, in this file.
 std::optional<std::span<const std::byte>> storedBytes(const FileContents& file, hid_t dataset, std::size_t size) {
     const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
     if (!creation || H5Pget_layout(*creation) != H5D_CONTIGUOUS) return {};
@@ -202,9 +203,8 @@ Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions
     return buffer->take();
 }
 
-// Chooses among the candidates: the datasets that contain numbers and have 1 to 4 dimensions (see
-// dimensionsWithAxes()). Returns the path of the
-// candidate with the most dimensions, or of the first of several such candidates; an empty string if there is no
+// Chooses a dataset among the candidates, that is, the datasets of numbers with 1 to 4 dimensions (see
+// dimensionsWithAxes()). Returns the path of the candidate with the most dimensions, the first of several such candidates. Returns an empty string if there is no
 // candidate. Adds a warning if there are several candidates.
 std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets, std::vector<std::string>& warnings) {
     std::string chosen;
@@ -227,10 +227,10 @@ std::string defaultDataset(hid_t file, const std::vector<std::string>& datasets,
     return chosen;
 }
 
-// Returns the text of an attribute of a dataset, at most kMaxQuantityText bytes of it; an empty string if the dataset
-// has no such attribute, or if the attribute is not one text.
+// Returns the first kMaxQuantityText bytes of an attribute of a dataset. Returns an empty string if the dataset has no
+// such attribute, or if the attribute is not a single text.
 std::string textOfAttribute(hid_t dataset, const char* attribute) {
-    constexpr std::size_t kMost = 65536;  // the largest text that is read
+    constexpr std::size_t kMost = 65536;  // the size in bytes of the largest text that is read
     if (H5Aexists(dataset, attribute) <= 0) return {};
     const Handle found(H5Aopen(dataset, attribute, H5P_DEFAULT), H5Aclose);
     if (!found) return {};
@@ -257,8 +257,8 @@ Result<FieldArray> readDataset(const FileContents& file, hid_t id, const std::ve
     std::string name = options.variable;
     if (name.empty()) name = defaultDataset(id, datasets, field.warnings);
     if (name.empty()) return badField("the file has no dataset of real numbers with 1 to 4 dimensions");
-    // `name` may be a path with soft links, which `datasets` does not list. No path leads out of this file, because
-    // readHdf5() refuses files with external links.
+    // `name` may be a path with soft links, which is not in `datasets`. No path leads out of this file, because
+    // readHdf5() does not accept files with external links.
     const bool isPath = !name.ends_with('/') && name.find('\0') == std::string::npos;
     const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
     if (access) H5Pset_chunk_cache(*access, H5D_CHUNK_CACHE_NSLOTS_DEFAULT, kChunkCacheSize, 1);
@@ -304,8 +304,8 @@ bool isHdf5Start(std::span<const std::byte> start) {
 }
 
 Result<FieldArray> readHdf5(const FileContents& file, const FieldReadOptions& options) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // print no messages
-    H5PLset_loading_state(0);                     // load no plug-ins
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // the library prints no messages
+    H5PLset_loading_state(0);                     // the library loads no plug-ins
     const Handle id(openBytes(file.bytes), H5Fclose);
     if (!id) return badField("the file is not a valid HDF5 file");
     DatasetListing contents;
@@ -319,8 +319,9 @@ Result<FieldArray> readHdf5(const FileContents& file, const FieldReadOptions& op
     }
     if (contents.datasets.size() == kMaxDatasets) return badField("the file has too many datasets");
     if (H5Aexists(*id, "_NCProperties") > 0) return readNetcdf(file, options);
-    // Without _NCProperties, a file with dimension scales is from NetCDF before version 4.4.1 or from another program.
-    // The NetCDF library may not know the types that another program uses; if it fails, readDataset() reads the file.
+    // A file with dimension scales but without _NCProperties is from NetCDF before version 4.4.1, or from another
+    // program. The NetCDF library may not know the types that another program uses. If it fails, readDataset() reads
+    // the file.
     if (contents.hasScales) {
         if (auto field = readNetcdf(file, options)) return field;
     }

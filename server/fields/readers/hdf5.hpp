@@ -1,5 +1,5 @@
 #pragma once
-// HDF5 files.
+// A reader of HDF5 files.
 
 #include <cstddef>
 #include <span>
@@ -14,16 +14,16 @@ namespace oval4d::fields {
 bool isHdf5Start(std::span<const std::byte> start);
 
 /// Reads a dataset of integers, real numbers, or Booleans as h5py writes them, with 1 to 4 dimensions (see
-/// dimensionsWithAxes()).
-/// `options.variable` is the path of the dataset, which may contain soft links. If this option is empty, the dataset
-/// with the most dimensions is read; of several such datasets, the first by path. A dataset that is stored in one piece
-/// is used in place or converted as in readNpy(), without the HDF5 library; other datasets are read by slabs. The box
-/// is that of the options, or defaultBox(). NetCDF-4 files are passed to readNetcdf().
+/// dimensionsWithAxes()). `options.variable` is the path of the dataset, which may contain soft links. Without this
+/// option, reads the dataset with the most dimensions, the first by path of several such datasets. A dataset that is stored in one piece is used
+/// in place or converted as in readNpy(), without the HDF5 library; other datasets are read by slabs. The box is that
+/// of the options, or defaultBox(). NetCDF-4 files are passed to readNetcdf().
 ///
-/// Refuses files that refer to other files: by external links, external storage or virtual datasets. Loads no plug-ins.
-/// Errors: `bad_field`, `too_large`, `not_found` for the path, `out_of_range` for the other options.
+/// Does not accept files that refer to other files by external links, external storage or virtual datasets. Loads no
+/// plug-ins. Errors: `bad_field`, `too_large`; `not_found` if there is no such path; `out_of_range` for the other
+/// options.
 ///
-/// The HDF5 library is not made for hostile files: files from strangers should be read in a confined process.
+/// The HDF5 library is not safe for hostile files: files from strangers should be read in a confined process.
 /// Thread-safe only if the HDF5 library is thread-safe.
 Result<FieldArray> readHdf5(const FileContents& file, const FieldReadOptions& options);
 

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes that are kept of a message of the library
 
-// A file that the library has opened; the destructor closes it.
+// A file that the NetCDF library has opened. The destructor closes the file.
 class OpenFile {
   public:
     explicit OpenFile(const FileContents& file) {
@@ -38,7 +38,7 @@ class OpenFile {
         status_ = nc_open_mem("field", NC_NOWRITE, size, bytes, &id_);
         // libnetcdf 4.9 reads the header of a file of the classic format in parts of growing size. If the header takes
         // more than about half of the file, a part would extend beyond the end of the file, and the library fails with
-        // EPERM. In this case, a small file is opened again, followed by as many zeros as it has bytes.
+        // EPERM. A small file is then opened again with zeros appended, as many as it has bytes.
         constexpr std::size_t kMostPadded = std::size_t{1} << 20U;
         if (status_ == EPERM && size <= kMostPadded) {
             padded_.assign(file.bytes.begin(), file.bytes.end());
@@ -56,7 +56,7 @@ class OpenFile {
     int id() const { return id_; }
 
   private:
-    std::vector<std::byte> padded_;  // the file with zeros after it; empty if it was opened without them
+    std::vector<std::byte> padded_;  // the bytes of the file, followed by zeros; empty if no zeros were needed
     int id_ = -1, status_;
 };
 
@@ -89,7 +89,7 @@ std::string dimensionName(int group, int dimension) {
     return nc_inq_dimname(group, dimension, name.data()) == NC_NOERR ? name.data() : "";
 }
 
-// Returns the text of an attribute, at most kMaxQuantityText bytes of it.
+// Returns the first kMaxQuantityText bytes of an attribute that is a text.
 std::string textOf(const Variable& variable, const char* attribute) {
     nc_type type = NC_NAT;
     std::size_t length = 0;
@@ -122,7 +122,7 @@ std::vector<double> numbersOf(const Variable& variable, const char* attribute) {
 struct TypeRow {
     nc_type type;
     NumberType number;
-    double fill;  // the default value of numbers that were never written; kNoFill if the type has none
+    double fill;  // the default value of numbers that were never written; kNoFill if the type has no default
 };
 constexpr double kNoFill = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array<TypeRow, 10> kNetcdfTypes{{{NC_BYTE, NumberType::i1, kNoFill},
@@ -145,11 +145,12 @@ const TypeRow* rowOf(nc_type type) {
 NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     NumberFormat format;
     format.type = row.number;
-    format.bigEndian = std::endian::native == std::endian::big;  // the library converts to this order
+    format.bigEndian = std::endian::native == std::endian::big;  // the library converts numbers to this processor's
+                                                                 // byte order
     format.missing = numbersOf(variable, "_FillValue");
     if (format.missing.empty() && !std::isnan(row.fill)) format.missing = {row.fill};
     for (const double number : numbersOf(variable, "missing_value")) format.missing.push_back(number);
-    std::erase_if(format.missing, [](double number) { return std::isnan(number); });  // NaN is missing anyway
+    std::erase_if(format.missing, [](double number) { return std::isnan(number); });  // NaN is always a missing sample
     const auto first = [&](const char* attribute, double otherwise) {
         const auto numbers = numbersOf(variable, attribute);
         return numbers.size() == 1 ? numbers[0] : otherwise;
@@ -166,10 +167,10 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
-// Returns the coordinate variable of a dimension of `variable`: a variable that has the name of the dimension, and this
-// dimension as its only one. The coordinate variable may be in the group of `variable` or in an outer group. A variable
-// with the right name need not be the coordinate variable: a variable may be named like a dimension that it does not
-// have, and a dimension of a group may be named like a dimension of an outer group.
+// Returns the coordinate variable of a dimension of `variable`. It has the name of the dimension, and has only this
+// dimension. It may be in the group of `variable` or in an outer group. The name alone does not identify it: a variable
+// may be named like a dimension that it does not have, and a dimension of a group may be named like a dimension of an
+// outer group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;
@@ -180,7 +181,7 @@ std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     return {};
 }
 
-// Returns what the file states about a dimension of `variable`.
+// Returns the name and the attributes of a dimension of `variable` that the file states.
 CfDimension describe(const Variable& variable, int dimension) {
     CfDimension stated{dimensionName(variable.group, dimension), {}, {}, {}, {}};
     if (const auto coordinate = coordinateOf(variable, dimension)) {
@@ -192,8 +193,9 @@ CfDimension describe(const Variable& variable, int dimension) {
     return stated;
 }
 
-// Returns the indices of the dimensions of a variable that count. If there are more than four, leaves out dimensions of
-// size 1 until four remain: first those that are no axes of space or time, such as the only member of an ensemble.
+// Returns the indices of the dimensions of a variable that become axes. If there are more than four dimensions, leaves
+// out dimensions of size 1 until four remain. First leaves out those that are no axes of space or time, such as the
+// only member of an ensemble.
 std::vector<std::size_t> keptDimensions(const Variable& variable) {
     std::vector<std::size_t> kept(variable.dimensions.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
@@ -212,8 +214,8 @@ std::vector<std::size_t> keptDimensions(const Variable& variable) {
     return kept;
 }
 
-// Returns whether a variable has no dimensions, is a coordinate variable (named like its only dimension), or holds the
-// bounds of a coordinate variable. Such a variable is read only if the options name it.
+// Returns whether a variable is read only if the options name it: a variable without dimensions, a coordinate variable
+// (named like its only dimension), or the bounds of a coordinate variable.
 bool isAuxiliary(const Variable& variable) {
     if (variable.dimensions.empty()) return true;
     const int dimension = variable.dimensions.front();
@@ -223,7 +225,7 @@ bool isAuxiliary(const Variable& variable) {
            (textOf(*coordinate, "bounds") == variable.name || textOf(*coordinate, "climatology") == variable.name);
 }
 
-// Returns the file's groups: the outermost one, which is the file itself, then those within it.
+// Returns the file's groups: the root group, then the groups within it.
 std::vector<int> groupsOf(int file) {
     constexpr std::size_t kMaxGroups = 10'000;
     std::vector<int> groups{file};
@@ -237,7 +239,7 @@ std::vector<int> groupsOf(int file) {
     return groups;
 }
 
-// Returns the path of a variable, as variableAtPath() takes it.
+// Returns the path of a variable, in the form that variableAtPath() accepts.
 std::string pathOf(const Variable& variable, int file) {
     std::size_t length = 0;
     if (variable.group == file || nc_inq_grpname_full(variable.group, &length, nullptr) != NC_NOERR)
@@ -300,7 +302,7 @@ std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t siz
 }
 
 // Returns the dimensions in `kept` (see keptDimensions()) with their axes. Sets the box and the units of `field`, and
-// adds warnings to it.
+// adds warnings to `field`.
 Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std::vector<std::size_t>& kept,
                                              const FieldReadOptions& options, FieldArray& field) {
     std::vector<CfDimension> stated;
@@ -315,7 +317,7 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std
         if (size > kMaxSamplesPerAxis) return Error{ErrorCode::too_large, "a dimension has more than 2^24 samples"};
         dimensions.push_back({size});
     }
-    auto axes = parseAxes(options.axes, dimensions.size());  // also checks the number of dimensions
+    auto axes = parseAxes(options.axes, dimensions.size());  // parseAxes() also checks the number of dimensions
     if (!axes) return axes.error();
     if (options.axes.empty()) *axes = axisOfEachDimension(stated);
     field.box = {glm::dvec4(0), glm::dvec4(0)};
@@ -344,8 +346,8 @@ Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions
     std::vector<std::size_t> start(variable.dimensions.size(), 0), count(variable.dimensions.size(), 1);
     auto buffer = SampleBuffer::of(mapping.count(), options);
     if (!buffer) return buffer.error();
-    // The cache keeps chunks for the next slab, which often needs the same chunks. A failure of the call is ignored,
-    // because the call fails for files without chunks, which need no cache.
+    // The cache keeps decompressed chunks, because the next slab often needs the same chunks. The result of the call is
+    // ignored: the call fails for files without chunks, which need no cache.
     constexpr std::size_t kSlots = 4133;
     static_cast<void>(nc_set_var_chunk_cache(variable.group, variable.id, kChunkCacheSize, kSlots, 1));
     std::vector<std::byte> numbers;

@@ -20,10 +20,10 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::size_t kHeader1 = 348, kHeader2 = 540;
-constexpr double kMaxDataAt = 1 << 24;  // the maximum number of bytes before the data (header and extensions)
+constexpr double kMaxDataAt = 1 << 24;  // the maximum number of bytes of header and extensions before the data
 constexpr std::size_t kDimensions = 7;
 
-// Reads the numbers of a header by their offsets (see nifti1.h and nifti2.h of the NIfTI reference library).
+// Reads numbers of a NIfTI header by their offsets (see nifti1.h and nifti2.h of the NIfTI reference library).
 class HeaderReader {
   public:
     HeaderReader(std::span<const std::byte> bytes, bool bigEndian) : bytes_(bytes), bigEndian_(bigEndian) {}
@@ -45,12 +45,13 @@ class HeaderReader {
     bool bigEndian_;
 };
 
-// What the reader needs of a NIfTI-1 or a NIfTI-2 header.
+// The members of a NIfTI-1 or NIfTI-2 header that the reader uses.
 struct NiftiHeader {
     bool bigEndian = false;
     std::int64_t dimensions = 0;
     std::array<std::int64_t, kDimensions> size{};
-    std::array<double, 5> spacing{};  // pixdim: the sign of the third axis, then the distances along four dimensions
+    std::array<double, 5> spacing{};  // pixdim: the sign of the third axis, then the distances between samples along
+                                      // four dimensions
     int type = 0, units = 0, qform = 0, sform = 0;
     double dataAt = 0, slope = 0, intercept = 0, firstTime = 0;
     std::array<double, 3> quaternion{}, offset{};
@@ -58,8 +59,8 @@ struct NiftiHeader {
     std::string quantity;
 };
 
-// Returns whether the byte order is big-endian; an empty optional if the first number is not the header's length in
-// either byte order.
+// Returns whether the byte order is big-endian. The first number of a file must be the length of the header in one of
+// the two byte orders; otherwise, returns an empty optional.
 std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t headerLength) {
     if (start.size() < 4) return {};
     for (const bool bigEndian : {false, true}) {
@@ -170,8 +171,8 @@ double spacingAlong(const NiftiHeader& header, std::size_t dimension) {
 
 using IndexToSpaceMatrix = std::array<std::array<double, 4>, 3>;  // maps the indices of a voxel to coordinates in space
 
-// Returns the orientation of the image by method 3 of nifti1.h (sform) if the file uses this method, else by method 2
-// (qform); an empty optional if it uses neither.
+// Returns the orientation of the image by method 3 of nifti1.h (sform) if the file has it, otherwise by method 2
+// (qform). Returns an empty optional if the file has neither.
 std::optional<IndexToSpaceMatrix> orientation(const NiftiHeader& header) {
     if (header.sform > 0) return header.rows;
     if (header.qform <= 0) return {};
@@ -188,8 +189,8 @@ std::optional<IndexToSpaceMatrix> orientation(const NiftiHeader& header) {
     return matrix;
 }
 
-// Returns the axis of space to which each of the first three dimensions of the array is parallel; an empty optional if
-// one of them is oblique.
+// Returns the axis of space to which each of the first three dimensions of the array is parallel. Returns an empty
+// optional if one of these dimensions is oblique.
 std::optional<std::array<std::size_t, 3>> parallelAxes(const IndexToSpaceMatrix& matrix) {
     constexpr double kTolerance = 1e-3;
     std::array<std::size_t, 3> axes{};
@@ -209,7 +210,8 @@ std::optional<std::array<std::size_t, 3>> parallelAxes(const IndexToSpaceMatrix&
     return axes;
 }
 
-// Returns the units that the header states: those of the three dimensions of space, and that of the fourth.
+// Returns the units that the header states: a unit of length for the first three dimensions, and the unit of the
+// fourth.
 AxisUnits statedUnits(const NiftiHeader& header) {
     static constexpr std::array<std::string_view, 4> kLengths{"", "m", "mm", "µm"};
     static constexpr std::array<std::string_view, 7> kTimes{"", "s", "ms", "µs", "Hz", "ppm", "rad/s"};
@@ -221,8 +223,8 @@ AxisUnits statedUnits(const NiftiHeader& header) {
     return units;
 }
 
-// Sets the box and the units of `field`, and the axes and directions of `dimensions`, which must be in the order from
-// the fastest to the slowest.
+// Sets the box and the units of `field`, and the axes and directions of `dimensions`. The order of `dimensions` must be
+// from the fastest to the slowest.
 std::optional<Error> mapDimensions(const NiftiHeader& header, const FieldReadOptions& options,
                                    std::vector<Dimension>& dimensions, FieldArray& field) {
     const AxisUnits units = statedUnits(header);
@@ -263,8 +265,8 @@ std::optional<Error> mapDimensions(const NiftiHeader& header, const FieldReadOpt
     return {};
 }
 
-// Returns the first `size` bytes of the decompressed contents of `file`, a gzip file. `gzip` decompresses `file`, and
-// `unzipped` must contain the bytes that `gzip` has returned so far. The result is in memory if it has at most 4 ·
+// Returns the first `size` decompressed bytes of `file`, a gzip file. `gzip` decompresses `file`; `unzipped` must
+// contain the bytes that `gzip` has already returned. The result is in memory if it has at most 4 ·
 // `options.maxInMemory` bytes, or if `options.newFile` is null. Otherwise, it is in a file that `options.newFile`
 // makes.
 Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
@@ -286,8 +288,8 @@ Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vect
     return FileContents::of(MappedFilePtr(std::move(*to)));
 }
 
-// Returns the stored numbers, which take `size` bytes from the byte `begin` on. If `gzip` is null, these are bytes of
-// `file`; otherwise, they are bytes of the decompressed contents of `file`. For `gzip` and `unzipped`, see unzip().
+// Returns the stored numbers, which take `size` bytes from the byte `begin` on. They are bytes of `file` if `gzip` is
+// null, otherwise of the decompressed contents of `file`. For `gzip` and `unzipped`, see unzip().
 Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
                             std::size_t begin, std::size_t size, const FieldReadOptions& options) {
     if (gzip != nullptr) {

@@ -16,8 +16,8 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::string_view kMagic("\x93NUMPY", 6);
-constexpr std::size_t kMaxHeader = 65'536;       // bytes; NumPy writes less than 200 for an array of numbers
-constexpr std::size_t kMaxNumpyDimensions = 32;  // the limit of NumPy 1
+constexpr std::size_t kMaxHeader = 65'536;       // in bytes; NumPy writes less than 200 for an array of numbers
+constexpr std::size_t kMaxNumpyDimensions = 32;  // the maximum number of dimensions of an array in NumPy 1
 constexpr std::size_t kMaxSize = std::size_t{1} << 48U;
 
 struct NpyHeader {
@@ -26,7 +26,7 @@ struct NpyHeader {
     std::vector<std::size_t> shape;
 };
 
-// Parses the header, a dictionary literal of Python: {'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }.
+// Parses the header of a .npy file, a Python dictionary: {'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }.
 // Accepts only these three members, in any order.
 class HeaderParser {
   public:
@@ -102,7 +102,7 @@ class HeaderParser {
         if (!take('(')) return false;
         while (!take(')')) {
             if (numbers.size() == kMaxNumpyDimensions || !takeNumber(numbers.emplace_back())) return false;
-            if (!take(',') && (numbers.size() == 1 || !next(')'))) return false;  // in Python, (3) is a number
+            if (!take(',') && (numbers.size() == 1 || !next(')'))) return false;  // (3) is a number, not a tuple
         }
         return true;
     }
@@ -146,7 +146,7 @@ Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& opt
     const std::vector<std::size_t> kept = dimensionsWithAxes(shape);
     auto axes = parseAxes(options.axes, kept.size());
     if (!axes) return axes.error();
-    // `options.axes` is in the order of the shape in the header, so it is reversed as the shape is.
+    // `options.axes` has the order of the shape in the header, so its axes are reversed like the shape.
     if (header->fortranOrder) std::reverse(axes->begin(), axes->end());
     std::vector<Dimension> dimensions;
     for (std::size_t i = 0; i < kept.size(); ++i) dimensions.push_back({shape[kept[i]], (*axes)[i]});

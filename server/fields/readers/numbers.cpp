@@ -23,7 +23,7 @@ struct Half {
 
 float valueOf(Boolean stored) { return stored.byte != 0 ? 1.F : 0.F; }
 
-// IEEE 754 binary16: 5 bits of exponent, 10 of fraction.
+// Converts an IEEE 754 binary16, which has 5 bits of exponent and 10 of fraction.
 float valueOf(Half stored) {
     const int exponent = stored.bits >> 10U & 0x1f, fraction = stored.bits & 0x3ff;
     float magnitude = std::ldexp(static_cast<float>(fraction + (exponent > 0 ? 1024 : 0)), std::max(exponent, 1) - 25);
@@ -136,7 +136,8 @@ bool NumberFormat::isPlain() const {
 }
 
 double NumberFormat::roundedToType(double number) const {
-    // Files may state the greatest 32-bit float as 3.4028235e38, a decimal number that is slightly greater.
+    // A file may state the greatest 32-bit float as 3.4028235e38, a decimal number that is slightly greater than this
+    // float.
     constexpr double kMost{std::numeric_limits<float>::max()}, kRoundedToMost = kMost * (1 + 0x1p-25);
     if (type != NumberType::f4 || !(std::abs(number) < kRoundedToMost)) return number;
     return double{static_cast<float>(std::clamp(number, -kMost, kMost))};

@@ -1,5 +1,5 @@
 #pragma once
-// The number types in files, and their conversion to 32-bit floats.
+// The types of numbers in files, and the conversion of numbers to 32-bit floats.
 
 #include <array>
 #include <cstddef>
@@ -18,7 +18,7 @@ enum class NumberType : std::uint8_t { boolean, i1, u1, i2, u2, i4, u4, i8, u8, 
 /// Returns the size of a number in bytes.
 std::size_t sizeOf(NumberType type);
 
-/// How numbers are stored, and what they stand for.
+/// The format of stored numbers: how they are stored, and which values they stand for.
 struct NumberFormat {
     NumberType type = NumberType::f4;
     bool bigEndian = false;
@@ -27,24 +27,24 @@ struct NumberFormat {
     double min = -std::numeric_limits<double>::infinity();  ///< stored numbers outside min … max stand for no value
     double max = std::numeric_limits<double>::infinity();
 
-    /// Returns whether all stored numbers stand for themselves: no scale, no offset, no missing numbers, no limits.
+    /// Returns whether all stored numbers stand for themselves: there is no scale, offset, missing number or limit.
     bool isPlain() const;
 
-    /// Returns the number of the type `type` that is closest to `number`; returns `number` unchanged for types other
-    /// than f4. A file of 32-bit floats may state a missing value or a limit as a double or in decimal notation, such
-    /// as 0.1, which equals no 32-bit float.
+    /// Returns the number of the type `type` that is closest to `number`. For types other than f4, returns `number`. A
+    /// file of 32-bit floats may state a missing value or a limit as a double or in decimal notation, such as 0.1,
+    /// which is not equal to a 32-bit float.
     double roundedToType(double number) const;
     /// Applies roundedToType() to `missing`, `min` and `max`.
     void roundLimitsToType();
 };
 
-/// Returns the format of a NumPy type string, such as "<f4": a byte order (< little, > big, = or | that of this
-/// processor), a kind and a size in bytes. Returns an empty optional if the type is not one of NumberType.
+/// Returns the format for a NumPy type string such as "<f4": a byte order (< little, > big, = or | this processor's), a
+/// kind and a size in bytes. Returns an empty optional if the type is not one of NumberType.
 std::optional<NumberFormat> numberFormatOf(std::string_view descr);
 
-/// The sizes of a block of stored numbers, and where the numbers go: relative to the first number, the number with the
-/// indices i[0] … i[3] goes to the position i[0] · stride[0] + … + i[3] · stride[3]. The dimensions are those of the
-/// stored numbers; the last one varies fastest.
+/// The sizes of a block of stored numbers, and the places to which the numbers go. The number with the indices i[0] …
+/// i[3] goes to i[0] · stride[0] + … + i[3] · stride[3], relative to the place of the first number. The dimensions are
+/// those of the stored numbers; the last one varies fastest.
 struct StridedLayout {
     std::array<std::size_t, 4> size;
     std::array<std::ptrdiff_t, 4> stride;
@@ -52,8 +52,8 @@ struct StridedLayout {
 
 /// Converts the numbers of a block to the nearest 32-bit floats. `from` points to the stored numbers, which need not be
 /// aligned; `to` is the place of the first number. Numbers that stand for no value, and finite numbers beyond the
-/// largest float, become NaN. Infinite numbers become NaN or remain infinite; ArrayFunction treats both as missing
-/// samples.
+/// largest float, become NaN. Infinite numbers become NaN or stay infinite, both of which ArrayFunction treats as
+/// missing samples.
 void convertToFloats(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to);
 
 }  // namespace oval4d::fields

@@ -1,5 +1,5 @@
 #pragma once
-// Where readers put the samples that they convert.
+// The memory into which readers of files convert samples.
 
 #include <cstddef>
 #include <memory>
@@ -12,18 +12,19 @@
 
 namespace oval4d::fields {
 
-/// Memory for samples, of the first kind that applies: FieldReadOptions::into, if it has the right size; a new file, if
-/// FieldReadOptions::newFile is set and there are more samples than FieldReadOptions::maxInMemory; a vector.
+/// Memory for samples that a reader converts. It is FieldReadOptions::into if that has the right size. Otherwise, it is
+/// a new file if FieldReadOptions::newFile is set and there are more samples than FieldReadOptions::maxInMemory.
+/// Otherwise, it is a vector.
 class SampleBuffer {
   public:
-    /// Errors: those of FieldReadOptions::newFile.
+    /// Makes a buffer for `count` samples. Errors: those of FieldReadOptions::newFile.
     static Result<SampleBuffer> of(std::size_t count, const FieldReadOptions& options);
 
     std::span<float> values() { return values_; }
-    /// Releases the resident pages of the file, if there is one.
+    /// Releases the resident pages of the new file, if the samples are in one.
     void releasePages() const;
-    /// Returns the samples, which own their memory unless it is FieldReadOptions::into. This object must not be used
-    /// afterward.
+    /// Returns the samples, which own their memory unless it is FieldReadOptions::into. After the call, this object
+    /// must not be used.
     SampleStorage take();
 
   private:

@@ -20,10 +20,10 @@ namespace oval4d::fields {
 
 namespace {
 
-constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // maximum size of a metadata file, in bytes
+constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // the maximum size of a metadata file, in bytes
 
-// Returns a reader of metadata files. It keeps their texts, because the same file is asked for several times, and each
-// may be a request to a remote store.
+// Returns a function that reads metadata files. The function keeps their texts, because readZarr() needs the same file
+// several times, and reading a file may be a request to a remote store.
 FolderTextReader textsOf(const FolderFileReader& folder) {
     using Texts = std::map<std::string, std::optional<std::string>>;
     return [&folder, known = Texts()](const std::string& path) mutable -> Result<std::optional<std::string>> {
@@ -42,7 +42,7 @@ FolderTextReader textsOf(const FolderFileReader& folder) {
     };
 }
 
-// Reads the coordinates of a dimension from the array at `path`, which lies beside the array of the samples and has the
+// Reads the coordinates of a dimension from the array at `path`, which is next to the array of samples and has the
 // dimension's name. Sets `units` and `stated` from the attributes of the array at `path`. Returns an empty optional if
 // there is no such array, if it cannot be read, or if the dimension is empty.
 std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, const ZarrFolder& zarr,
@@ -55,9 +55,9 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
     units = quantityText(array.text("units"));
     stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
               array.text("positive")};
-    array.format.missing.clear();  // coordinates are never missing, whatever the fill value is
+    array.format.missing.clear();  // coordinates are never missing, even if they equal the fill value
     // Times are often large numbers with small differences, which 32-bit floats could not represent. Therefore the
-    // coordinates are converted as differences from the first coordinate.
+    // coordinates are read as differences from the first coordinate.
     std::vector<float> values(size);
     const double offset = array.format.offset;
     const auto read = [&] {
@@ -74,11 +74,12 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
     return at;
 }
 
-// Returns the dimensions with their axes. Sets the box and the units of `field`, and adds warnings to it.
+// Returns the dimensions in `kept` with their axes. Sets the box and the units of `field`, and adds warnings to
+// `field`.
 Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, const ZarrFolder& zarr,
                                              const ZarrArrayMetadata& array, const std::vector<std::size_t>& kept,
                                              const FieldReadOptions& options, FieldArray& field) {
-    auto axes = parseAxes(options.axes, kept.size());  // also checks the number of dimensions
+    auto axes = parseAxes(options.axes, kept.size());  // parseAxes() also checks the number of dimensions
     if (!axes) return axes.error();
     const auto ofImage = zarr.coordinatesOf(array.path);
     const bool imageStatesCoordinates = ofImage && ofImage->dimensions.size() == array.shape.size();
@@ -133,7 +134,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
     return dimensions;
 }
 
-// Returns the error that there is no array at `path`.
+// Returns the error `not_found` for an array that does not exist, with the path of the array.
 Error missingArray(const ZarrFolder& zarr, const std::string& path) {
     std::vector<std::string_view> names;
     const auto chosen = zarr.chooseArray();
@@ -142,16 +143,16 @@ Error missingArray(const ZarrFolder& zarr, const std::string& path) {
             "the Zarr folder has no array " + text::inQuotes(path) + text::didYouMean(path, names)};
 }
 
-// The samples of an axis that are read: `count` of them, from the index `first` on.
+// A range of samples of an axis: `count` samples, from the index `first` on.
 struct AxisPart {
     std::size_t first, count;
 };
 
-// Returns the samples of an axis that cover the interval from `from` to `to` as far as possible or, if the interval has
-// no length, the sample nearest to it. The first and the last of the `samples` samples have the coordinates `min` and
-// `max`. Returns all samples if these are not valid.
+// Returns the samples of an axis that cover the interval from `from` to `to` as far as possible. If the interval has no
+// length, returns the nearest sample. The coordinates of the first and the last sample are `min` and `max`. Returns all
+// samples if `min` and `max` are not valid.
 AxisPart samplesCovering(double from, double to, double min, double max, std::size_t samples) {
-    constexpr double kTolerance = 1e-6;  // in distances between samples; allows for rounded coordinates
+    constexpr double kTolerance = 1e-6;  // in distances between samples; allows for the rounding of coordinates
     if (samples <= 1 || !(min < max) || !std::isfinite(max - min)) return {0, samples};
     const double last = static_cast<double>(samples) - 1;
     const auto position = [&](double at) { return std::clamp((at - min) / (max - min) * last, 0.0, last); };
@@ -165,14 +166,14 @@ AxisPart samplesCovering(double from, double to, double min, double max, std::si
 struct ArrayPart {
     ZarrArrayMetadata array;
     IndexBox indices;
-    std::vector<std::size_t> kept;      // see dimensionsWithAxes()
-    std::vector<Dimension> dimensions;  // those in `kept`, with the sizes of the part
-    FieldArray field;                   // without its shape and its samples
-    std::uint32_t finer = 0;            // see ImageLevel
+    std::vector<std::size_t> kept;      // the dimensions that become axes (see dimensionsWithAxes())
+    std::vector<Dimension> dimensions;  // the dimensions in `kept`, with the sizes of the part
+    FieldArray field;                   // the array, without its shape and its samples
+    std::uint32_t finer = 0;            // see ImageLevel::finer
 };
 
-// Restricts a part, which is the whole array, to the samples that cover `region`. Error: `out_of_range` if the region
-// lies beyond the box of the array, unless `mayLieBeyond` is true.
+// Restricts a part, which must be the whole array, to the samples that cover `region`. Error: `out_of_range` if the
+// region lies beyond the box of the array, unless `mayLieBeyond` is true.
 std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart& part) {
     Box& box = part.field.box;
     for (std::size_t i = 0; i < part.kept.size(); ++i) {
@@ -198,8 +199,9 @@ std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart&
     return {};
 }
 
-// Returns the part of an array that the options select. `isCoarser`: whether the array is a level of an image, but not
-// the finest one. Its samples may lie between those of the finest level, and then do not reach the ends of that box.
+// Returns the part of an array that the options select. `isCoarser` says whether the array is a level of an image, but
+// not the finest level. Its samples may then lie between those of the finest level, and not reach the ends of the box
+// of the finest level.
 Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
                          const FieldReadOptions& options, bool isCoarser = false) {
     ArrayPart part{std::move(array), {}, {}, {}, {}};
@@ -209,7 +211,7 @@ Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr,
     if (!dimensions) return dimensions.error();
     part.dimensions = std::move(*dimensions);
     FieldArray& field = part.field;
-    Shape shape{1, 1, 1, 1};  // of the whole array
+    Shape shape{1, 1, 1, 1};  // the shape of the whole array
     for (const Dimension& each : part.dimensions) shape.at(each.axis) = each.size;
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
     if (!field.boxIsKnown) field.box = defaultBox(shape, time);
@@ -221,8 +223,8 @@ Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr,
     return part;
 }
 
-// Returns the part that the options select of the array that they name or, without a name, of the array that readZarr()
-// chooses.
+// Returns the selected part of an array. The options select the array by name, and the part by a region. Without a
+// name, chooses the array as readZarr() describes.
 Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& zarr, const FieldReadOptions& options) {
     std::string path = options.variable;
     while (path.starts_with('/')) path.erase(0, 1);
@@ -236,7 +238,7 @@ Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& z
     if (options.level && (!chosen->areLevels || *options.level >= candidates.size()))
         return Error{ErrorCode::not_found, "the image has no level " + std::to_string(*options.level)};
     const std::size_t maxInMemory = std::min(options.maxSamples, options.maxInMemory);
-    std::size_t finest = candidates.size();  // the finest level that fits into memory
+    std::size_t finest = candidates.size();  // the index of the finest level that fits into memory
     for (std::size_t i = 0;; ++i) {
         auto array = zarr.array(candidates[i]);
         if (!array) return array.error();
@@ -273,7 +275,7 @@ Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& z
     }
 }
 
-// Returns which level of a multiscale image the array is.
+// Returns the level of a multiscale image that the array at `path` is.
 ImageLevel levelOf(const ZarrFolder& zarr, const std::string& path) {
     const auto chosen = zarr.chooseArray();
     if (!chosen || !chosen->areLevels) return {};
@@ -296,7 +298,7 @@ Result<FieldArray> readZarr(const FolderFileReader& folder, const FieldReadOptio
     field.shape = mapping->shape();
     auto buffer = SampleBuffer::of(mapping->count(), options);
     if (!buffer) return buffer.error();
-    std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for the dimensions that are left out
+    std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for dimensions that are not in `kept`
     for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = mapping->layout().stride.at(4 - kept.size() + i);
     const auto read =
         ChunkReader(folder, array, part->indices)
@@ -304,7 +306,7 @@ Result<FieldArray> readZarr(const FolderFileReader& folder, const FieldReadOptio
     if (!read) return read.error();
     field.samples = buffer->take();
     field.quantity = {quantityText(array.text("long_name")), quantityText(array.text("units"))};
-    // The path of a level of a multiscale image is a number, which says nothing about the quantity.
+    // The path of a level of a multiscale image is a number, which is no name of a quantity.
     if (field.quantity.name.empty() && !zarr.coordinatesOf(array.path))
         field.quantity.name = quantityText(array.path.substr(array.path.rfind('/') + 1));
     field.imageLevel = levelOf(zarr, array.path);

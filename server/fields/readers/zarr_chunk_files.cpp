@@ -48,7 +48,8 @@ Result<std::optional<FileContents>> ZarrChunkFiles::contentsOf(const std::vector
     return chunk;
 }
 
-// Reads the index of a shard, which may be missing. Errors: `bad_field` if the shard is damaged; those of the folder.
+// Reads the index of a shard. The shard may be missing. Errors: `bad_field` if the shard is damaged; those of the
+// folder.
 std::optional<Error> ZarrChunkFiles::readIndexOf(std::string shard) {
     auto stored = folder_(shard, partOfShardIndex(*array_.shards));
     if (!stored) return stored.error();

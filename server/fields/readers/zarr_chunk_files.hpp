@@ -14,32 +14,33 @@
 
 namespace oval4d::fields {
 
-/// Finds the stored bytes of the chunks of an array. Each chunk is a file or a part of a shard, of which only the index
-/// and the chunks that are needed are read. Keeps the index of the shard that was read last.
+/// Finds the stored bytes of the chunks of an array. A chunk is a file or a part of a shard; of a shard, only the index
+/// and the needed chunks are read. Keeps the index of the shard that was read last.
 class ZarrChunkFiles {
   public:
     /// `folder` and `array` must outlive this object.
     ZarrChunkFiles(const FolderFileReader& folder, const ZarrArrayMetadata& array) : folder_(folder), array_(array) {}
 
-    /// Returns the stored bytes of the chunk with these indices; an empty optional if the chunk is missing. Errors:
-    /// `bad_field` if its shard is damaged; those of the folder.
+    /// Returns the stored bytes of the chunk with these indices. Returns an empty optional if the chunk is missing.
+    /// Errors: `bad_field` if the shard of the chunk is damaged; those of the folder.
     Result<std::optional<FileContents>> contentsOf(const std::vector<std::size_t>& index);
 
-    /// Returns what errors call the chunk, such as "the chunk 'c/0/0'".
+    /// Returns the name of the chunk in error messages, such as "the chunk 'c/0/0'".
     std::string nameOf(const std::vector<std::size_t>& index) const;
 
   private:
     struct ChunkPlace {
-        std::string path;    // of the file
-        std::size_t number;  // of the chunk among the chunks of its shard
+        std::string path;    // the path of the chunk's file or shard
+        std::size_t number;  // the number of the chunk among the chunks of its shard
     };
     ChunkPlace placeOf(std::vector<std::size_t> index) const;
     std::optional<Error> readIndexOf(std::string shard);
 
     const FolderFileReader& folder_;
     const ZarrArrayMetadata& array_;
-    std::string shardPath_;                    // of the shard whose index was read last
-    std::optional<FileContents> storedIndex_;  // with its checksum; empty if there is no such shard
+    std::string shardPath_;                    // the path of the shard whose index was read last
+    std::optional<FileContents> storedIndex_;  // the index of this shard and its checksum; empty if there is no such
+                                               // shard
     std::span<const std::byte> shardIndex_;    // the part of `storedIndex_` before the checksum
 };
 

@@ -21,30 +21,31 @@
 
 namespace oval4d::fields {
 
-/// A part of an array: for each dimension, its first index and the number of its indices.
+/// A part of an array: for each dimension, the first index and the number of indices.
 struct IndexBox {
     std::vector<std::size_t> first, size;
 };
 
-/// Reads the chunks of an array that have numbers of a part of the array.
+/// Reads the chunks of an array that contain numbers of a part of the array.
 class ChunkReader {
   public:
     ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array, IndexBox part)
         : chunks_(folder, array), array_(array), part_(std::move(part)) {}
 
-    /// Converts the numbers of the part. `stride` has, for each dimension, the distance in `to` between neighbors along
-    /// this dimension; `first` is the place of the part's first number in `to`. `to` must contain only zeros before the
-    /// call, because missing chunks whose fill value is 0 are skipped. Calls `afterward` about once per kNumbers
-    /// numbers, so that the caller can release memory.
+    /// Reads and converts the numbers of the part. `stride` has, for each dimension, the distance in `to` between
+    /// neighbors along this dimension; `first` is the place in `to` of the part's first number. Before the call, `to`
+    /// must contain only zeros, because missing chunks whose fill value is 0 are skipped. Calls `afterward` about once
+    /// per kNumbers numbers, so that the caller can release memory.
     template <typename Afterward>
     Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
                                 const Afterward& afterward) {
-        constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // numbers between two calls
+        constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // the number of numbers between two calls of
+                                                                 // `afterward`
         const std::size_t rank = array_.shape.size();
-        // Chunks are read shard by shard, so that the index of each shard is read once. Without shards, each chunk
-        // counts as a shard of its own.
+        // Chunks are read shard by shard, so that the index of each shard is read only once. Without shards, each chunk
+        // counts as a shard.
         const Indices perShard = array_.shards ? array_.shards->chunks : Indices(rank, 1);
-        Indices begin(rank), end(rank), beginShard(rank), endShard(rank);  // of the part
+        Indices begin(rank), end(rank), beginShard(rank), endShard(rank);  // the chunks and the shards of the part
         for (std::size_t i = 0; i < rank; ++i) {
             begin[i] = part_.first[i] / array_.chunk[i];
             end[i] = begin[i] + 1 + (part_.first[i] % array_.chunk[i] + part_.size[i] - 1) / array_.chunk[i];
@@ -74,8 +75,8 @@ class ChunkReader {
   private:
     using Indices = std::vector<std::size_t>;
 
-    // Moves `index` to the next place in C order among those from `begin` to `end` − 1 along each dimension. Returns
-    // false after the last place.
+    // Moves `index` to the next place in C order. Along each dimension, the places are from `begin` to `end` − 1.
+    // Returns false after the last place.
     static bool advance(Indices& index, const Indices& begin, const Indices& end) {
         for (std::size_t i = index.size(); i-- > 0;) {
             if (++index[i] < end[i]) return true;
@@ -107,19 +108,19 @@ class ChunkReader {
         return std::monostate{};
     }
 
-    // The indices in a chunk, along one dimension, from `begin` to `end` − 1.
+    // A range of indices in a chunk along one dimension: from `begin` to `end` − 1.
     struct IndexRange {
         std::size_t begin, end;
     };
 
-    // Returns the indices along a dimension that are both in the chunk `index` and in the part.
+    // Returns the range of indices, along a dimension of the chunk `index`, that are in the part.
     IndexRange rangeWithin(const std::vector<std::size_t>& index, std::size_t dimension) const {
         const std::size_t chunk = index[dimension] * array_.chunk[dimension], first = part_.first[dimension];
         return {std::max(first, chunk) - chunk,
                 std::min(array_.chunk[dimension], first + part_.size[dimension] - chunk)};
     }
 
-    // Converts the numbers of the chunk `index` that are in the part, row by row. `from` is the decompressed chunk.
+    // Converts, row by row, the numbers of the chunk `index` that are in the part. `from` is the decompressed chunk.
     void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
               float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
@@ -129,29 +130,29 @@ class ChunkReader {
     }
 
     void fill(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, float* to) const {
-        // The fill value is converted like all other stored numbers.
+        // The fill value is a stored number, so it is converted like all others.
         NumberFormat format = array_.format;
         format.type = NumberType::f8;
         format.bigEndian = std::endian::native == std::endian::big;
         float value = 0;
         convertToFloats(format, reinterpret_cast<const std::byte*>(&array_.fill), {{1, 1, 1, 1}, {0, 0, 0, 0}}, &value);
-        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // `to` contains only zeros before read() is called
+        if (std::bit_cast<std::uint32_t>(value) == 0) return;  // `to` already contains zeros
         visitRows(index, stride, [&](std::size_t, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
             for (std::size_t i = 0; i < count; ++i) to[at + static_cast<std::ptrdiff_t>(i) * step] = value;
         });
     }
 
-    // Visits the stored rows of a chunk that have numbers of the part. Calls `visit` for each row with four numbers:
-    // the index in the chunk of the row's first number that is in the part; the place of this number in `to`, relative
-    // to the place of the part's first number; how many numbers of the row are in the part; and the distance between
-    // their places in `to`.
+    // Visits the stored rows of a chunk that have numbers in the part. Calls `visit` for each row with four numbers:
+    // the index in the chunk of the row's first number in the part; the place of this number in `to`, relative to that
+    // of the part's first number; the number of the row's numbers in the part; and the distance between their places in
+    // `to`.
     template <typename Visit>
     void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                    const Visit& visit) const {
         const std::vector<std::size_t>& order = array_.order;
         const std::size_t rank = order.size(), fastest = order.back();
         std::vector<IndexRange> range(rank);
-        std::vector<std::size_t> i(rank);  // indices in the chunk, in the order of storage
+        std::vector<std::size_t> i(rank);  // the indices of a row in the chunk, in the order of storage
         for (std::size_t d = 0; d < rank; ++d) {
             range[d] = rangeWithin(index, order[d]);
             i[d] = range[d].begin;

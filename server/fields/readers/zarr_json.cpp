@@ -27,7 +27,7 @@ std::string withoutNan(std::string text) {
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\\' && inString) {
-            ++i;  // the escaped character, which may be a quote, does not end the string
+            ++i;  // skips the escaped character: an escaped quote does not end the string
             continue;
         }
         if (text[i] == '"') inString = !inString;

@@ -11,28 +11,29 @@
 
 namespace oval4d::fields {
 
-/// Returns the error `bad_field` for metadata that are not valid.
+/// Returns the error `bad_field` for metadata that are not valid, with the reason.
 Error badMetadata(std::string reason);
 
-/// Returns a value in quotes, for error messages: a string in full, and of any other value the first 60 characters of
-/// its JSON text.
+/// Returns a value in quotes, for error messages. Returns a string in full, and the first 60 characters of the JSON
+/// text of any other value.
 std::string quoted(const nlohmann::json& value);
 
-/// Returns the text of a file with NaN and Infinity, which Python writes into JSON files, replaced by null.
+/// Returns the text of a JSON file, with NaN and Infinity, which Python writes into such files, replaced by null.
 std::string withoutNan(std::string text);
 
-/// Returns a member of an object; null if there is none, if it is null, or if `object` is no object.
+/// Returns a member of an object. Returns null if `object` is not an object, or if the member does not exist or is
+/// null.
 const nlohmann::json* member(const nlohmann::json& object, std::string_view name);
 
-/// Returns a member that is a string; an empty string if there is none.
+/// Returns a member that is a string. Returns an empty string if there is no such member, or if it is not a string.
 std::string textIn(const nlohmann::json& object, std::string_view name);
 
-/// Returns a number, 1 or 0 for true or false, and NaN or an infinity for the strings "NaN", "Infinity" and
-/// "-Infinity"; an empty optional for other values.
+/// Returns the number that a value stands for: a number itself; 1 or 0 for true or false; NaN or an infinity for the
+/// strings "NaN", "Infinity" and "-Infinity". Returns an empty optional for other values.
 std::optional<double> numberIn(const nlohmann::json& value);
 
-/// Returns the number that a text encodes: a little-endian double in Base64 (RFC 4648), as xarray writes the attribute
-/// _FillValue of floats in version 3; an empty optional for any other text.
+/// Returns the number that a text encodes as a little-endian double in Base64 (RFC 4648). xarray writes the attribute
+/// _FillValue of floats in this form in version 3. Returns an empty optional for any other text.
 std::optional<double> base64DoubleIn(const std::string& text);
 
 }  // namespace oval4d::fields

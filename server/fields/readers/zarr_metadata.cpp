@@ -21,15 +21,16 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMaxZarrDimensions = 32;
-constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // maximum size of a decompressed chunk
-constexpr std::size_t kMaxArrays = 10'000;                       // maximum number of arrays among which one is chosen
+constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // the maximum size of a decompressed chunk, in bytes
+constexpr std::size_t kMaxArrays = 10'000;                       // the maximum number of arrays among which one is
+                                                                 // chosen
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Error unsupported(const std::string& what) {
     return {ErrorCode::unsupported_format, "the Zarr array has " + what + ", which the server does not read"};
 }
 
-// Returns the sizes of dimensions in the member `name`: a list of integers, each of them at least `least`.
+// Returns the member `name` of `object`, which must be a list of sizes: integers, each of them at least `least`.
 Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view name, std::size_t least) {
     const json* const list = member(object, name);
     const auto what = std::string(name);
@@ -47,8 +48,8 @@ Result<std::vector<std::size_t>> sizesIn(const json& object, std::string_view na
     return sizes;
 }
 
-// Returns the fill value, which all numbers of a missing chunk have; NaN if the metadata state none. Version 3 may
-// state the bits of a float as a hexadecimal number.
+// Returns the fill value, which is the value of all numbers of a missing chunk. Returns NaN if the metadata state none.
+// In version 3, a hexadecimal number may state the bits of a float.
 Result<double> fillIn(const json& metadata, const NumberFormat& format) {
     const json* const value = member(metadata, "fill_value");
     if (value == nullptr) return kNone;
@@ -134,10 +135,10 @@ Result<std::monostate> parseCodecs(const json& metadata, ZarrArrayMetadata& arra
             if (!shards) return shards.error();
             array.shards = std::move(*shards);
             array.chunk = std::move(*chunk);
-            return parseCodecs(configuration, array);  // those of the chunks
+            return parseCodecs(configuration, array);  // the codecs of the chunks
         }
         if (name == "transpose" && !hasBytes) {
-            // Composes this transposition with the earlier transpositions in array.order.
+            // The new transposition applies after the earlier transpositions, which array.order contains.
             auto order = sizesIn(configuration, "order", 0);
             if (!order) return order.error();
             std::vector<std::size_t> sorted = *order, transposed;
@@ -248,7 +249,7 @@ Result<ZarrArrayMetadata> checked(ZarrArrayMetadata array) {
     return array;
 }
 
-// Applies a transformation of an image, a scale or a translation, to the coordinates of its samples.
+// Applies a scale or a translation of a multiscale image to the coordinates of its samples.
 void transform(const json& transformation, ZarrCoordinates& coordinates) {
     for (const std::string_view kind : {"scale", "translation"}) {
         const json* const numbers = member(transformation, kind);
@@ -265,8 +266,8 @@ void transform(const json& transformation, ZarrCoordinates& coordinates) {
     }
 }
 
-// Returns whether a path stays inside its folder. Returns false if one of the names in the path is empty, "." or "..",
-// or contains a null character.
+// Returns whether a path stays inside its folder. Returns false if a name in the path is empty, "." or "..", or
+// contains a null character.
 bool isInside(std::string_view path) {
     for (std::size_t begin = 0; begin <= path.size() && !path.empty();) {
         const std::size_t end = std::min(path.find('/', begin), path.size());
@@ -368,7 +369,7 @@ std::optional<ZarrCoordinates> ZarrFolder::coordinatesOf(const std::string& path
     for (const auto& axis : *axes)
         coordinates.dimensions.push_back(
             {axis.is_string() ? axis.get<std::string>() : textIn(axis, "name"), textIn(axis, "unit")});
-    // The transformations of the level apply first, then those of the image (OME-NGFF 0.4, section "multiscales").
+    // The transformations of the level apply before those of the image (OME-NGFF 0.4, section "multiscales").
     for (const nlohmann::json* const owner : {&*level, &image}) {
         const nlohmann::json* const transformations = member(*owner, "coordinateTransformations");
         if (transformations == nullptr || !transformations->is_array()) continue;
@@ -390,7 +391,7 @@ Result<ZarrFolder::ChosenArray> ZarrFolder::chooseArray() const {
             return chosen;
         }
     }
-    // The consolidated metadata contain the metadata of all arrays; only the paths of the arrays are used here.
+    // The consolidated metadata contain the metadata of all arrays, but only the paths of the arrays are used here.
     std::set<std::string> paths;
     if (const auto group = json("zarr.json"); group && *group) {
         const nlohmann::json* const all = member(**group, "consolidated_metadata");

@@ -17,7 +17,8 @@ using nlohmann::json;
 namespace {
 
 constexpr std::size_t kMaxChunks = std::size_t{1} << 22U;       // the maximum number of chunks in a shard
-constexpr std::size_t kEntryBytes = 2 * sizeof(std::uint64_t);  // in the index: the offset and the size of a chunk
+constexpr std::size_t kEntryBytes = 2 * sizeof(std::uint64_t);  // the size of an entry of the index: the offset and the
+                                                                // size of a chunk
 constexpr std::size_t kChecksumBytes = sizeof(std::uint32_t);
 
 Error damagedShard(const std::string& why) { return {ErrorCode::bad_field, why}; }

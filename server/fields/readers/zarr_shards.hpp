@@ -13,7 +13,7 @@
 
 namespace oval4d::fields {
 
-/// How chunks lie in a shard. An index at the start or the end of the shard has the place of each chunk.
+/// The layout of a shard. An index at the start or the end of the shard states the place of each chunk.
 struct ShardLayout {
     std::vector<std::size_t> chunks;  ///< the number of chunks along each dimension
     bool indexAtStart = false;
@@ -23,22 +23,22 @@ struct ShardLayout {
     std::size_t chunkCount() const;
 };
 
-/// Returns the layout that the configuration of the codec states. `shard` and `chunk` are the sizes of a shard and of
-/// its chunks along each dimension. Errors: `bad_field`; `unsupported_format` if the index is compressed; `too_large`
-/// if a shard has more than 2^22 chunks.
+/// Returns the layout of shards from the configuration of their codec. `shard` and `chunk` are the sizes of a shard and
+/// of its chunks along each dimension. Errors: `bad_field`; `unsupported_format` if the index is compressed;
+/// `too_large` if a shard has more than 2^22 chunks.
 Result<ShardLayout> shardLayoutIn(const nlohmann::json& configuration, const std::vector<std::size_t>& shard,
                                   const std::vector<std::size_t>& chunk);
 
 /// Returns the part of a shard that contains its index and the checksum of the index.
 FilePart partOfShardIndex(const ShardLayout& layout);
 
-/// Returns the index of a shard without its checksum. `stored`: the bytes of partOfShardIndex(). Error: `bad_field` if
-/// the file has fewer bytes, or if the checksum is wrong.
+/// Returns the index of a shard without its checksum. `stored` are the bytes of partOfShardIndex(). Error: `bad_field`
+/// if there are fewer bytes, or if the checksum is wrong.
 Result<std::span<const std::byte>> checkedShardIndex(std::span<const std::byte> stored, const ShardLayout& layout);
 
-/// Returns the part of a shard that contains a chunk, as the index states it: it may lie beyond the end of the file.
-/// Returns an empty optional if the shard does not have the chunk. `index` is the result of checkedShardIndex(), and
-/// `number` the place of the chunk among the chunks of the shard, in C order.
+/// Returns the part of a shard that contains a chunk, as stated in the index; it may lie beyond the end of the file.
+/// Returns an empty optional if the shard does not have the chunk. `index` is the result of checkedShardIndex().
+/// `number` is the place of the chunk among the chunks of the shard, in C order.
 std::optional<FilePart> chunkInShard(std::span<const std::byte> index, const ShardLayout& layout, std::size_t number);
 
 }  // namespace oval4d::fields
