@@ -10,7 +10,7 @@ import sys
 
 import numpy
 
-SAMPLES = 72  # along each axis
+SAMPLES = 72  # the number of samples along each axis
 REACH = 1.15
 C = (-0.2, 0.8)
 ITERATIONS = 12
@@ -35,7 +35,7 @@ def main():
     axis = numpy.linspace(-REACH, REACH, SAMPLES)
     squares, place = numpy.unique(numpy.add.outer(axis ** 2, axis ** 2).round(9), return_inverse=True)
     values = distances(axis[:, None, None], axis[None, :, None], numpy.sqrt(squares)[None, None, :])
-    # The axes t, z, y, x of the array are the real part, i, j and k.
+    # The array has the axes t, z, y, x; they are the real part and the factors of i, j and k.
     numpy.save(sys.argv[1], values[:, :, place.reshape(SAMPLES, SAMPLES)].astype(numpy.float32))
 
 

@@ -20,9 +20,9 @@ using serialization::ByteWriter;
 
 namespace {
 
-// Limits on the errors and warnings that the server accepts from a reader process, because a malicious file may control
-// that process. Usual errors and warnings are far below these limits.
-constexpr std::size_t kMaxText = 2000;  // bytes
+// Limits on the errors and warnings that the server accepts from a reader process. A malicious file may control the
+// process. Usual errors and warnings are far below these limits.
+constexpr std::size_t kMaxText = 2000;  // in bytes, for each error or warning
 constexpr std::size_t kMaxWarnings = 100;
 
 enum class OutcomeKind : std::uint8_t {
@@ -52,8 +52,8 @@ std::string textFrom(ByteReader& archive) {
     return text::printable(text, kMaxText);
 }
 
-/// Returns the size in bytes of the samples that the encoded outcome contains. Arrays with more than `maxInMemory`
-/// samples do not count, because the outcome only refers to the mapped files with their samples.
+/// Returns the size in bytes of the samples that the encoded outcome contains. The samples of arrays with more than
+/// `maxInMemory` samples do not count: they are in mapped files, to which the outcome refers.
 std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) {
     const fields::Field* const field = slicing::fieldIn(object);
     std::size_t bytes = 0;
@@ -65,7 +65,7 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
 }
 
 // Encodes or decodes most members of a request. encodeReadRequest() and decodeReadRequest() share this code, so that
-// they always agree on these members.
+// they agree on these members.
 template <typename Archive, typename Load, typename Limits>
 void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);

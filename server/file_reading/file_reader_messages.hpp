@@ -1,5 +1,5 @@
 #pragma once
-// Messages between the server and its file reader processes.
+// The messages between the server and its file reader processes, which read clients' files in a sandbox.
 
 #include <cstddef>
 #include <string>
@@ -13,42 +13,45 @@
 
 namespace oval4d::file_reading {
 
-/// What a file reader process must read.
+/// A request to a file reader process to read a file, a series of files, or a folder.
 struct ReadRequest {
     session::LoadObject load;  ///< sent without its open files and folder, `dataName`, `continues` and `append`, and
                                ///< without FinerLevel::initialLevel
-    std::size_t seriesLength = 0;  ///< the number of files of a series; further messages carry their descriptors
-    bool isFolder = false;         ///< whether a Zarr folder is read; the reader process asks the server for its files
-    bool mayMap = false;           ///< whether the samples of large arrays may stay in the file or go to a new one
+    std::size_t seriesLength = 0;  ///< the number of files of a series; each descriptor follows in its own
+                                   ///< message
+    bool isFolder = false;         ///< whether to read a Zarr folder, whose files the process requests from the server
+    bool mayMap = false;           ///< whether the samples of large arrays may stay in the file or be written to a new
+                                   ///< file
     session::Limits limits;        ///< only maxVertices, maxHullCells, maxFieldBytes and maxFirstLevelBytes are sent
 };
 
-/// Encodes a request to read the file of `load` within `limits`, and writes it to `out`. `mayMap`: see
+/// Encodes a ReadRequest for the file of `load` within `limits`, and writes it to `out`. For `mayMap`, see
 /// ReadRequest::mayMap.
 void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out);
-/// Decodes the bytes of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
+/// Decodes the result of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
 void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 
-/// A request of a reader process for a file in the folder that it reads.
+/// A request of a file reader process for a file of the folder that it reads.
 struct FindRequest {
     std::string path;       ///< relative to the folder
-    fields::FilePart part;  ///< what the process needs of the file
+    fields::FilePart part;  ///< the part of the file that the process needs
 };
-/// Encodes a request for a file, and writes it to `out`.
+/// Encodes a FindRequest, and writes it to `out`.
 void encodeFindRequest(const FindRequest& request, std::string& out);
-/// Decodes the bytes of encodeFindRequest(), which need not be trusted. Throws std::runtime_error if they are invalid.
+/// Decodes the result of encodeFindRequest(). The bytes need not be trusted: throws std::runtime_error if they are
+/// invalid.
 FindRequest decodeFindRequest(std::string_view bytes);
 
-/// Encodes the result of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
-/// `files` are mapped files, in the order in which the receiver maps them. An array in a mapped file is encoded as a
-/// reference to the file if otherwise more than `maxInMemory` samples would be encoded. Overwrites `out`.
+/// Encodes the outcome of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
+/// Overwrites `out`. `files` are mapped files, in the order in which the receiver maps them. An array with more than
+/// `maxInMemory` samples that is in one of these files is encoded as a reference to the file.
 void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::string& out,
                    slicing::MappedFiles files = {}, std::size_t maxInMemory = fields::kMaxSamples);
 
 /// Decodes the result of encodeOutcome(). `files` are the mapped files to which the bytes may refer. `bytes` need not
-/// be trusted: a malicious file may control the process that sent them. Returns a valid object called `name` with a
-/// bounded number of printable warnings, or an error about the file that can be sent to the client. Throws
-/// std::runtime_error if the bytes are invalid.
+/// be trusted, because a malicious file may control the process that sent them. Returns a valid object named `name`
+/// with a bounded number of printable warnings, or an error that can be sent to the client. Throws std::runtime_error
+/// if the bytes are invalid.
 Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
                                                   const session::Limits& limits,
                                                   const slicing::MappedFiles& files = {});

@@ -21,8 +21,8 @@ using process::WaitLimit;
 
 namespace {
 
-// The nice value of reader processes. Drawing has priority: a reader that shares a core with a rasterizer process gets
-// about a quarter of the CPU time.
+// The nice value of reader processes. Drawing has priority: if a reader process and a rasterizer process (draws
+// pictures) share a core, the reader process gets about a quarter of the CPU time.
 constexpr int kNiceness = 5;
 
 }  // namespace
@@ -33,7 +33,7 @@ FileReaderPool::FileReaderPool(FileReaderOptions options)
 FileReaderPool::~FileReaderPool() {
     replacing_.request_stop();
     replacing_.join();
-    for (const ChildProcessPtr& process : waiting_) process->kill();  // waiting processes have no file to finish
+    for (const ChildProcessPtr& process : waiting_) process->kill();  // a waiting process reads no file
 }
 
 FileReaderPool::ChildProcessPtr FileReaderPool::acquire() {
@@ -57,8 +57,8 @@ void FileReaderPool::retire(ChildProcessPtr used) {
 }
 
 /// Kills processes that have read a file, and starts a new process in place of each. If no file is read for
-/// FileReaderOptions::idle, kills the waiting processes. Runs on its own thread, so that no client waits for the
-/// replacement.
+/// FileReaderOptions::idle, kills the waiting processes. Runs on a thread of its own, so that clients do not wait for
+/// new processes.
 void FileReaderPool::replaceUsed(const std::stop_token& stop) {
     const auto idle = std::chrono::duration_cast<Clock::duration>(options_.idle);
     std::unique_lock lock(mutex_);
@@ -72,8 +72,7 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
         std::vector<ChildProcessPtr> used = std::exchange(used_, {});
         std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
-        // If no process was waiting when acquire() was called, acquire() created a further one. Therefore there may now
-        // be more processes than needed.
+        // There may be more processes than needed, because acquire() creates a process whenever none is waiting.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();
@@ -95,7 +94,7 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
 
 namespace {
 
-// The conversation with a reader process about one file. Whoever made the file may control the process.
+// The exchange of messages with a reader process about one file. The file may be malicious and control the process.
 class FileReadConversation {
   public:
     FileReadConversation(const session::LoadObject& load, const FileAllocator& allocate)
@@ -113,20 +112,20 @@ class FileReadConversation {
             if (transfer != TransferResult::complete || answer == MessageType::outcome) break;
             if (answer == MessageType::find_file && load_.folder) {
                 transfer = sendFoundFile(channel, limit);
-                if (refused) break;  // the process is not used again
+                if (refused) break;  // the process will not be used again
                 continue;
             }
             if (answer != MessageType::new_file)
                 throw std::runtime_error("a reader process sent an unexpected message");
             const int descriptor = makeFile(limit);
-            if (refused) break;  // the process is not used again
+            if (refused) break;  // the process will not be used again
             transfer = channel.send(MessageType::file_descriptor, {}, descriptor, limit);
         }
         return transfer;
     }
 
-    // Maps the loaded file and the files that the process has got for large arrays, because the samples of the arrays
-    // stay in these files. Maps none without allocate_.
+    // Maps the loaded file and the new files that the process was given, because the samples of large arrays stay in
+    // these files. Maps no files if there is no allocate_.
     Result<slicing::MappedFiles> map() const {
         slicing::MappedFiles mapped;
         if (!allocate_) return mapped;
@@ -140,10 +139,11 @@ class FileReadConversation {
         return mapped;
     }
 
-    // The body of the last message that run() received. If run() has returned TransferResult::complete and `refused` is
-    // empty, this was the `outcome` message.
+    // The body of the last message that run() received. It is the body of the `outcome` message if run() has returned
+    // TransferResult::complete and `refused` is empty.
     std::string outcome;
-    std::optional<Error> refused;  // why a new file or a file of the folder was refused; empty if none was
+    std::optional<Error> refused;  // why a new file or a file of the folder could not be given to the process; empty if
+                                   // no request failed
 
   private:
     static int descriptorOf(const std::shared_ptr<const fields::FileHandle>& file) {
@@ -165,7 +165,7 @@ class FileReadConversation {
     }
 
     int makeFile(WaitLimit& limit) {
-        constexpr std::size_t kMaxFiles = 4;  // a decompressed and a converted file for each of two arrays
+        constexpr std::size_t kMaxFiles = 4;  // for each of two arrays, a decompressed and a converted file
         std::size_t bytes = 0;
         if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
             throw std::runtime_error("a reader process asked for a file that it does not need");

@@ -33,11 +33,11 @@ int receiveDescriptor(const Channel& channel) {
     return descriptor;
 }
 
-// Receives and maps the `count` files of a series. Closes the descriptor of each file when the file is mapped, because
-// the process may have only few descriptors open.
+// Receives and maps the `count` files of a series. Closes each descriptor after it has mapped the file, because the
+// process may have only few open descriptors.
 Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, std::size_t count) {
     std::vector<fields::FileContents> files;
-    std::optional<Error> fault;  // the first error; the other files must be received, too
+    std::optional<Error> fault;  // the first error; after it, the remaining files are still received
     while (count-- > 0) {
         const fields::FileHandle part(receiveDescriptor(channel));
         auto file = fields::FileContents::map(part.descriptor());
@@ -50,13 +50,13 @@ Result<std::vector<fields::FileContents>> receiveSeries(const Channel& channel, 
 
 const Error kLost{ErrorCode::bad_field, "the file was shortened, or cannot be read any more, while it was being read"};
 
-// Reads the file, the series or the folder of one request. Gets further files from the server.
+// Reads the file, the series or the folder of one request. Requests further files from the server.
 class RequestedObjectReader {
   public:
     RequestedObjectReader(const Channel& channel, ReadRequest request)
         : channel_(channel), request_(std::move(request)) {}
 
-    // Reads what is requested, and writes the encoded outcome to `body`.
+    // Reads the requested object, and writes the encoded outcome to `body`.
     void run(std::string& body) {
         auto outcome = object();
         if (outcome && std::ranges::any_of(sources_, [](const auto& each) { return each.file && each.file->isLost(); }))
@@ -92,8 +92,8 @@ class RequestedObjectReader {
         return session::readArray(*contents, load.name, options, {load.secondFormula, load.secondVariable});
     }
 
-    // Gets a new file of `bytes` bytes from the server. If there is no room for the file, the server kills this process
-    // instead of answering.
+    // Requests a new file of `bytes` bytes from the server. If there is no room for the file, the server kills this
+    // process and does not answer.
     Result<std::shared_ptr<fields::MappedFile>> requestFile(std::size_t bytes) {
         channel_.send(MessageType::new_file, {reinterpret_cast<const char*>(&bytes), sizeof bytes});
         auto file =
@@ -102,8 +102,9 @@ class RequestedObjectReader {
         return file;
     }
 
-    // Gets a part of the file at `path` in the requested folder from the server; returns an empty optional if there is
-    // no such file. Keeps the file mapped that was opened last, so that a shard is opened once.
+    // Requests a part of the file at `path` in the requested folder from the server. Returns an empty optional if there
+    // is no such file. Keeps the last opened file mapped, so that a shard (a file with many chunks) is opened only
+    // once.
     Result<std::optional<fields::FileContents>> findFile(const std::string& path, const fields::FilePart& part) {
         if (lastFile_ && lastPath_ == path) return std::optional(lastFile_->cutTo(part));
         std::string body;
@@ -125,13 +126,13 @@ class RequestedObjectReader {
     const Channel& channel_;
     const ReadRequest request_;
     std::vector<fields::FileContents> sources_;
-    slicing::MappedFiles mapped_;  // in the order in which FileReaderPool::read() maps the same files
-    std::string lastPath_;         // of the file in the folder that was opened last
+    slicing::MappedFiles mapped_;  // the mapped files, in the order in which FileReaderPool::read() maps the same files
+    std::string lastPath_;         // the path of the file in the folder that was opened last
     std::optional<fields::FileContents> lastFile_;
 };
 
-// Reads the file that `body`, the body of a `file` message, requests, and replaces `body` by the body of the `outcome`
-// message. `descriptor`: the open file that came with the message, or kNoFile.
+// Reads the file that `body`, the body of a `file` message, requests. Replaces `body` by the body of the `outcome`
+// message. `descriptor` is the open file that came with the message, or kNoFile.
 void replaceByOutcome(const Channel& channel, std::string& body, int descriptor) {
     try {
         ReadRequest request;
@@ -143,7 +144,8 @@ void replaceByOutcome(const Channel& channel, std::string& body, int descriptor)
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {
     }
-    encodeOutcome(kNoMemory, body);  // memory is available: stack unwinding has freed that of the file
+    encodeOutcome(kNoMemory, body);  // there is memory for this, because unwinding the stack has freed the memory of
+                                     // the file
 }
 
 }  // namespace
