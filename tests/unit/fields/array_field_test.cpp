@@ -26,7 +26,7 @@ FieldArray countingArray(const Shape& shape, const Box& box) {
     return array;
 }
 
-// Returns half of the extents of the domain, in the object's coordinates.
+// Returns half of the lengths of the field's domain, in the coordinates of the 4-D object.
 glm::dvec4 halfOf(const Field& field) { return field.domain->vertices.back(); }
 
 TEST(ArrayField, AnAxisWithOneSampleIsHalfAsLongAsTheLongest) {
@@ -37,7 +37,7 @@ TEST(ArrayField, AnAxisWithOneSampleIsHalfAsLongAsTheLongest) {
 }
 
 TEST(ArrayField, AnAxisWithOneSampleMayBeFarFromZero) {
-    constexpr double kTime = 1.7e9, kLevel = -3e7;  // seconds since 1970, for example
+    constexpr double kTime = 1.7e9, kLevel = -3e7;  // kTime may be in seconds since 1970
     const auto moment = fieldFromArray("run", countingArray({3, 2, 2, 1}, {{0, 0, 0, kTime}, {20, 10, 5, kTime}}));
     ASSERT_TRUE(moment) << moment.error().message;
     EXPECT_LT(glm::distance(halfOf(*moment), glm::dvec4(10, 5, 2.5, 5)), 1e-9);
@@ -55,7 +55,8 @@ TEST(ArrayField, AnAxisWithOneSampleMayBeFarFromZero) {
         }
         for (glm::length_t axis = 0; axis < 4; ++axis) {
             const auto least = static_cast<float>(field.box.min[axis]), most = static_cast<float>(field.box.max[axis]);
-            EXPECT_GT(most - least, 1000 * (std::nextafter(most, 2 * most) - most));  // floats resolve the box
+            EXPECT_GT(most - least, 1000 * (std::nextafter(most, 2 * most) - most));  // 32-bit floats distinguish many
+                                                                                      // points of the box
         }
     }
 }

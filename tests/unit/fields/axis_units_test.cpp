@@ -19,7 +19,7 @@ using geometry::Turn;
 Field fieldWith(const AxisUnits& units) {
     FieldArray array;
     array.shape = {2, 2, 2, 2};
-    array.box = {glm::dvec4(0), glm::dvec4(1, 1, 1, 5)};  // as an object, the field is as long along w as along x
+    array.box = {glm::dvec4(0), glm::dvec4(1, 1, 1, 5)};  // the 4-D object of the field is as long along w as along x
     array.samples = SampleStorage(std::vector<float>(16, 1));
     array.units = units;
     return *fieldFromArray("run", array);

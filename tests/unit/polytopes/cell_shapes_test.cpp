@@ -1,4 +1,4 @@
-// Names of antiprisms that are not uniform.
+// Tests of the names of cells that are antiprisms but not uniform.
 
 #include <cmath>
 #include <cstdint>
@@ -22,8 +22,8 @@ namespace {
 
 using Deformation = glm::dvec3 (*)(glm::dvec3 point);
 
-// Returns the prism over an antiprism, of which two cells are antiprisms. Before the deformation, the antiprism is
-// right and has regular bases of circumradius 1.
+// Returns the prism over an antiprism; two of its cells are antiprisms. The antiprism is right and has regular bases of
+// circumradius 1. `deformed` then changes its vertices.
 Polytope prismOverAntiprism(int sides, double height, Deformation deformed = [](glm::dvec3 point) { return point; }) {
     std::vector<glm::dvec4> points;
     for (int i = 0; i < 2 * sides; ++i) {
@@ -34,7 +34,7 @@ Polytope prismOverAntiprism(int sides, double height, Deformation deformed = [](
     return hullPolytope("prism", points);
 }
 
-// Returns the number of cells with each name.
+// Returns, for each name of a cell, the number of cells with this name.
 std::map<std::string, std::uint32_t> namedCells(const Polytope& polytope) {
     std::map<std::string, std::uint32_t> cells;
     for (const CellType& type : polytope.cellTypes) cells[type.name] += type.cells;
@@ -49,7 +49,7 @@ TEST(AntiprismCells, ofAnyHeightHaveNames) {
             SCOPED_TRACE(antiprismOver(sides) + " of height " + std::to_string(height));
             const Polytope p = prismOverAntiprism(sides, height);
             EXPECT_EQ(namedCells(p)[antiprismOver(sides)], 2U);
-            // In a file with three decimals, they are recognized, too.
+            // The antiprisms keep their names if the coordinates are rounded to three decimals, as in a file.
             std::vector<glm::dvec4> rounded = p.vertices;
             for (glm::dvec4& v : rounded) v = glm::round(v * 1000.0) / 1000.0;
             EXPECT_EQ(namedCells(makePolytope("rounded", rounded, p.faces, p.cells)), namedCells(p));

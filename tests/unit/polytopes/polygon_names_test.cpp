@@ -15,7 +15,7 @@
 namespace oval4d::polytopes {
 namespace {
 
-// Returns the corners of the polygon {n/d}, of which every second one is `height` above the plane.
+// Returns the corners of the polygon {n/d}, with every second corner at the height `height` above the plane.
 std::vector<glm::dvec4> starPolygon(int n, int d, double height = 0) {
     std::vector<glm::dvec4> corners;
     for (int i = 0; i < n; ++i) {
@@ -61,7 +61,7 @@ TEST(PolygonNames, OfOtherPolygonsTellTheirSides) {
     std::vector<glm::dvec4> star = starPolygon(5, 2);
     star[0] *= 1.5;
     EXPECT_EQ(nameOfPolygon(star), "pentagon") << "a star that is not regular";
-    // A skew octagon whose sides are as long as those of {8/3} in a sphere of its radius.
+    // A skew octagon has the same side length and circumradius as {8/3}, but is not named a star polygon.
     const double side = 2 * std::sin(3 * std::numbers::pi / 8), own = 2 * std::sin(std::numbers::pi / 8);
     const double height = std::sqrt((side * side - own * own) / (1 - side * side / 4));
     EXPECT_EQ(nameOfPolygon(starPolygon(8, 1, height)), "octagon");

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers shared by tests: polytopes by name, polytopes made by hand, rotations, directions.
+// Helpers that several tests share: polytopes by name, polytopes made by hand, rotations, directions.
 
 #include <algorithm>
 #include <array>
@@ -24,8 +24,8 @@
 namespace oval4d::support {
 
 /// Whether the tests are built with AddressSanitizer or ThreadSanitizer, which make them several times slower. Long
-/// property tests then try fewer inputs: a sanitizer reports an error of memory or threads for any input that reaches
-/// the faulty code.
+/// property tests then try fewer inputs, because a sanitizer finds an error of memory or threads with any input that
+/// reaches the faulty code.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool kSanitized = true;
 #else
@@ -38,8 +38,8 @@ inline polytopes::PolytopeCache& cache() {
     return kCache;
 }
 
-/// Returns polytopes::designNamed() for a name of a polytope with at most 1,000,000 vertices. Throws
-/// std::bad_variant_access for other names.
+/// Returns the design (polytopes::designNamed()) of a polytope with at most 1,000,000 vertices. Throws
+/// std::bad_variant_access if `name` names no such polytope.
 inline polytopes::Design designFor(std::string_view name) {
     return std::get<polytopes::Design>(polytopes::designNamed(name, 1'000'000));
 }
@@ -73,8 +73,8 @@ inline geometry::Rotation ontoW(const glm::dvec4& direction) {
             glm::dquat(1, 0, 0, 0)};
 }
 
-/// Expects that the lists are equally long, and that for each point of `one`, a point of `other` is less than
-/// `tolerance` away.
+/// Expects that both lists have equally many points, and that each point of `one` is less than `tolerance` away from a
+/// point of `other`.
 inline void expectSamePoints(const std::vector<glm::dvec4>& one, const std::vector<glm::dvec4>& other,
                              double tolerance) {
     ASSERT_EQ(one.size(), other.size());
@@ -86,8 +86,8 @@ inline void expectSamePoints(const std::vector<glm::dvec4>& one, const std::vect
 
 using Polygon = std::vector<glm::dvec2>;
 
-/// Returns the Cartesian product of polygon `p` in the xy plane and polygon `q` in the zw plane; its cells are prisms
-/// over the two polygons.
+/// Returns the Cartesian product of the polygon `p` in the xy plane and the polygon `q` in the zw plane. Its cells are
+/// prisms over the two polygons.
 inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
     const auto n = static_cast<std::uint32_t>(p.size());
     const auto m = static_cast<std::uint32_t>(q.size());
@@ -96,7 +96,7 @@ inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
     for (const auto& a : p) {
         for (const auto& b : q) vertices.emplace_back(a, b);
     }
-    geometry::JaggedArray faces;  // n · m rectangles, then m copies of p, then n copies of q
+    geometry::JaggedArray faces;  // n · m rectangles, then m copies of the polygon p, then n copies of the polygon q
     for (std::uint32_t i = 0; i < n; ++i) {
         for (std::uint32_t j = 0; j < m; ++j) {
             faces.add(std::array{vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
@@ -127,8 +127,8 @@ inline polytopes::Polytope product(const Polygon& p, const Polygon& q) {
     return polytopes::makePolytope("product", std::move(vertices), std::move(faces), std::move(cells));
 }
 
-/// A 4OFF file of a 5-cell that looks as if written by hand: comments, irregular white space, varied number formats,
-/// colors, and a wrong number of edges.
+/// The text of a 4OFF file of a 5-cell that looks as if written by hand: it has comments, irregular white space,
+/// various number formats, colors, and a wrong number of edges.
 inline constexpr const char* kPentachoron = R"(#before the header
 4OFF# the edges below are wrong on purpose
 5 10 7 5

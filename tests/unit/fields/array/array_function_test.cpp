@@ -15,7 +15,7 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity(), kNan = std::numeric_limits<double>::quiet_NaN();
 const Box kBox{{-1, 0.5, -30, 1000}, {2, 0.75, 50, 1004}};
 
-// The monomial whose variables are the set bits of `bits`, in coordinates from 0 to 1 in the box.
+// Returns the product of the coordinates whose bits are set in `bits`. In the box, the coordinates range from 0 to 1.
 double monomial(unsigned bits, const Box& box, const glm::dvec4& point) {
     const glm::dvec4 t = (point - box.min) / (box.max - box.min);
     double product = 1;
@@ -33,7 +33,7 @@ TEST(ArrayFunction, EqualsEveryMultilinearFunctionWithItsGradient) {
         for (unsigned bits = 0; bits < 16; ++bits) {
             const auto f = [&](const glm::dvec4& point) { return monomial(bits, kBox, point); };
             const ArrayFunction array = arrayOf(shape, kBox, f);
-            Points points = randomPoints(kBox, 203, random);  // not a multiple of 8
+            Points points = randomPoints(kBox, 203, random);  // the number of points is not a multiple of 8
             array.evaluateWithGradient(points.batch(), points.values, points.gradients());
             for (std::size_t i = 0; i < points.size(); ++i) {
                 EXPECT_NEAR(points.values[i], f(points[i]), 1e-5);
@@ -62,13 +62,13 @@ TEST(SampleStorage, GrowsInItsOwnMemoryUntilItIsFullAndBranchesIntoCopies) {
         moves += samples.values().data() == before.values().data() ? 0 : 1;
         EXPECT_EQ(valuesOf(before), expected);
         const SampleStorage branch =
-            before.followedBy(std::vector<float>{-1});  // after `samples`, so that it is a copy
+            before.followedBy(std::vector<float>{-1});  // a copy, because `before` is already followed by `more`
         EXPECT_NE(branch.values().data(), samples.values().data());
         expected.insert(expected.end(), more.begin(), more.end());
         EXPECT_EQ(valuesOf(samples), expected);
         EXPECT_EQ(branch.values().back(), -1);
     }
-    EXPECT_LT(moves, 20U);  // the logarithm of the growth to the base 1.5
+    EXPECT_LT(moves, 20U);  // the logarithm, to the base 1.5, of the growth of the array
     EXPECT_EQ(samples.memoryBytes(), expected.size() * sizeof(float));
 }
 
@@ -95,7 +95,7 @@ TEST(ArrayFunction, AddsNoRoundingErrorToAConstantFunction) {
     array.evaluate(points.batch(), points.values);
     for (const float value : points.values) EXPECT_EQ(value, 0.1F);
     const ValueBounds bounds = array.boundsIn(kBox);
-    EXPECT_NEAR(bounds.min, 0.1F, 1e-8);  // rounded by at most one unit in the last place
+    EXPECT_NEAR(bounds.min, 0.1F, 1e-8);  // the bounds are rounded by at most one unit in the last place
     EXPECT_NEAR(bounds.max, 0.1F, 1e-8);
 }
 
@@ -178,7 +178,7 @@ TEST(ArrayFunction, IsConstantAlongAnAxisWithOneSample) {
               5);
 }
 
-// A point has a value if all samples that have a weight other than 0 do.
+// The function has a value at a point if all samples with a weight other than 0 have values.
 TEST(ArrayFunction, HasNoValueWhereAMissingSampleHasAWeight) {
     std::mt19937 random(8);
     const Shape shape{5, 5, 5, 5};
@@ -225,7 +225,7 @@ TEST(ArrayFunction, TheGradientIsTheLimitOfDifferences) {
     array.evaluateWithGradient(points.batch(), points.values, points.gradients());
     for (std::size_t i = 0; i < points.size(); ++i) {
         for (glm::length_t axis = 0; axis < 4; ++axis) {
-            // Along an axis, the function is linear in a cell.
+            // The function is linear along an axis within a cell, so a difference of two values gives the derivative.
             const double cell = 2. / static_cast<double>(shape.at(static_cast<std::size_t>(axis)) - 1);
             glm::dvec4 low = points[i], high = points[i];
             low[axis] = -1 + cell * (std::floor((points[i][axis] + 1) / cell) + 0.1);
@@ -257,7 +257,8 @@ TEST(ArrayFunction, RefusesShapesAndBoxesThatAreNotValid) {
     EXPECT_THROW(make({0, 2, 2, 2}, {}, 0), std::invalid_argument);
     EXPECT_THROW(make({std::size_t{1} << 25U, 1, 1, 1}, {}, 16), std::invalid_argument);
     constexpr std::size_t kLarge = std::size_t{1} << 24U;
-    EXPECT_THROW(make({kLarge, kLarge, kLarge, kLarge}, {}, 0), std::invalid_argument);  // the product is 2^96
+    EXPECT_THROW(make({kLarge, kLarge, kLarge, kLarge}, {}, 0), std::invalid_argument);  // the product of the sizes is
+                                                                                         // 2^96
     EXPECT_THROW(make({2, 1, 1, 1}, {glm::dvec4(0), glm::dvec4(0)}, 2), std::invalid_argument);
     EXPECT_THROW(make({2, 1, 1, 1}, {glm::dvec4(1), glm::dvec4(0)}, 2), std::invalid_argument);
     EXPECT_THROW(make({2, 1, 1, 1}, {glm::dvec4(0), glm::dvec4(kNan)}, 2), std::invalid_argument);

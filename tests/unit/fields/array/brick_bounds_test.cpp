@@ -41,7 +41,7 @@ TEST_P(BrickBoundsOf, ContainTheValuesInEveryRegion) {
                     const float value = points.values[i];
                     const glm::dvec4 point = points[i];
                     if (glm::any(glm::lessThan(point, region.min)) || glm::any(glm::greaterThan(point, region.max)))
-                        continue;  // rounded out of the region
+                        continue;  // rounding has moved the point out of the region
                     if (std::isnan(value)) {
                         EXPECT_FALSE(bounds.hasValueEverywhere);
                     } else {
@@ -49,7 +49,7 @@ TEST_P(BrickBoundsOf, ContainTheValuesInEveryRegion) {
                         EXPECT_GE(bounds.max, value);
                     }
                 }
-                // A lazy query of more than kMaxLazyBricks gets no bounds.
+                // A query of more than kMaxLazyBricks bricks is unbounded if the array is read only as needed.
                 if (!GetParam() && trial % 3 == 0 && bounds.min == -std::numeric_limits<double>::infinity()) continue;
                 if (missing == 1) {
                     EXPECT_GT(bounds.min, bounds.max);
@@ -78,7 +78,8 @@ TEST(BrickBounds, AreThoseOfTheBricksThatMeetTheRegion) {
         EXPECT_TRUE(bounds.hasValueEverywhere);
     };
     expectBounds(glm::dvec4(0), glm::dvec4(16), 0, 16 * 1111);
-    expectBounds(glm::dvec4(4), glm::dvec4(8), 4 * 1111, 8 * 1111);  // a brick with its faces
+    expectBounds(glm::dvec4(4), glm::dvec4(8), 4 * 1111, 8 * 1111);  // a brick, and the faces that it shares with its
+                                                                     // neighbors
     expectBounds(glm::dvec4(4), glm::dvec4(8.01), 4 * 1111, 12 * 1111);
     expectBounds(glm::dvec4(3.99), glm::dvec4(4), 0, 4 * 1111);
     expectBounds(glm::dvec4(16), glm::dvec4(20), 12 * 1111, 16 * 1111);
@@ -112,7 +113,7 @@ TEST(BrickBounds, ReadLittleOfALargeArray) {
     std::mt19937 random(4);
     const ArrayFunction array(shape, {}, SampleStorage(randomSamples(shape, 0, random)), 1000);
     EXPECT_FALSE(array.statisticsAreExact());
-    EXPECT_LT(array.statistics().min, -0.99F);  // of a selection
+    EXPECT_LT(array.statistics().min, -0.99F);  // the least of a selection of the samples
     EXPECT_GT(array.statistics().max, 0.99F);
     const std::size_t before = array.memoryBytes();
     const ValueBounds all = array.boundsIn({});

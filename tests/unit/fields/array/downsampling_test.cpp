@@ -24,7 +24,8 @@ TEST(Downsampling, KeepsMultilinearFunctions) {
     }
 }
 
-// For an odd number of samples, the weights in the interior are 1/4, 1/2, 1/4.
+// A sample of the downsampled array is a weighted mean of its neighborhood. For an odd number of samples, the weights
+// in the interior are 1/4, 1/2, 1/4.
 TEST(Downsampling, AveragesTheNeighborhood) {
     const auto coarse = downsample({9, 1, 1, 1}, std::vector<float>{7, 0, 0, 4, 0, 0, 0, 0, 5});
     EXPECT_EQ(coarse, (std::vector<float>{7, 1, 1, 0, 5}));

@@ -1,4 +1,4 @@
-// Mapped files, also those that become shorter.
+// Tests of mapped files, including files that become shorter while they are mapped.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kSize = 1 << 20;
 
-/// Returns an unnamed file of this many bytes, all of them 1.
+/// Returns an unnamed file of `size` bytes, all of which are 1.
 std::shared_ptr<const FileHandle> fileOf(std::size_t size) {
     auto file = std::make_shared<const FileHandle>(memfd_create("test", MFD_CLOEXEC));
     const std::vector<char> ones(size, 1);

@@ -13,7 +13,7 @@
 
 namespace oval4d::fields::test {
 
-/// Returns the samples of f at the points of a lattice that fills the box, x fastest and w slowest.
+/// Returns samples of f at the points of a lattice that fills the box. x varies fastest, and w slowest.
 inline std::vector<float> sampled(const Shape& shape, const Box& box, const std::function<double(glm::dvec4)>& f) {
     std::vector<float> samples;
     std::array<std::size_t, 4> at{};
@@ -36,7 +36,7 @@ inline std::vector<float> sampled(const Shape& shape, const Box& box, const std:
     return samples;
 }
 
-/// Points as arrays of coordinates, with arrays for the values and gradients that a function writes.
+/// Points as arrays of coordinates, and arrays for the values and gradients of a function at these points.
 struct Points {
     std::vector<float> x, y, z, w, values, dx, dy, dz, dw;
 
@@ -54,7 +54,7 @@ struct Points {
     glm::dvec4 gradient(std::size_t i) const { return {dx[i], dy[i], dz[i], dw[i]}; }
 };
 
-/// Returns points that are uniformly distributed in the box.
+/// Returns `count` random points, uniformly distributed in the box.
 inline Points randomPoints(const Box& box, std::size_t count, std::mt19937& random) {
     std::uniform_real_distribution<double> part(0, 1);
     Points points;
@@ -73,8 +73,8 @@ inline float valueAt(const ScalarFunction& f, const glm::dvec4& point) {
     return one.values.front();
 }
 
-/// Returns random samples from −1 to 1. About the fraction `missing` of them (0 … 1) is NaN or infinite, which means
-/// that the sample has no value.
+/// Returns random samples from −1 to 1. The fraction `missing` (0 … 1) of them, on average, is NaN or infinite, that
+/// is, missing.
 inline std::vector<float> randomSamples(const Shape& shape, double missing, std::mt19937& random) {
     std::uniform_real_distribution<float> value(-1, 1);
     std::uniform_real_distribution<double> part(0, 1);

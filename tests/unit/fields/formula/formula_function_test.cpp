@@ -119,14 +119,15 @@ TEST(FormulaFunction, HasTheValuesOfTheFormula) {
     }
 }
 
-// Returns whether the function has neither kinks nor poles.
+// Returns whether the function of the formula has neither kinks nor poles.
 bool isSmooth(const std::string& text) {
     for (const char* kink : {"abs", "min", "max", "step", "floor", "mod", "clamp", "cbrt", "atan2", "^-", "/x"})
         if (text.find(kink) != std::string::npos) return false;
     return true;
 }
 
-// Differences of the reference, in double precision; near kinks and poles they are not the derivative.
+// The gradient is that of the formula: it agrees with differences of a reference in double precision. Near kinks and
+// poles, such differences are not the derivatives.
 TEST(FormulaFunction, HasTheGradientOfTheFormula) {
     Random random(3);
     for (const Kernels& kernels : allKernels()) {
@@ -186,7 +187,7 @@ TEST(FormulaFunction, SmoothMinimumWithoutSmoothingIsTheMinimum) {
     Random random(9);
     const Box box{glm::dvec4(-2), glm::dvec4(2)};
     const FormulaFunction minimum(parsed("min(x,y)"));
-    // k is 0 or negative, as a number or as a function of the point, or so small that its square underflows.
+    // In these formulas, k is 0 or negative, as a number or as a function of the point, or its square underflows.
     for (const char* text : {"smin(x,y,0)", "smin(x,y,-1)", "smin(x,y,0*z)", "smin(x,y,-abs(z))", "smin(x,y,1e-30)",
                              "smin(x,y,1e-40)", "smin(x,y,-1e-40)"}) {
         for (const Kernels& kernels : allKernels()) {
@@ -273,7 +274,8 @@ TEST(FormulaFunction, ValuesMayBeInfinite) {
     EXPECT_EQ(valueAt("x*1e300", {1, 0, 0, 0}), kInfiniteFloat);
 }
 
-// In units of the last place of the exact result, over the whole range of floats.
+// Functions are accurate over the whole range of floats: the error is at most 4 units in the last place of the exact
+// result.
 TEST(FormulaFunction, FunctionsAreAccurate) {
     struct Accurate {
         std::string text;

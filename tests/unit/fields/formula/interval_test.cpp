@@ -21,7 +21,7 @@ ValueBounds boundsOfFormula(const std::string& text, double min, double max) {
     return boundsOfFormula(text, {{min, min, min, min}, {max, max, max, max}});
 }
 
-// Runs the tape in double precision.
+// Returns the value of a tape at a point, in double precision.
 double realValue(const Tape& tape, const glm::dvec4& point) {
     std::vector<double> registers(Tape::kFirstScratch + tape.scratchRegisters);
     for (int axis = 0; axis < 4; ++axis) registers[static_cast<std::size_t>(axis)] = point[axis];
@@ -68,7 +68,7 @@ TEST(Intervals, ContainAllValuesOfRandomFormulas) {
     }
 }
 
-// Each operation alone, since larger formulas hide what is not tight.
+// The bounds contain all values of each operation. Each operation is tested alone, because larger formulas hide errors.
 TEST(Intervals, ContainAllValuesOfEachOperation) {
     Random random(8);
     for (const char* text :
@@ -125,7 +125,7 @@ TEST(Intervals, AreSoundInHugeBoxes) {
     }
 }
 
-// A part of a box has a part of its bounds.
+// The bounds in a part of a box lie within the bounds in the whole box.
 TEST(Intervals, ShrinkWithTheBox) {
     Random random(10);
     for (int i = 0; i < 3000; ++i) {
@@ -215,7 +215,7 @@ TEST(Intervals, KnowWhereThereMayBeNoValue) {
     EXPECT_FALSE(boundsOfFormula("x", {{nan, 0, 0, 0}, {1, 1, 1, 1}}).hasValueEverywhere);
 }
 
-// The float nearest to a point of the box may lie outside of the box.
+// The bounds also contain the value at the float nearest to a point of the box, which may lie outside of the box.
 TEST(Intervals, ContainPointsThatAreRoundedToFloats) {
     const double third = 1.0 / 3;
     const ValueBounds bounds = boundsOfFormula("x", third, third);

@@ -166,7 +166,8 @@ TEST(Parser, ExpressionsHaveNames) {
         << "an expression is evaluated once";
 }
 
-// Each doubles the one before: written out, the formula would have 2⁶⁰ operands.
+// A named expression that is used several times is stored once. Written out, this formula would have 2⁶⁰ operands,
+// because each expression uses the previous one twice.
 TEST(Parser, ExpressionsAreShared) {
     std::string text = "a60; a0=x";
     for (int i = 1; i <= 60; ++i) {
@@ -202,7 +203,7 @@ TEST(Parser, MayShareTheNamesOfAnotherFormula) {
     EXPECT_EQ(mistake.position, 1U);
 }
 
-// Long names and numbers in place of short ones.
+// The limit on the length applies to the normalized text, which may be longer than the text that was parsed.
 TEST(Parser, LimitsTheLengthOfTheTextThatIsWrittenBack) {
     std::string text = "x";
     for (int i = 0; i < 280; ++i) text += "+1e15*y";

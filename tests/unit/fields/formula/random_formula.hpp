@@ -1,5 +1,5 @@
 #pragma once
-// Random formulas and points, and helpers that evaluate formulas, for tests.
+// Helpers for tests: random formulas and points, and the evaluation of formulas at points.
 
 #include <array>
 #include <cstddef>
@@ -23,8 +23,8 @@ inline std::size_t below(Random& random, std::size_t count) {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
 }
 
-/// Returns a random formula of all operators and functions, nested to at most `depth` levels. An operator and its
-/// operands are in parentheses.
+/// Returns a random formula of all operators and functions, nested to at most `depth` levels. Each operator with its
+/// operands is in parentheses.
 inline std::string randomFormula(Random& random, int depth) {
     static constexpr auto kLeaves = std::to_array<const char*>(
         {"x", "y", "z", "w", "t", "r", "x", "y", "z", "w", "0", "1", "2", "0.5", "3.7", "pi", "1e-3", "(-1)", "12"});
@@ -58,7 +58,7 @@ inline std::string randomFormula(Random& random, int depth) {
     return text + ")";
 }
 
-/// Points with their values and gradients.
+/// Points, and the values and gradients of a function at these points.
 struct SamplePoints {
     std::array<std::vector<float>, 4> coordinates, gradients;
     std::vector<float> values;
@@ -70,7 +70,7 @@ struct SamplePoints {
     void addRandom(Random& random, const Box& box) {
         glm::dvec4 point;
         for (int axis = 0; axis < 4; ++axis) {
-            // Faults are most likely at the boundary of the box; therefore it is chosen often.
+            // Often choose the boundary of the box, where faults are most likely.
             const std::size_t choice = below(random, 6);
             const double min = box.min[axis], max = box.max[axis];
             point[axis] = choice == 0 ? min : (choice == 1 ? max : uniform(random, min, max));

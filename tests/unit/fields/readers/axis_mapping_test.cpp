@@ -1,4 +1,4 @@
-// Where the numbers of files go.
+// Tests of the places to which the numbers of files go.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ TEST(AxisMapping, SlabsCoverTheArrayInItsOrder) {
         for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i] = {1 + below(7), axes[i], below(2) == 1};
         const auto mapping = AxisMapping::of(dimensions, kMaxSamples);
         ASSERT_TRUE(mapping);
-        // The numbers 0, 1, 2 … converted at once and in slabs.
+        // Convert the numbers 0, 1, 2 … at once and slab by slab.
         std::vector<float> numbers(mapping->count()), whole(numbers.size()), parts(numbers.size());
         for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<float>(i);
         const auto* from = reinterpret_cast<const std::byte*>(numbers.data());

@@ -1,5 +1,5 @@
 #pragma once
-// Helpers of the tests of readers: temporary files, the bytes of .npy files, and damaged files.
+// Helpers for tests of readers: temporary files, the bytes of .npy files, and damaged files.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -50,7 +50,7 @@ inline std::string readFile(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// Returns the bytes of a number in the byte order of the machine, which is little-endian.
+/// Returns the bytes of a number in this processor's byte order, which is little-endian.
 template <typename Number>
 std::string bytesOf(Number number) {
     std::string bytes(sizeof number, '\0');
@@ -58,9 +58,9 @@ std::string bytesOf(Number number) {
     return bytes;
 }
 
-/// Returns the bytes of a .npy file. `descr` is the type of the numbers, such as "<f4"; `fortran` selects the order of
-/// indices of Fortran (first index fastest) instead of C; `shape` is a tuple as Python writes it; `data` are the bytes
-/// of the numbers; `version` is the major version of the format.
+/// Returns the bytes of a .npy file. `descr` is the type of the numbers, such as "<f4". `fortran` chooses Fortran order
+/// (the first index varies fastest) instead of C order. `shape` is a tuple as Python writes it. `data` are the bytes of
+/// the numbers. `version` is the major version of the format.
 inline std::string npy(const std::string& descr, bool fortran, const std::string& shape, const std::string& data,
                        int version = 1) {
     std::string header =
@@ -73,16 +73,16 @@ inline std::string npy(const std::string& descr, bool fortran, const std::string
     return std::string("\x93NUMPY") + static_cast<char>(version) + '\0' + size + header + data;
 }
 
-/// Returns the bytes of a .npy file of 32-bit floats in C order (last index fastest).
+/// Returns the bytes of a .npy file of 32-bit floats in C order (the last index varies fastest).
 inline std::string npy(const std::string& shape, const std::vector<float>& numbers) {
     std::string data;
     for (const float number : numbers) data += bytesOf(number);
     return npy("<f4", false, shape, data);
 }
 
-/// Expects that a reader withstands damaged files. Calls `read` for truncations of `file` to every `step`-th length,
-/// and for copies of `file` in which one byte is changed: every `step`-th of the first `mutated` bytes, in four ways.
-/// `read` must return an error with a message, or a field with as many samples as its shape states.
+/// Expects that a reader handles damaged versions of `file`. Calls `read` for truncations of `file` to every `step`-th
+/// length. Also calls `read` for copies of `file` with one changed byte: every `step`-th of the first `mutated` bytes,
+/// in four ways. `read` must return an error with a message, or a field with as many samples as its shape states.
 template <typename Reader>
 void expectRobust(const std::string& file, std::size_t mutated, const Reader& read, std::size_t step = 1) {
     const auto tryFile = [&](const std::string& bytes) {
@@ -94,7 +94,7 @@ void expectRobust(const std::string& file, std::size_t mutated, const Reader& re
         EXPECT_EQ(sampleCount(field->shape), field->samples.values().size());
         double sum = 0;
         for (const float sample : field->samples.values()) sum += sample;
-        EXPECT_TRUE(sum == sum || sum != sum);  // reads all samples
+        EXPECT_TRUE(sum == sum || sum != sum);  // always true; reads all samples
         (void)field->function();
     };
     for (std::size_t length = 0; length < file.size(); length += step) tryFile(file.substr(0, length));

@@ -1,4 +1,4 @@
-// The same array in all formats, as the formats' own libraries write them.
+// Tests that read the same array from files of all formats, which the formats' own libraries have written.
 
 #include <gtest/gtest.h>
 
@@ -50,7 +50,8 @@ TEST(FieldFormats, RejectOtherFiles) {
     }
 }
 
-// The libraries may crash on damaged files, which are therefore read in another process. These do not make them crash.
+// Truncated files do not crash the libraries. Other damage may crash them, so the server reads files in another
+// process.
 TEST(FieldFormats, SurviveTruncation) {
     for (const auto& file : {netcdf(0, numbers()), netcdf(NC_64BIT_DATA, numbers())})
         expectRobust(file, 0, readNetcdf, 7);

@@ -29,7 +29,7 @@ std::string gzipMember(std::string data) {
     return out;
 }
 
-// Inserts an extra field (RFC 1952, section 2.3.1.1) into the header of a member, as bgzip does.
+// Returns a member with an extra field (RFC 1952, section 2.3.1.1) in its header, as bgzip writes it.
 std::string withExtraField(std::string member) {
     constexpr std::size_t kFlags = 3, kHeader = 10;
     member[kFlags] = static_cast<char>(member[kFlags] | 4);
@@ -40,7 +40,7 @@ std::span<const std::byte> spanOf(const std::string& text) {
     return {reinterpret_cast<const std::byte*>(text.data()), text.size()};
 }
 
-// Reads `size` bytes in pieces of at most `piece` bytes; returns the message of the error if they cannot be read.
+// Reads `size` bytes in pieces of at most `piece` bytes. Returns the bytes, or the error message if reading fails.
 std::string readInPieces(GzipReader& reader, std::size_t size, std::size_t piece) {
     std::string text(size, '\0');
     const std::span<std::byte> to(reinterpret_cast<std::byte*>(text.data()), size);
@@ -79,7 +79,7 @@ TEST(GzipReader, FindsBytesAndFaultsInLaterMembers) {
     GzipReader cut(spanOf(shorter));
     EXPECT_EQ(readInPieces(cut, kFirstMember.size() + kSecondMember.size(), 1), kFirstMember + kSecondMember);
     EXPECT_FALSE(cut.verifyEnd());
-    const std::string padded = gzipMember(kFirstMember) + std::string(100, '\0');  // as on a tape
+    const std::string padded = gzipMember(kFirstMember) + std::string(100, '\0');  // padding, as on tapes
     GzipReader tail(spanOf(padded));
     EXPECT_EQ(readInPieces(tail, kFirstMember.size(), kFirstMember.size()), kFirstMember);
     EXPECT_TRUE(tail.verifyEnd());

@@ -1,4 +1,4 @@
-// HDF5 files, as its library writes them.
+// Tests of the reader of HDF5 files; the HDF5 library writes the files.
 
 #include "fields/readers/hdf5.hpp"
 
@@ -31,8 +31,8 @@ TEST(Hdf5, FindsDatasetsByTheirPath) {
     EXPECT_EQ(readHdf5(FileContents::copyOf(bytes), {.maxSamples = 119}).error().code, ErrorCode::too_large);
 }
 
-// Adds an attribute with this text to the dataset run/f of a file made by hdf5(): of the length of the text, or of
-// variable length, as h5py writes it.
+// Adds an attribute with the text `text` to the dataset run/f of a file made by hdf5(). The type of the attribute has
+// the length of the text, or a variable length, as h5py writes it.
 std::string withAttribute(const std::string& bytes, const char* name, const std::string& text, bool isVariable) {
     const TemporaryFolder folder;
     const auto path = folder / "a.h5";
@@ -160,7 +160,7 @@ TEST(Hdf5, LeavesOutDimensionsOfSizeOneIfThereAreMoreThanFour) {
     EXPECT_NE(field.error().message.find("1 to 4 dimensions"), std::string::npos) << field.error().message;
 }
 
-// NetCDF before version 4.4.1 did not write the attribute _NCProperties.
+// NetCDF-4 files without the attribute _NCProperties are recognized. NetCDF before version 4.4.1 wrote such files.
 TEST(Hdf5, ReadsDimensionScalesAsNetcdfDoes) {
     const TemporaryFolder folder;
     const auto path = folder / "a.nc";

@@ -1,4 +1,4 @@
-// NetCDF files, as its library writes them.
+// Tests of the reader of NetCDF files; the NetCDF library writes the files.
 
 #include "fields/readers/netcdf.hpp"
 
@@ -52,7 +52,7 @@ TEST(Netcdf, FollowsTheConventions) {
     check(nc_enddef(file));
     const std::array<double, 4> lon{10, 20, 30, 40};
     const std::array<double, 3> hours{0, 6, 12};
-    const std::array<double, 2> latitude{50, 40};  // from north to south
+    const std::array<double, 2> latitude{50, 40};  // latitudes decrease, from north to south
     check(nc_put_var_double(file, coordinates[0], lon.data()));
     check(nc_put_var_double(file, coordinates[1], hours.data()));
     check(nc_put_var_double(file, coordinates[2], latitude.data()));
@@ -74,7 +74,8 @@ TEST(Netcdf, FollowsTheConventions) {
     for (std::size_t x = 0; x < 4; ++x) {
         for (std::size_t t = 0; t < 3; ++t) {
             for (std::size_t y = 0; y < 2; ++y) {
-                const short number = stored.at((x * 3 + t) * 2 + (1 - y));  // y is reversed
+                const short number = stored.at((x * 3 + t) * 2 + (1 - y));  // the field has y in ascending order, the
+                                                                            // file in descending order
                 const float sample = field.samples.values()[x + 4 * (y + 2 * t)];
                 if (number == fill || number > 100)
                     EXPECT_TRUE(std::isnan(sample));
@@ -180,10 +181,11 @@ TEST(Netcdf, PackedCoordinatesAreUnpacked) {
     const auto field = readOrFail(readFile(path));
     EXPECT_EQ(field.box, (Box{{-1, 2.5, 0, 0}, {-0.5, 3, 0, 0}}));
     const auto values = field.samples.values();
-    EXPECT_EQ(std::vector(values.begin(), values.end()), (std::vector<float>{3, 4, 5, 0, 1, 2}));  // y decreases
+    EXPECT_EQ(std::vector(values.begin(), values.end()), (std::vector<float>{3, 4, 5, 0, 1, 2}));  // y decreases in the
+                                                                                                   // file
 }
 
-// A variable f(time, x) at two times.
+// Returns the bytes of a file with a variable f(time, x) at two times.
 std::string fileOfTimes(const std::array<double, 2>& times, const std::string& units) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
@@ -203,7 +205,8 @@ std::string fileOfTimes(const std::array<double, 2>& times, const std::string& u
     return readFile(path);
 }
 
-// Floats as large as hours since 1900 are an eighth of an hour apart.
+// Times that are far from 0 are counted from the first time. As 32-bit floats, hours since 1900 are an eighth of an
+// hour apart.
 TEST(Netcdf, TimesFarFromZeroAreCountedFromTheFirst) {
     const auto hours = readOrFail(fileOfTimes({1'087'824, 1'087'825}, "hours since 1900-01-01"));
     EXPECT_EQ(hours.box.min.w, 0);

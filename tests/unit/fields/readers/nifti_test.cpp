@@ -1,4 +1,4 @@
-// NIfTI files, as its reference library writes them.
+// Tests of the reader of NIfTI files; the NIfTI reference library writes the files.
 
 #include "fields/readers/nifti.hpp"
 
@@ -32,7 +32,7 @@ TEST(Nifti, ReadsTheGeometry) {
     EXPECT_EQ(readOrFail(nifti("a.nii", samples, place), {.axes = "xyzw"}).units, (AxisUnits{"s", "mm", "mm", "mm"}))
         << "the fourth dimension, the first index in Python, is x";
 
-    // i goes along −y, j along x, k along z.
+    // An orientation by a matrix (sform): the index i increases along −y, j along x, and k along z.
     const auto turn = [&](nifti_image& image) {
         place(image);
         image.sform_code = 1;
@@ -46,7 +46,7 @@ TEST(Nifti, ReadsTheGeometry) {
             EXPECT_EQ(turned.samples.values()[j + 4 * (4 - i) + 20], samples[i + 5 * j + 20]);
     }
 
-    // The same by a quaternion: a rotation of 180° about z, and a reversed k.
+    // An orientation by a quaternion (qform): a rotation by 180° about z, and a reversed k.
     const auto rotate = [&](nifti_image& image) {
         place(image);
         image.qform_code = 1;

@@ -43,15 +43,15 @@ std::string reversed(std::string bytes) {
 struct TypeCase {
     std::string type;
     std::function<std::string(double)> bytes;
-    std::vector<double> numbers;  // exact in a 32-bit float
+    std::vector<double> numbers;  // 32-bit floats represent these numbers exactly
 };
 
-std::string half(double number) {  // of the numbers below
+std::string half(double number) {  // only for the numbers in this function
     if (number == 0.5) return bytesOf(std::uint16_t{0x3800});
     if (number == -2) return bytesOf(std::uint16_t{0xC000});
-    if (number == 65504) return bytesOf(std::uint16_t{0x7BFF});  // the largest
+    if (number == 65504) return bytesOf(std::uint16_t{0x7BFF});  // the largest half-precision number
     return number == 0x1p-24 ? bytesOf(std::uint16_t{1})
-                             : bytesOf(std::uint16_t{0x0400});  // the smallest ones, denormal and normal
+                             : bytesOf(std::uint16_t{0x0400});  // the smallest subnormal and the smallest normal number
 }
 
 template <typename Number>
@@ -101,7 +101,8 @@ TEST(Npy, RoundsToTheNearestFloat) {
     EXPECT_TRUE(std::isnan(halves.samples.values()[2]));
 }
 
-// The number at the indices i, j, k, l of an array is 1000 i + 100 j + 10 k + l.
+// Dimensions become the axes that the option names. The number at the indices i, j, k, l of the array is 1000 i + 100 j
+// + 10 k + l.
 TEST(Npy, AssignsDimensionsToAxes) {
     const std::array<std::size_t, 4> shape{2, 3, 4, 5};
     std::string c, f;
@@ -116,12 +117,12 @@ TEST(Npy, AssignsDimensionsToAxes) {
     for (const std::string axes : {"tzyx", "wzyx", "xyzt", "zxwy", "ytxz", ""}) {
         for (const bool fortran : {false, true}) {
             const auto field = readNpyOrFail(npy("<f4", fortran, "(2, 3, 4, 5)", fortran ? f : c), {.axes = axes});
-            std::array<std::size_t, 4> axisOf{3, 2, 1, 0};  // of the dimensions
+            std::array<std::size_t, 4> axisOf{3, 2, 1, 0};  // the axis of each dimension
             for (std::size_t d = 0; d < axes.size(); ++d) axisOf[d] = axes[d] == 't' ? 3 : names.find(axes[d]);
             for (std::size_t d = 0; d < 4; ++d) ASSERT_EQ(field.shape[axisOf[d]], shape[d]) << axes;
             const auto values = field.samples.values();
             for (std::size_t i = 0; i < 120; ++i) {
-                std::array<std::size_t, 4> at{};  // along x, y, z, w
+                std::array<std::size_t, 4> at{};  // the indices along x, y, z, w
                 std::size_t rest = i;
                 for (std::size_t axis = 0; axis < 4; ++axis) {
                     at[axis] = rest % field.shape[axis];
@@ -192,7 +193,7 @@ TEST(Npy, RefusesWhatIsNotAFieldOfRealNumbers) {
     expectError("OFF", ErrorCode::bad_field, "npy");
     expectError(npy("<f4", false, "(2, 2)", data), ErrorCode::too_large, "too many", {.maxSamples = 3});
     expectError(npy("<f4", false, "(16777217,)", data), ErrorCode::too_large, "too many");
-    // The product of the sizes is 0 modulo 2^64.
+    // Products of sizes that overflow are noticed: the first product is 0 modulo 2^64.
     expectError(npy("<f8", false, "(16777216, 16777216, 16777216)", data), ErrorCode::too_large, "too many");
     expectError(npy("<f8", false, "(1048576, 1048576)", data), ErrorCode::bad_field, "8796093022208 bytes");
     for (const std::string axes : {"x", "xyz", "xx", "ta", "wt"})
@@ -222,13 +223,14 @@ TEST(Npy, UsesFloatsInPlace) {
     const auto transposed = readNpy(*file, {.axes = "xy"});
     EXPECT_EQ(samplesOf(transposed), (std::vector<float>{1, 4, 2, 5, 3, 6}));
     EXPECT_EQ(transposed->samples.memoryBytes(), 24);
-    std::filesystem::remove(folder / "a.npy");  // the mapping remains
+    std::filesystem::remove(folder / "a.npy");  // the file stays mapped after its name is removed
     EXPECT_EQ(samplesOf(inPlace), (std::vector<float>{1, 2, 3, 4, 5, 6}));
     EXPECT_EQ(FileContents::map(folder / "a.npy").error().code, ErrorCode::not_found);
     EXPECT_EQ(FileContents::map(folder.path()).error().code, ErrorCode::bad_field);
 }
 
-// NumPy writes an array of each type, byte order and order of indices, and the same as 32-bit floats in C order.
+// Arrays that NumPy writes in each type, byte order and order of indices give the same samples as 32-bit floats in C
+// order.
 TEST(Npy, ReadsWhatNumpyWrites) {
     if (std::system("/usr/bin/python3 -c 'import numpy' 2>/dev/null") != 0)
         GTEST_SKIP() << "python3-numpy is not installed";
@@ -262,7 +264,7 @@ TEST(Npy, ReadsLittleOfAFileLargerThanTheMemory) {
     writeFile(folder / "large.npy", header);
     std::error_code fault;
     std::filesystem::resize_file(folder / "large.npy", header.size() + 4 * count,
-                                 fault);  // a hole, which reads as zeros
+                                 fault);  // a hole in the file, which reads as zeros
     if (fault) GTEST_SKIP() << "the file system has no files of 16 GB: " << fault.message();
     {
         std::fstream out(folder / "large.npy", std::ios::binary | std::ios::in | std::ios::out);

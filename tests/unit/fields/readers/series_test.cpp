@@ -1,4 +1,4 @@
-// Series of files, one for each moment.
+// Tests of series of files with one time step each.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -68,7 +68,7 @@ TEST(FieldSeries, DecompressesLargeFilesIntoFewNewFiles) {
     EXPECT_LE(made, 4) << "the server makes no more for an array";
 }
 
-// A series of files with these times.
+// Reads a series of files with these times.
 Result<FieldArray> seriesOf(const std::vector<double>& times) {
     std::vector<FileContents> files;
     for (const double time : times) files.push_back(FileContents::copyOf(netcdfOfMoment(time)));
@@ -103,7 +103,7 @@ TEST(FieldSeries, KeepsTheUnitsThatAllFilesHave) {
 }
 
 TEST(FieldSeries, CountsTimesFarFromZeroFromTheFirst) {
-    const auto series = seriesOf({1.7e9, 1.7e9 + 60, 1.7e9 + 120});  // seconds since 1970, for example
+    const auto series = seriesOf({1.7e9, 1.7e9 + 60, 1.7e9 + 120});  // for example, seconds since 1970
     ASSERT_TRUE(series) << series.error().message;
     EXPECT_EQ(series->box.min.w, 0);
     EXPECT_EQ(series->box.max.w, 120);

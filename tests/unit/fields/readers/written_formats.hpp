@@ -1,5 +1,5 @@
 #pragma once
-// Arrays in files of all formats, as the formats' own libraries write them.
+// Arrays in files of all formats, written by the formats' own libraries.
 
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -49,7 +49,8 @@ inline FieldArray readOrFail(const std::string& bytes, const FieldReadOptions& o
 
 inline void check(int status) { ASSERT_EQ(status, NC_NOERR) << nc_strerror(status); }
 
-// A variable f(t, z, y, x) of floats. `mode` is NC_NETCDF4, NC_64BIT_DATA …
+// Returns the bytes of a NetCDF file with a variable f(t, z, y, x) of floats. `mode` is its format: NC_NETCDF4,
+// NC_64BIT_DATA …
 inline std::string netcdf(int mode, const std::vector<float>& samples) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();
@@ -100,7 +101,7 @@ inline std::string hdf5(const std::vector<float>& samples, const Hdf5Options& op
     return readFile(path);
 }
 
-// Numbers of IEEE 754 binary16, as h5py writes them.
+// Returns the bytes of an HDF5 file with numbers of IEEE 754 binary16 (half precision), as h5py writes them.
 inline std::string hdf5OfHalves(std::vector<std::uint16_t> bits, bool bigEndian) {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.h5").string();
@@ -123,7 +124,7 @@ inline std::string hdf5OfHalves(std::vector<std::uint16_t> bits, bool bigEndian)
     return readFile(path);
 }
 
-// `changed` changes the header before the file is written.
+// Returns the bytes of a NIfTI file. `changed` changes the header before the file is written.
 inline std::string nifti(const std::string& name, const std::vector<float>& samples,
                          const std::function<void(nifti_image&)>& changed = {}) {
     const TemporaryFolder folder;
@@ -140,7 +141,8 @@ inline std::string nifti(const std::string& name, const std::vector<float>& samp
 
 inline std::string npyOf(const std::vector<float>& samples) { return npy("(2, 3, 4, 5)", samples); }
 
-// A variable f(time, x) of one moment, with this unit. `mode`: see netcdf().
+// Returns the bytes of a NetCDF file with a variable f(time, x) of one time, in the unit `unit`. For `mode`, see
+// netcdf().
 inline std::string netcdfOfMoment(double time, int mode = 0, const std::string& unit = "K") {
     const TemporaryFolder folder;
     const std::string path = (folder / "a.nc").string();

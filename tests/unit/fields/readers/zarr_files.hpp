@@ -12,9 +12,9 @@
 
 namespace oval4d::fields::test {
 
-using Files = std::map<std::string, std::string>;  ///< the contents of each file by its path
+using Files = std::map<std::string, std::string>;  ///< the contents of each file, by the path of the file
 
-/// Reads an array from the files. If `opened` is not null, adds to it the paths that are opened.
+/// Reads an array from the files. If `opened` is not null, adds the paths of the opened files to it.
 inline Result<FieldArray> readFiles(const Files& files, const FieldReadOptions& options,
                                     std::set<std::string>* opened = nullptr) {
     const FolderFileReader folder = [&](const std::string& path,
@@ -27,12 +27,12 @@ inline Result<FieldArray> readFiles(const Files& files, const FieldReadOptions& 
     return readZarr(folder, options);
 }
 
-/// Reads the variable with this name.
+/// Reads the array at the path `variable` from the files.
 inline Result<FieldArray> readFiles(const Files& files, const std::string& variable = "") {
     return readFiles(files, FieldReadOptions{.variable = variable});
 }
 
-/// Returns the bytes of a chunk of these 32-bit floats.
+/// Returns the bytes of a chunk that contains these 32-bit floats.
 inline std::string chunkOf(const std::vector<float>& numbers) {
     std::string bytes;
     for (const float number : numbers) bytes += bytesOf(number);

@@ -16,7 +16,7 @@
 namespace oval4d::fields::test {
 namespace {
 
-// The checksum CRC-32C (RFC 3720, appendix B.4), bit by bit.
+// Returns the checksum CRC-32C (RFC 3720, appendix B.4), computed bit by bit.
 std::uint32_t crc32c(const std::string& bytes) {
     std::uint32_t crc = ~std::uint32_t{0};
     for (const char byte : bytes) {
@@ -26,7 +26,8 @@ std::uint32_t crc32c(const std::string& bytes) {
     return ~crc;
 }
 
-// The bytes of a shard of 4 chunks, of which it has those in `chunks`, by their numbers.
+// Returns the bytes of a shard with room for 4 chunks. `chunks` maps the numbers of the chunks in the shard to their
+// bytes.
 std::string shardOf(const std::map<std::size_t, std::string>& chunks, bool indexAtStart) {
     constexpr std::size_t kCount = 4, kIndexSize = 16 * kCount + 4;
     std::string body, index;
@@ -42,7 +43,7 @@ std::string shardOf(const std::map<std::size_t, std::string>& chunks, bool index
     return indexAtStart ? index + body : body + index;
 }
 
-// An array of 3 × 6 numbers in shards of 2 × 4, which have chunks of 1 × 2.
+// Returns the metadata of an array of 3 × 6 numbers, in shards of 2 × 4 numbers and chunks of 1 × 2 numbers.
 std::string shardedArray(const std::string& indexLocation) {
     return R"({"zarr_format":3,"node_type":"array","shape":[3,6],"fill_value":7,"data_type":"float32",
         "chunk_grid":{"name":"regular","configuration":{"chunk_shape":[2,4]}},
@@ -80,7 +81,7 @@ TEST(ZarrShards, ReadsTheIndexOfAShardOnceAndOtherwiseOnlyItsChunks) {
     const std::string shard =
         shardOf({{0, chunkOf({0, 1})}, {1, chunkOf({2, 3})}, {2, chunkOf({10, 11})}, {3, chunkOf({12, 13})}}, false);
     const Files files{{"zarr.json", shardedArray("end")}, {"c/0/0", shard}, {"c/0/1", shard}};
-    std::vector<std::string> read;  // the parts of the shards
+    std::vector<std::string> read;  // the parts of the shards that were read
     const FolderFileReader folder = [&](const std::string& path,
                                         const FilePart& part) -> Result<std::optional<FileContents>> {
         if (path.starts_with('c'))
@@ -102,7 +103,7 @@ TEST(ZarrShards, ReadsTheIndexOfAShardOnceAndOtherwiseOnlyItsChunks) {
 TEST(ZarrShards, RefusesDamagedShards) {
     const std::string shard = shardOf({{0, std::string(80, 'x')}}, false);
     std::string otherIndex = shard;
-    otherIndex[80 + 16] = 'x';  // a place of the second chunk, which the shard does not have
+    otherIndex[80 + 16] = 'x';  // the index now states a place for the second chunk, which is not in the shard
     const std::map<std::string, std::string> shards{
         {"'c/0/0' is damaged: it is shorter than its index", shard.substr(0, 60)},
         {"'c/0/0' is damaged: the checksum", otherIndex},

@@ -19,7 +19,7 @@
 namespace oval4d::fields::test {
 namespace {
 
-// The .zarray file of an array of 32-bit floats in one chunk. `sizes` are the numbers in a JSON list.
+// Returns the .zarray file of an array of 32-bit floats. `shape` and `chunk` are JSON lists of sizes.
 std::string zarray(const std::string& shape, const std::string& chunk, const std::string& fill = "0") {
     return R"({"zarr_format":2,"dtype":"<f4","order":"C","filters":null,"compressor":null,"shape":)" + shape +
            R"(,"chunks":)" + chunk + R"(,"fill_value":)" + fill + "}";
@@ -120,18 +120,19 @@ TEST(Zarr, ReadsTheFillValueOfXarrayInBase64) {
     };
     EXPECT_TRUE(std::isnan(samples("float32", "AAAAAICHw8A=")[1]));
     EXPECT_EQ(samples("float32", "AAAAAICHw8A=")[2], 3);
-    // NaN; too few and too many bytes; without padding; not Base64; a type that xarray does not encode.
+    // These fill values are ignored: NaN; too few and too many bytes; no padding; not Base64.
     for (const std::string fill : {"AAAAAAAA+H8=", "AAAAAICHww==", "AAAAAICHw8AA", "AAAAAICHw8A", "-Infinity", "?", ""})
         EXPECT_EQ(samples("float32", fill)[1], -9999) << fill;
     EXPECT_EQ(samples("int32", "AAAAAICHw8A=")[1], -9999);
 }
 
-// The value of the sample with these indices along x, y, z, w in the arrays of the following tests.
+// Returns the sample at these indices along x, y, z, w in the arrays of the following tests.
 float expectedSample(std::size_t x, std::size_t y, std::size_t z, std::size_t w) {
     return static_cast<float>(1 + x + 10 * y + 100 * z + 1000 * w);
 }
 
-// An array with the axes t z y x, whose shape is 5 × 4 × 7 × 6. Its chunks of 2 × 3 × 4 × 6 extend beyond it.
+// Returns the files of an array of 5 × 4 × 7 × 6 numbers with the axes t z y x. Its chunks of 2 × 3 × 4 × 6 numbers
+// extend beyond the array.
 Files filesInChunks() {
     constexpr std::array<std::size_t, 4> kShape{6, 7, 4, 5}, kChunk{6, 4, 3, 2};  // x, y, z, t
     Files files{{".zarray", zarray("[5,4,7,6]", "[2,3,4,6]")}};
@@ -155,9 +156,10 @@ Files filesInChunks() {
 
 TEST(Zarr, ReadsARegionFromItsOwnChunks) {
     const Files files = filesInChunks();
-    const FieldReadOptions whole{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}};  // the coordinates are the indices
+    const FieldReadOptions whole{.box = Box{{0, 0, 0, 0}, {5, 6, 3, 4}}};  // in this box, the coordinates of a sample
+                                                                           // are its indices
     struct Case {
-        Box region, expected;  // the box of the samples that cover the region
+        Box region, expected;  // expected: the box of the samples that cover the region
         std::vector<std::string> chunks;
     };
     for (const auto& [region, expected, chunks] :
@@ -216,7 +218,8 @@ TEST(Zarr, ReadsARegionWhereTheCoordinateDecreases) {
     EXPECT_TRUE(opened.contains("f/1") && !opened.contains("f/0") && !opened.contains("f/2"));
 }
 
-// The region is in the coordinates of the box, which are counted from the least one.
+// A region is in the coordinates of the box. If the coordinates of the samples are far from 0, these are counted from
+// the least one.
 TEST(Zarr, CoordinatesFarFromZeroAreCountedFromTheLeast) {
     const Files files{{".zgroup", R"({"zarr_format":2})"},
                       {"f/.zarray", zarray("[3]", "[3]")},
@@ -284,12 +287,12 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
     EXPECT_EQ(first.imageLevel, (ImageLevel{1, 2, 1}));
     EXPECT_EQ(first.shape, (Shape{3, 2, 1, 1}));
     EXPECT_NE(first.warnings.at(0).find("'1' is shown first; finer ones follow"), std::string::npos);
-    // A coarser level does not reach the ends of the finest one.
+    // The box of a coarser level does not reach the ends of the box of the finest level.
     const FieldArray end = read(2, Box{{7, 0, 0, 0}, {7, 3, 0, 0}});
     EXPECT_EQ(end.box, (Box{{6.5, 0.5, 0, 0}, {6.5, 2.5, 0, 0}}));
 }
 
-// The files of an image of 16, 8, 4 and 2 samples.
+// Returns the files of a multiscale image whose levels have 16, 8, 4 and 2 samples.
 Files imageOfFourLevels() {
     Files files{{".zgroup", R"({"zarr_format":2})"}};
     std::string levels;

@@ -30,7 +30,7 @@ TEST_P(Catalogue, hasTheNumbersOfElementsOfTheoryAndEulersFormula) {
     EXPECT_EQ(p.edges.size(), entry.edges);
     EXPECT_EQ(p.faces.size(), entry.faces);
     EXPECT_EQ(p.cells.size(), entry.cells);
-    // Cells and vertex figures of stars may have handles.
+    // Euler's formula V − E + F − C = 0 may not hold for star polytopes, whose cells may have handles.
     if (entry.family != "star") {
         EXPECT_EQ(entry.vertices + entry.faces, entry.edges + entry.cells);
     }
@@ -49,7 +49,8 @@ TEST_P(Catalogue, hasEqualEdgesAndIsCentered) {
 
 TEST_P(Catalogue, hasFlatFacesAndCells) {
     for (std::size_t c = 0; c < p.cells.size(); ++c) {
-        // The hyperplane of a cell of a uniform polytope is perpendicular to the line from the origin to its center.
+        // In a uniform polytope, the line from the origin to the center of a cell is perpendicular to the cell's
+        // hyperplane.
         std::set<std::uint32_t> corners;
         for (const auto f : p.cells[c]) corners.insert(p.faces[f].begin(), p.faces[f].end());
         glm::dvec4 center(0);
@@ -162,7 +163,8 @@ TEST(CatalogueNames, areAllDifferent) {
     }
 }
 
-// There are 47 convex uniform polychora that are not prisms (Conway and Guy, 1965) and ten regular stars.
+// The catalogue contains all 47 convex uniform polychora that are not prisms (Conway and Guy, 1965) and all ten regular
+// star polychora.
 TEST(CatalogueFamilies, areComplete) {
     std::map<std::string, int> families;
     for (const auto& entry : catalogue()) ++families[entry.family];
@@ -170,7 +172,7 @@ TEST(CatalogueFamilies, areComplete) {
                   families["uniform H4"] + families["other"],
               47);
     EXPECT_EQ(families["star"], 10);
-    EXPECT_EQ(families["prism"], 17);  // over the 18 Platonic and Archimedean solids but the cube
+    EXPECT_EQ(families["prism"], 17);  // the prisms over the 18 Platonic and Archimedean solids, without the cube
     EXPECT_GE(families["duoprism"], 5);
     EXPECT_GE(families["antiprism prism"], 3);
     const std::array<std::string_view, 6> first{"5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"};
@@ -202,8 +204,8 @@ TEST(CatalogueNames, nearMissesAreSuggested) {
               (std::vector<std::string_view>{"truncated 16-cell", "truncated 24-cell"}));
 }
 
-// Expects the vertices of the polytope to be `scale` times the permutations, with all signs, of the seeds: all
-// permutations, or only the even ones if the seed's flag is set.
+// Expects the vertices of the polytope to be `scale` times all vectors that arise from the seeds by changes of signs
+// and by permutations. If a seed's flag is true, only even permutations count.
 void expectOrbits(std::string_view name, double scale, const std::vector<std::pair<glm::dvec4, bool>>& seeds) {
     const Polytope& p = named(name);
     std::set<std::array<long, 4>> expected;

@@ -1,4 +1,5 @@
-// The list of notations: its examples are built, and its texts are those of the specification.
+// Tests of the list of notations: polytopes are built for its examples, and its texts are compared with the
+// specification.
 
 #include <algorithm>
 #include <cstddef>
@@ -23,7 +24,7 @@
 namespace oval4d::polytopes {
 namespace {
 
-// Returns the names in backquotes.
+// Returns the names in backquotes in `notation.examples`.
 std::vector<std::string> examplesOf(const Notation& notation) {
     std::vector<std::string> examples;
     std::string_view rest = notation.examples;
@@ -61,11 +62,11 @@ TEST(Notations, haveExamplesWithTheStatedElements) {
             const Design design = support::designFor(example);
             const Polytope p = build(design);
             const ElementCounts found{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()};
-            // The numbers of elements of convex hulls are estimated before they are computed.
+            // If the polytope is built as a convex hull, elementCounts() returns only an estimate.
             if (design.recipe->hullPointCount() == 0) {
                 EXPECT_EQ(elementCounts(design), found);
             }
-            // Cells and vertex figures of stars may have handles.
+            // Euler's formula V − E + F − C = 0 may not hold for star polytopes, whose cells may have handles.
             if (p.convex) {
                 EXPECT_EQ(found.vertices + found.faces, found.edges + found.cells);
             }

@@ -1,4 +1,5 @@
-// Polytopes that names compose from others: over polyhedra, with vertices cut off, products, hulls and intersections.
+// Tests of polytopes that names compose from others: over polyhedra, with vertices cut off, products, hulls and
+// intersections.
 
 #include <algorithm>
 #include <array>
@@ -40,8 +41,8 @@ NameError errorOf(const std::string& name) {
 
 FVector fVector(const Polytope& p) { return {p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()}; }
 
-// The volume by the divergence theorem: the sum over all simplices from the origin over a fan of each 2-face and a
-// point in its cell, with their signs.
+// Returns the hypervolume of the polytope by the divergence theorem. It is the sum of the signed hypervolumes of
+// simplices with a corner at the origin, one for each triangle of a 2-face and a vertex of its cell.
 double hypervolume(const Polytope& p) {
     double sum = 0;
     for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
@@ -57,8 +58,8 @@ double hypervolume(const Polytope& p) {
     return sum / 24;
 }
 
-// Expects a convex polytope with Euler characteristic 0 and the mean of its vertices at the origin, unless it is a
-// dual.
+// Expects that the polytope is convex and has the Euler characteristic 0. Expects that the mean of its vertices is the
+// origin, unless the polytope is a dual.
 void expectSound(const Polytope& p) {
     const auto [v, e, f, c] = fVector(p);
     EXPECT_EQ(v + f, e + c) << p.name;
@@ -70,7 +71,7 @@ void expectSound(const Polytope& p) {
     EXPECT_LT(glm::length(mean), 1e-9 * p.circumradius) << p.name;
 }
 
-// Expects that the points of the first list are those of the other one, multiplied by `scale`.
+// Expects that both lists have the same points after the points of the second list are multiplied by `scale`.
 void expectScaledPoints(const std::vector<glm::dvec4>& one, std::vector<glm::dvec4> other, double scale) {
     for (glm::dvec4& p : other) p *= scale;
     double size = 0;
@@ -84,7 +85,7 @@ std::map<std::string, std::uint32_t> cellsByName(const Polytope& p) {
     return cells;
 }
 
-// --- Over polyhedra
+// --- Prisms, pyramids and bipyramids over polyhedra
 
 class OverPolyhedra : public testing::TestWithParam<const char*> {};
 
@@ -106,8 +107,8 @@ TEST_P(OverPolyhedra, haveTheElementsThatTheBaseImplies) {
         const ElementCounts counts = elementCounts(support::designFor(p->name));
         EXPECT_EQ((FVector{counts.vertices, counts.edges, counts.faces, counts.cells}), fVector(*p));
     }
-    // With the area of the base B and the height h: V = 2 B for a prism, B h / 4 for a pyramid, twice that for a
-    // bipyramid.
+    // The volume V follows from the volume B of the base and the height h: V = 2 B for a prism, B h / 4 for a pyramid,
+    // and twice that for a bipyramid.
     double radius = 0;
     for (const auto& x : mesh.vertices) radius = std::max(radius, glm::length(x));
     const double height = !solid.dual && radius < 2 - 1e-9 ? std::sqrt(4 - radius * radius) : radius;
@@ -157,7 +158,8 @@ TEST(OverPolyhedra, haveOneDesignForEachPolytope) {
     }
 }
 
-// The designs that are known by another name are the polytopes that the constructions build.
+// A pyramid, prism or bipyramid has the hypervolume that the base and the height imply, even if it is a polytope with a
+// name of its own.
 TEST(OverPolyhedra, ofSimplicesAreRegular) {
     const Polytope bipyramid = built("bipyramid of dual of hexagonal prism");
     EXPECT_EQ(fVector(bipyramid), (FVector{10, 18 + 16, 12 + 36, 24}));
@@ -198,8 +200,8 @@ TEST(TruncationsAndRectifications, ofRegularPolytopesAreUniform) {
         << "its squares are cut at thirds";
 }
 
-// A polytope that is regular, but not known to be by its name, is cut by a hull; the result agrees with the uniform
-// one.
+// A polytope that is regular, but has no name of its own, is truncated or rectified by a convex hull. The result agrees
+// with the uniform polytope.
 TEST(TruncationsAndRectifications, areTheHullsOfPointsOnEdges) {
     const std::string cell24 = "hull of tesseract and 16-cell";
     for (const auto& [cut, uniform, ratio] :
@@ -210,7 +212,8 @@ TEST(TruncationsAndRectifications, areTheHullsOfPointsOnEdges) {
         EXPECT_EQ(cellsByName(own), cellsByName(known));
         expectSound(own);
     }
-    // The truncation at thirds of the tesseract: corners with legs of 2/3 of the 16 unit corners are missing.
+    // The truncation cuts the edges of the tesseract at their thirds: it removes a simplex with legs of 2/3 at each of
+    // the 16 vertices.
     const Polytope tesseract = built("truncation of tesseract");
     EXPECT_EQ(fVector(tesseract), fVector(built("truncated tesseract")));
     EXPECT_NEAR(hypervolume(tesseract), 16 - 16 * std::pow(2.0 / 3, 4) / 24, 1e-12);
@@ -233,7 +236,7 @@ TEST(Combinations, ofTheTesseractAndThe16CellAreThe24Cell) {
         expectSound(p);
         if (name.starts_with("hull")) {
             expectScaledPoints(p.vertices, built("24-cell").vertices, 1);
-        } else {  // the permutations of (±1, ±1, 0, 0), times a factor
+        } else {  // the vertices are multiples of the permutations of (±1, ±1, 0, 0)
             const double one = p.circumradius / std::numbers::sqrt2;
             for (const glm::dvec4& v : p.vertices) {
                 for (int i = 0; i < 4; ++i)
@@ -241,10 +244,12 @@ TEST(Combinations, ofTheTesseractAndThe16CellAreThe24Cell) {
             }
         }
     }
-    EXPECT_NEAR(hypervolume(built("hull of tesseract and 16-cell")), 32, 1e-12);  // 2 times the tesseract
+    EXPECT_NEAR(hypervolume(built("hull of tesseract and 16-cell")), 32, 1e-12);  // twice the hypervolume of the
+                                                                                  // tesseract
 }
 
-// |x|₁ ≤ s and |x|∞ ≤ 1: the tesseract with its vertices cut off, and the known volumes of the parts that are missing.
+// The intersection of a tesseract and a larger 16-cell, |x|∞ ≤ 1 and |x|₁ ≤ s, is the tesseract without its corners,
+// whose hypervolumes are known.
 TEST(Combinations, ofTheTesseractAndLarger16CellsAreItsTruncations) {
     for (const double s : {2.5, 3.0, 3.25, 3.5}) {
         const std::string name =
@@ -253,7 +258,8 @@ TEST(Combinations, ofTheTesseractAndLarger16CellsAreItsTruncations) {
                                                                                    : s == 3.25 ? "3.25"
                                                                                                : "3.5");
         const Polytope p = built(name);
-        // The corner Σ (1 − x_i) < 4 − s of the unit cube, minus what inclusion–exclusion counts twice.
+        // The corner of the unit cube with Σ (1 − x_i) < 4 − s is a simplex without four small simplices, by
+        // inclusion–exclusion.
         const double t = 4 - s;
         const double missing = 16 * (std::pow(t, 4) - 4 * std::pow(std::max(t - 1, 0.0), 4)) / 24;
         EXPECT_NEAR(hypervolume(p), 16 - missing, 1e-12) << name;
@@ -281,12 +287,12 @@ TEST(Combinations, areBetweenTheirParts) {
         EXPECT_GE(hypervolume(hull), hypervolume(first) * (1 - 1e-12));
         EXPECT_LE(hypervolume(common), hypervolume(first) * (1 + 1e-12));
     }
-    // By polarity, the intersection of the duals is the dual of the hull; both parts have the circumradius 2.
+    // By polarity, the dual of a hull is the intersection of the duals. Both operands have the circumradius 2.
     EXPECT_EQ(fVector(built("dual of hull of 24-cell and 5,5-duoprism")).at(0),
               fVector(built("hull of 24-cell and 5,5-duoprism")).at(3));
 }
 
-// --- Compositions
+// --- Compositions of several constructions
 
 TEST(Dual, ofAnyConvexPolytopeReversesTheElements) {
     for (const std::string name :
@@ -301,7 +307,8 @@ TEST(Dual, ofAnyConvexPolytopeReversesTheElements) {
     }
 }
 
-// Reciprocates a built dual: "hull of X and a small simplex" is X, without the name of X.
+// The dual of a dual has the vertices of the original polytope, even if the dual is a hull and no name says that it is
+// a dual. The small simplex does not change the hull.
 TEST(Dual, ofTheDualHasTheSameVertices) {
     for (const std::string name : {"bipyramid of cube", "truncation of tesseract", "prism of rhombic dodecahedron"}) {
         const std::string hidden = "hull of dual of " + name + " and 5-cell of circumradius 0.01";
@@ -379,7 +386,7 @@ TEST(Compositions, ofRandomNamesAreSound) {
     EXPECT_GT(builtCount, trials(120) * 2 / 3);
 }
 
-// --- Mistakes and limits
+// --- Mistakes in names, and limits of size
 
 TEST(Compositions, withMistakesAreExplained) {
     for (const auto& [name, part] : std::vector<std::pair<std::string, std::string>>{
@@ -426,7 +433,7 @@ TEST(Compositions, areLimitedInSize) {
         EXPECT_EQ(errorOf(name).reason, NameError::Reason::too_large) << name;
     }
     EXPECT_THROW((void)built("rectification of 3,1001-duoprism"), TooLarge);
-    // A hull of which the numbers of elements are known only when it is built.
+    // The numbers of elements of this hull exceed a limit, which only building the hull can show.
     EXPECT_THROW((void)built("hull of dual of 90,110-duoprism of circumradius 2 and dual of 300,300-duoprism"),
                  TooLarge);
     std::string deep = "5-cell";

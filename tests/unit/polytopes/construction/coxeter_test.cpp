@@ -1,4 +1,4 @@
-// Diagrams, and the names and notations of polytopes.
+// Tests of Coxeter–Dynkin diagrams, and of the names and notations of polytopes.
 
 #include <array>
 #include <string>
@@ -19,7 +19,8 @@ using namespace oval4d::polytopes;
 
 Diagram diagram(std::string_view symbol) { return std::get<Diagram>(parseDiagram(symbol)); }
 
-/// The error message for a text that names no polytope.
+/// Returns the error message for a text that names no polytope. For other texts, returns "none: " and the polytope's
+/// name.
 std::string errorFor(std::string_view text, std::size_t maxVertices = 100'000) {
     const auto named = designNamed(text, maxVertices);
     const auto* error = std::get_if<NameError>(&named);
@@ -75,7 +76,8 @@ TEST(Groups, haveTheKnownOrders) {
     EXPECT_EQ(automorphismsOf(diagram("x5o x5o")).size(), 2U);
 }
 
-// Builds all diagrams of the groups of the regular polychora and of D4.
+// The computed numbers of elements agree with the built polytopes for all diagrams of the groups of the regular
+// polychora and of D4.
 TEST(Counts, agreeWithTheBuiltPolytopes) {
     for (const char* group : {"o3o3o3o", "o4o3o3o", "o3o4o3o", "o5o3o3o", "o3o3o *b3o"}) {
         for (unsigned rings = 1; rings < 16; ++rings) {
@@ -160,7 +162,7 @@ TEST(Names, ofNoPolytopeGiveAnError) {
     EXPECT_NE(errorFor("5/2 antiprism prism").find("be no star"), std::string::npos);
     EXPECT_EQ(errorFor("1000,1000-duoprism"),
               "the 1000,1000-duoprism has 1000000 vertices; at most 100000 are allowed");
-    EXPECT_EQ(errorFor("5,7-duoprism", 30), "none: 5,7-duoprism");  // in the catalogue
+    EXPECT_EQ(errorFor("5,7-duoprism", 30), "none: 5,7-duoprism");  // polytopes in the catalogue are not limited
     EXPECT_EQ(errorFor("7,9-duoprism", 62), "the 7,9-duoprism has 63 vertices; at most 62 are allowed");
     for (const char* text : {"", " ", "-", "25-cell", "prism", "duo prism", "truncated", "truncated cat", "x",
                              "banana prism", "s", "sxs", "{", "omnitruncated cube"}) {
@@ -194,7 +196,7 @@ TEST(Names, ofAnyLengthAndWithAnyNumbersGiveAnError) {
 }
 
 TEST(Names, ofAnyTextAreParsedSafely) {
-    // All concatenations of four of these pieces.
+    // Parsing any sequence of four of these pieces neither crashes nor throws.
     const auto pieces =
         std::to_array<std::string_view>({"x", "o", "s", "3", "5/2", "*b", "{", "}", ",", " ", "×", "t", "duoprism",
                                          "prism", "antiprism", "truncated", "24-cell", "\xff"});
@@ -218,7 +220,7 @@ TEST(Designs, outsideTheCatalogueAreBuiltAndShared) {
     const auto twenty = built("20,30-duoprism");
     EXPECT_EQ(twenty->vertices.size(), 600U);
     EXPECT_EQ(twenty->cells.size(), 50U);
-    EXPECT_EQ(built("20,30-duoprism"), twenty);  // shared
+    EXPECT_EQ(built("20,30-duoprism"), twenty);  // the same object: the cache returns it for all names of the polytope
     EXPECT_EQ(built("x30o x20o"), twenty);
     const auto antiprism = built("100-gonal antiprism prism");
     EXPECT_EQ(antiprism->vertices.size(), 400U);

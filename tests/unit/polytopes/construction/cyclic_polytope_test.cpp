@@ -1,4 +1,4 @@
-// Cyclic polytopes, compared with theory and with the convex hulls of their vertices.
+// Tests that compare cyclic polytopes with theory and with the convex hulls of their vertices.
 
 #include <algorithm>
 #include <array>
@@ -36,8 +36,8 @@ std::set<std::uint32_t> cornersOf(const Polytope& p, std::size_t cell) {
     return corners;
 }
 
-// Returns the number of permutations of the points that preserve all distances and map the first points to those with
-// the indices `images`.
+// Returns the number of permutations of the points that preserve all distances. Counts only permutations that map the
+// first points to the points with the indices `images`.
 std::uint64_t countIsometries(const std::vector<glm::dvec4>& points, std::vector<std::size_t>& images) {
     const std::size_t next = images.size();
     if (next == points.size()) return 1;
@@ -105,8 +105,8 @@ TEST_P(CyclicPolytopeOf, hasTheLeastEdgeLengthTwoBetweenNeighbors) {
     }
 }
 
-// Gale's evenness condition: four vertices are those of a cell if, between any two others, there is an even number of
-// the four.
+// By Gale's evenness condition, four vertices are the corners of a cell if, between any two other vertices, the number
+// of these four is even.
 TEST_P(CyclicPolytopeOf, hasTheCellsOfGalesEvennessCondition) {
     std::set<std::set<std::uint32_t>> found, expected;
     for (std::size_t c = 0; c < polytope.cells.size(); ++c) found.insert(cornersOf(polytope, c));
@@ -114,7 +114,7 @@ TEST_P(CyclicPolytopeOf, hasTheCellsOfGalesEvennessCondition) {
     std::fill(chosen.end() - 4, chosen.end(), true);
     do {
         std::set<std::uint32_t> corners;
-        std::set<std::size_t> parities;  // of the numbers of corners before each other vertex
+        std::set<std::size_t> parities;  // for each other vertex, the parity of the number of corners before it
         for (std::uint32_t k = 0; k < n; ++k) {
             if (chosen[k]) {
                 corners.insert(k);
@@ -138,7 +138,7 @@ TEST_P(CyclicPolytopeOf, hasTheSymmetriesOfTheory) {
 }
 
 TEST_P(CyclicPolytopeOf, hasCongruentCellsInEachKindOnly) {
-    using Lengths = std::vector<long>;  // of the edges of a cell, rounded, in ascending order
+    using Lengths = std::vector<long>;  // the rounded lengths of a cell's edges, in ascending order
     std::map<Lengths, std::set<std::uint32_t>> kinds;
     for (std::size_t c = 0; c < polytope.cells.size(); ++c) {
         const std::set<std::uint32_t> corners = cornersOf(polytope, c);

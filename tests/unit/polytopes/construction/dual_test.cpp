@@ -1,4 +1,4 @@
-// Duals by polar reciprocity.
+// Tests of duals by polar reciprocity.
 
 #include <algorithm>
 #include <cmath>
@@ -32,8 +32,8 @@ TEST_P(DualOf, isItsPolarReciprocal) {
     EXPECT_EQ(symmetryOrder(design), symmetryOrder(support::designFor(GetParam())));
     EXPECT_EQ(dual.convex, base.convex);
     EXPECT_NEAR(dual.circumradius, base.circumradius, 1e-9 * base.circumradius);
-    // v · p is the same for all incident pairs of a vertex of the dual and a vertex of the base, and for convex
-    // polytopes smaller for all other pairs.
+    // The product v · p of a vertex v of the dual and a vertex p of the base is the same for all incident pairs. For
+    // convex polytopes, it is smaller for all other pairs.
     double squared = 0;
     for (std::size_t c = 0; c < base.cells.size(); ++c) {
         std::vector<bool> incident(base.vertices.size(), false);
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Uniform, DualOf,
                                          "pentagonal antiprism prism", "rectified 600-cell", "cyclic polytope C(9,4)"));
 
 TEST(Dual, ofTheDualIsThePolytopeItself) {
-    // A dual that is not recognized by its name: reciprocate the built dual once more.
+    // The dual of a built dual, computed by reciprocating once more, has the vertices of the original polytope.
     const Polytope base = build(support::designFor("truncated tesseract"));
     const Polytope dual = build(support::designFor("dual of truncated tesseract"));
     std::vector<glm::dvec4> again;

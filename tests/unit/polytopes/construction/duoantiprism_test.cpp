@@ -1,4 +1,4 @@
-// Duoantiprisms, compared with theory and with the convex hulls of their vertices.
+// Tests that compare duoantiprisms with theory and with the convex hulls of their vertices.
 
 #include <algorithm>
 #include <cmath>
@@ -32,15 +32,16 @@ ElementCounts builtCounts(const Polytope& polytope) {
     return {polytope.vertices.size(), polytope.edges.size(), polytope.faces.size(), polytope.cells.size()};
 }
 
-// Returns the numbers of sides of the 2-faces of an antiprism, in ascending order. Those of a disphenoid are the same
-// as those of the antiprism over a digon.
+// Returns the numbers of sides of the 2-faces of an antiprism over a polygon of `sides` sides, in ascending order. For
+// a digon (2 sides), they are those of a disphenoid.
 std::vector<std::size_t> facesOfAntiprism(std::size_t sides) {
     std::vector<std::size_t> faces(2 * sides, 3);
     if (sides > 2) faces.insert(faces.end(), 2, sides);
     return faces;
 }
 
-// Returns the sum of the simplices from the origin over a fan of each 2-face and a point in its cell.
+// Returns the hypervolume of the polytope: the sum over simplices with a corner at the origin, one for each triangle of
+// a 2-face and a vertex of its cell.
 double enclosedHypervolume(const Polytope& polytope) {
     double sum = 0;
     for (std::size_t c = 0; c < polytope.cells.size(); ++c) {
@@ -57,7 +58,7 @@ double enclosedHypervolume(const Polytope& polytope) {
     return sum / 24;
 }
 
-// Returns the number of orthogonal maps that map the vertices to the vertices. Each of them maps the corners of the
+// Returns the number of orthogonal maps that map the set of vertices to itself. Each of them maps the corners of the
 // first tetrahedral cell to those of a tetrahedral cell, in some order.
 std::uint64_t countSymmetries(const Polytope& polytope) {
     std::vector<std::vector<std::uint32_t>> tetrahedra;
@@ -130,7 +131,7 @@ TEST_P(DuoantiprismOf, isTheConvexHullOfEveryOtherVertexOfADuoprism) {
             if ((i + j) % 2 != 0) continue;
             const double a = kPi * i / p, b = kPi * j / q;
             const double r = 1 / std::sin(kPi / p), s = 1 / std::sin(kPi / q);
-            // The circle of the polygon with fewer sides lies in the xy plane.
+            // The polygon with fewer sides has its circle in the xy plane.
             if (p <= q) {
                 points.emplace_back(r * std::cos(a), r * std::sin(a), s * std::cos(b), s * std::sin(b));
             } else {
@@ -143,7 +144,8 @@ TEST_P(DuoantiprismOf, isTheConvexHullOfEveryOtherVertexOfADuoprism) {
     EXPECT_TRUE(polytope.convex);
 }
 
-// The duoprism has the area of the 2p-gon times that of the 2q-gon. At each removed vertex, it loses a simplex.
+// The hypervolume of a duoantiprism is that of the duoprism, the area of the 2p-gon times the area of the 2q-gon,
+// without a simplex at each removed vertex.
 TEST_P(DuoantiprismOf, hasTheHypervolumeOfTheDuoprismWithoutItsCorners) {
     const double whole = p / std::sin(kPi / p) * q / std::sin(kPi / q);
     const double corner = 2 * std::tan(kPi / 2 / p) * 2 * std::tan(kPi / 2 / q) / 24;
@@ -167,7 +169,8 @@ TEST_P(DuoantiprismOf, hasPolygonsOfEdgeLengthTwoAndOtherwiseEqualEdges) {
 }
 
 TEST_P(DuoantiprismOf, hasTheRadiiThatMakeTheEdgesMostEqual) {
-    const auto ratio = [&](double scale) {  // of the longest edge to the shortest one, if the xy plane is scaled
+    const auto ratio = [&](double scale) {  // the ratio of the longest edge to the shortest edge if the xy plane is
+                                            // scaled
         double least = 1e300, most = 0;
         for (const auto& [a, b] : polytope.edges) {
             glm::dvec4 along = polytope.vertices[a] - polytope.vertices[b];
@@ -239,9 +242,9 @@ TEST(Duoantiprisms, areLimitedInTheirVerticesOnly) {
               "the 1000,1000-duoantiprism has 2000000 vertices; at most 100000 are allowed");
     EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("3,4-duoantiprism", 23)));
     EXPECT_TRUE(std::holds_alternative<Design>(designNamed("3,4-duoantiprism", 24)));
-    // More vertices than a hull may have points.
+    // A duoantiprism may have more vertices than a convex hull may have points.
     EXPECT_TRUE(std::holds_alternative<Design>(designNamed("200,250-duoantiprism", 100'000)));
-    // A 2-face with more sides than hulls allow.
+    // A duoantiprism may have a 2-face with more sides than constructions by convex hulls allow.
     const Polytope wide = build(support::designFor("3,1001-duoantiprism"));
     EXPECT_TRUE(wide.convex);
     EXPECT_EQ(wide.vertices.size(), 6006U);

@@ -1,4 +1,4 @@
-// The ten regular star polychora and other polytopes with star polygons.
+// Tests of the ten regular star polychora and of other polytopes with star polygons.
 
 #include <cmath>
 #include <map>
@@ -25,7 +25,7 @@ struct Star {
     int verticesOfCell, facesOfCell;
 };
 
-// Densities and numbers of elements from Coxeter, Regular Polytopes, table I (ii) and §14.
+// The densities and numbers of elements are those of Coxeter, Regular Polytopes, table I (ii) and §14.
 const Star kStars[] = {
     {"small stellated 120-cell", "{5/2,5,3}", 4, {120, 1200, 720, 120}, 12, 12},
     {"icosahedral 120-cell", "{3,5,5/2}", 4, {120, 720, 1200, 120}, 12, 20},
@@ -39,9 +39,8 @@ const Star kStars[] = {
     {"great grand stellated 120-cell", "{5/2,3,3}", 191, {600, 1200, 720, 120}, 20, 12},
 };
 
-/// The density at a direction: how often the boundary, seen from the origin, covers it. This is the degree of the
-/// projection onto the sphere, computed as the signed number of the simplices of a fan whose cones contain the
-/// direction.
+/// Returns the density at a direction: how often the boundary, seen from the origin, covers this direction. Divides the
+/// boundary into simplices, and adds up the signs of those whose cones from the origin contain the direction.
 int densityAt(const Polytope& p, const glm::dvec4& direction) {
     int sum = 0;
     for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
@@ -51,7 +50,7 @@ int densityAt(const Polytope& p, const glm::dvec4& direction) {
             for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
                 const glm::dmat4 corners(apex, p.vertices[loop[0]], p.vertices[loop[i]], p.vertices[loop[i + 1]]);
                 const double determinant = glm::determinant(corners);
-                if (std::abs(determinant) < 1e-9) continue;  // the 2-faces at the apex
+                if (std::abs(determinant) < 1e-9) continue;  // a triangle at the apex of its cell gives no simplex
                 const glm::dvec4 parts = glm::inverse(corners) * direction;
                 if (parts.x > 0 && parts.y > 0 && parts.z > 0 && parts.w > 0)
                     sum += p.cellSigns[slot] * (determinant > 0 ? 1 : -1);
@@ -85,7 +84,8 @@ TEST_P(Stars, haveTheDensityOfTheTable) {
     for (int trial = 0; trial < 12; ++trial) EXPECT_EQ(std::abs(densityAt(p, randomDirection(random))), star.density);
 }
 
-// The diagonal of a 2-face tells pentagrams and pentagons apart.
+// A regular star polychoron has the 2-faces of its Schläfli symbol. The length of a diagonal tells pentagrams from
+// pentagons.
 TEST_P(Stars, havePentagramsAccordingToTheirSymbol) {
     const bool pentagrams = std::string_view(star.symbol).starts_with("{5/2");
     EXPECT_EQ(p.convexFaces, !pentagrams);

@@ -1,4 +1,4 @@
-// Builds every uniform polychoron of the catalogue and compares it with theory.
+// Tests that build every uniform polychoron of the catalogue and compare it with theory.
 
 #include <algorithm>
 #include <cmath>
@@ -44,11 +44,11 @@ class Uniform : public testing::TestWithParam<CatalogueEntry> {
     const Polytope& p = *polytope;
 };
 
-/// Invariants of a vertex, equal for all vertices if the symmetry group is transitive on them.
+/// Invariants of a vertex. They are equal for all vertices if the symmetry group is transitive on the vertices.
 struct Surroundings {
-    std::vector<long> neighbors;               // distances of the nearest other vertices, rounded
-    std::map<std::uint32_t, int> cellTypes;    // number of cells by type
-    std::map<std::size_t, std::size_t> sides;  // number of 2-faces by number of sides
+    std::vector<long> neighbors;               // the distances of the nearest other vertices, rounded
+    std::map<std::uint32_t, int> cellTypes;    // for each cell type, the number of cells at the vertex
+    std::map<std::size_t, std::size_t> sides;  // for each number of sides, the number of 2-faces
     bool operator==(const Surroundings&) const = default;
 };
 
@@ -62,7 +62,7 @@ std::vector<Surroundings> surroundingsOf(const Polytope& p) {
         for (const auto f : p.cells[c]) corners.insert(p.faces[f].begin(), p.faces[f].end());
         for (const auto v : corners) ++all[v].cellTypes[p.typeOfCell[c]];
     }
-    // To save time, takes the 30 least distances only, from about 50 of the vertices.
+    // To save time, considers only about 50 vertices, and the 30 least distances from each.
     const std::size_t step = std::max<std::size_t>(p.vertices.size() / 50, 1);
     for (std::size_t v = 0; v < p.vertices.size(); v += step) {
         std::vector<long> distances;
@@ -101,7 +101,7 @@ TEST_P(Uniform, hasRegularPolygons) {
     }
 }
 
-// A polytope is convex if it lies on one side of each cell's hyperplane.
+// A polytope of the catalogue is convex, unless it is a star: it lies on one side of each cell's hyperplane.
 TEST_P(Uniform, isConvexUnlessAStar) {
     EXPECT_EQ(p.convexFaces, isConvex(entry) || p.faces[0].size() == 3 || entry.schlaefli.starts_with("{5,"));
     const std::size_t step = std::max<std::size_t>(p.cells.size() / 60, 1);
@@ -136,7 +136,7 @@ TEST_P(Uniform, hasNamedCellTypes) {
         EXPECT_EQ(cells[k], p.cellTypes[k].cells);
         EXPECT_EQ(shapes[k].size(), 1U) << p.cellTypes[k].name;
         EXPECT_FALSE(p.cellTypes[k].name.starts_with("cell of")) << p.cellTypes[k].name;
-        EXPECT_EQ(entry.symmetryOrder % cells[k], 0U);  // an orbit's size divides the group's order
+        EXPECT_EQ(entry.symmetryOrder % cells[k], 0U);  // the size of an orbit divides the order of the group
     }
 }
 
@@ -146,7 +146,8 @@ std::map<std::string, long> cellsByName(const Polytope& p) {
     return cells;
 }
 
-// In a polytope read from a file with three decimals, cell types are found by shape alone and have the same names.
+// In a polytope that is read from a file with three decimals, the cell types are found by shape alone, and have the
+// same names as in the catalogue.
 TEST_P(Uniform, hasCellsRecognizedByTheirShape) {
     auto rounded = p.vertices;
     for (auto& v : rounded) v = glm::round(v * 1000.0) / 1000.0;
@@ -162,7 +163,8 @@ TEST(CellTypes, ofIrregularCellsAreNamedByTheirNumbersOfFaces) {
     auto moved = regular.vertices;
     for (auto& v : moved) v *= factor(random);
     const Polytope p = makePolytope("crumpled", moved, regular.faces, regular.cells);
-    EXPECT_EQ(p.cellTypes, (std::vector<CellType>{{"cell of 12 faces", 120}}));  // more shapes than types allowed
+    EXPECT_EQ(p.cellTypes, (std::vector<CellType>{{"cell of 12 faces", 120}}));  // the cells have more shapes than
+                                                                                 // there may be types
     auto sheared = built("8-cell").vertices;
     for (auto& v : sheared) v += glm::dvec4(0.4 * v.y, 0.3 * v.z, 0.2 * v.w, 0.1 * v.x);
     const Polytope oblique = makePolytope("oblique", sheared, built("8-cell").faces, built("8-cell").cells);
@@ -185,7 +187,7 @@ std::string asName(const testing::TestParamInfo<CatalogueEntry>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, Uniform, testing::ValuesIn(catalogue().begin(), catalogue().end()), asName);
 
-// Slices are closed surfaces; those of convex polytopes are spheres, by Euler's formula.
+// Slices are closed surfaces. Slices of convex polytopes are spheres, which Euler's formula shows.
 class Sections : public testing::TestWithParam<CatalogueEntry> {};
 
 TEST_P(Sections, areClosedSpheres) {
@@ -219,7 +221,8 @@ INSTANTIATE_TEST_SUITE_P(Convex, Sections, testing::ValuesIn([] {
                          }()),
                          asName);
 
-/// The sum over the cones from the origin over the cells, each divided into a fan of simplices.
+/// Returns the hypervolume of the polytope: the sum over cones from the origin to the cells, each divided into
+/// simplices.
 double hypervolumeOf(const Polytope& p) {
     double sum = 0;
     for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
@@ -240,22 +243,22 @@ TEST(Hypervolume, isThatOfTheRegularPolytopeMinusItsCorners) {
     const double cell16 = 16.0 / 6;
     const double cell600 = 25.0 / 4 * (2 + kRoot5) * 16;
     const auto pow4 = [](double x) { return x * x * x * x; };
-    // Rectification cuts a pyramid off each vertex of a regular polytope of twice the edge length, truncation off one
-    // of three times the edge length.
+    // Rectification cuts a pyramid off each vertex of a regular polytope of edge length 4, truncation off each vertex
+    // of a polytope of edge length 6. Each pyramid has edges of length 2.
     EXPECT_NEAR(hypervolumeOf(built("rectified 5-cell")), (16 - 5) * cell5, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("truncated 5-cell")), (81 - 5) * cell5, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("truncated 16-cell")), (81 - 8 / 2.0) * cell16, 1e-9);
-    // The corner of a tesseract is a simplex with four perpendicular edges of length √2.
+    // A vertex of a tesseract is cut off with a simplex that has four perpendicular edges of length √2.
     EXPECT_NEAR(hypervolumeOf(built("rectified tesseract")), pow4(2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("truncated tesseract")), pow4(2 + 2 * kRoot2) - 16 * 4 / 24.0, 1e-9);
-    // The corner of a 24-cell is a pyramid of height 1 over a cube.
+    // A vertex of a 24-cell is cut off with a pyramid of height 1 over a cube.
     EXPECT_NEAR(hypervolumeOf(built("rectified 24-cell")), 16 * 32 - 24 * 8 / 4.0, 1e-9);
-    // The corner of a 600-cell of circumradius 2φ is a pyramid over an icosahedron of circumradius √(φ√5).
+    // A vertex of a 600-cell of circumradius 2φ is cut off with a pyramid over an icosahedron of circumradius √(φ√5).
     const double phi = std::numbers::phi;
     const double icosahedron = 5.0 / 12 * (3 + kRoot5) * 8;
     const double height = 2 * phi - 2 * phi * phi / 2;
     EXPECT_NEAR(hypervolumeOf(built("snub 24-cell")), cell600 - 24 * icosahedron * height / 4, 1e-8);
-    // Closed forms for edge length 1, from Klitzing.
+    // Closed forms of the hypervolumes for edge length 1, from Klitzing.
     EXPECT_NEAR(hypervolumeOf(built("runcitruncated tesseract")) / 16, 8 * (27 + 20 * kRoot2) / 3, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("runcitruncated 24-cell")) / 16, 305 + 224 * kRoot2, 1e-8);
     EXPECT_NEAR(hypervolumeOf(built("runcitruncated 600-cell")) / 16, 25 * (1814 + 779 * kRoot5) / 4, 1e-5);
@@ -267,7 +270,7 @@ TEST(Hypervolume, ofProductsIsTheProduct) {
     EXPECT_NEAR(hypervolumeOf(built("3,24-duoprism")), area(3) * area(24), 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("cuboctahedral prism")), 2 * 5 / 3.0 * kRoot2 * 8, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("truncated icosahedral prism")), 2 * (125 + 43 * kRoot5) / 4 * 8, 1e-9);
-    // For edge length 1, the square antiprism has the volume √(4 + 3√2) / 3 and the snub cube 7.889477399975…
+    // With edge length 1, the square antiprism has the volume √(4 + 3√2) / 3, and the snub cube 7.889477399975….
     EXPECT_NEAR(hypervolumeOf(built("square antiprism prism")), 2 * std::sqrt(4 + 3 * kRoot2) / 3 * 8, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("snub cube prism")), 2 * 7.889477399975 * 8, 1e-9);
 }
@@ -281,7 +284,7 @@ TEST(Hypervolume, isTheIntegralOfTheSlices) {
     }
 }
 
-// Diagrams of smaller groups generate the same polytopes as the diagrams in the catalogue, which have larger groups.
+// Diagrams of subgroups give the same polytopes as the diagrams of the catalogue, which have larger groups.
 TEST(Diagrams, ofSubgroupsGenerateTheSamePolytopes) {
     const auto same = [](const char* symbol, std::string_view name) {
         const Diagram diagram = std::get<Diagram>(parseDiagram(symbol));

@@ -24,7 +24,7 @@ using support::warningsOf;
 
 using Points = std::vector<glm::dvec4>;
 
-// The vertices with noise of at most `amplitude` in each coordinate.
+// Returns the points with noise of at most `amplitude` in each coordinate.
 Points noisy(Points points, double amplitude, std::mt19937& random) {
     std::uniform_real_distribution<double> noise(-amplitude, amplitude);
     for (glm::dvec4& p : points) {
@@ -37,7 +37,7 @@ ImportedPolytope imported(const Polytope& polytope, const Points& vertices) {
     return sound(importPolytope(FileFormat::off4, write4Off(polytope, vertices), "p", {}));
 }
 
-// The largest distance of a vertex from the hyperplane of its cell, relative to the circumradius.
+// Returns the largest distance of a vertex from the hyperplane of its cell, relative to the circumradius.
 double unevenness(const Polytope& p) {
     Points normals;
     std::vector<double> offsets;
@@ -45,7 +45,7 @@ double unevenness(const Polytope& p) {
     double most = 0;
     for (std::size_t c = 0; c < p.cells.size(); ++c) {
         const double length = glm::length(normals[c]);
-        if (length == 0) continue;  // a cell that encloses no volume
+        if (length == 0) continue;  // the cell encloses no volume
         for (const std::uint32_t f : p.cells[c]) {
             for (const std::uint32_t v : p.faces[f])
                 most = std::max(most, std::abs(glm::dot(normals[c], p.vertices[v]) - offsets[c]) / length);
@@ -54,7 +54,8 @@ double unevenness(const Polytope& p) {
     return most / p.circumradius;
 }
 
-// The 4-D content: the sum of the cones over the cells. The length of a cell's normal is six times its volume.
+// Returns the hypervolume: the sum over the cones from the origin to the cells. The normal of a cell is six times as
+// long as the cell's volume.
 double contentOf(const Polytope& p) {
     Points normals;
     std::vector<double> offsets;
@@ -64,9 +65,9 @@ double contentOf(const Polytope& p) {
     return sum;
 }
 
-// Expects that no vertex of a section of a convex polytope lies outside of the polytope, beyond the tolerance: a vertex
-// of the polytope counts as lying in the hyperplane of the section up to kOnPlaneTolerance circumradii from it. In a
-// section that is nearly parallel to a cell, this is a larger distance from the plane of a face.
+// Expects that no vertex of a section of a convex polytope lies outside of the polytope by more than a tolerance. A
+// vertex of the polytope counts as lying in the section's hyperplane if it is at most kOnPlaneTolerance circumradii
+// away. In a section that is nearly parallel to a cell, such a vertex may be farther from the plane of a face.
 void expectInside(const Polytope& p, const geometry::Rotation& orientation, const slicing::SliceSet& section) {
     Points normals;
     std::vector<double> offsets;
@@ -80,20 +81,21 @@ void expectInside(const Polytope& p, const geometry::Rotation& orientation, cons
     }
 }
 
-// Expects that the sections near some vertices, in the orientation `orientation`, are closed.
+// Expects that sections near some vertices of the polytope, rotated by `orientation`, are closed surfaces.
 void expectClosedSections(const Polytope& p, const geometry::Rotation& orientation, std::mt19937& random) {
     std::uniform_real_distribution<double> anywhere(-p.circumradius, p.circumradius);
     for (int i = 0; i < 6; ++i) {
         const glm::dvec4 at = orientation(p.vertices[random() % p.vertices.size()]);
         for (const double w : {at.w, at.w + 1e-10, at.w - 1e-8, at.w + 1e-7, at.w - 1e-5, anywhere(random)}) {
             const slicing::SliceSet slice = support::cutAt(p, orientation, w);
-            if (slice.faceCount(0) != 1) support::expectClosed(slice);  // a single face is a 2-face that it touches
+            if (slice.faceCount(0) != 1) support::expectClosed(slice);  // a single face is a 2-face in the hyperplane
             if (p.convex) expectInside(p, orientation, slice);
-            // If vertices are moved into the hyperplane, the section of a cell that is nearly parallel may fold over.
+            // If vertices count as lying in the hyperplane, the section of a nearly parallel cell may fold over.
             const bool exact = std::none_of(p.vertices.begin(), p.vertices.end(), [&](const glm::dvec4& v) {
                 return std::abs(orientation(v).w - w) <= 2 * slicing::kOnPlaneTolerance * p.circumradius;
             });
-            constexpr double kAny = std::numeric_limits<double>::infinity();  // see expectInside()
+            constexpr double kAny = std::numeric_limits<double>::infinity();  // no limit on the distance from a face's
+                                                                              // plane (see expectInside())
             if (p.convex && exact && slice.faceCount(0) > 1) support::expectClosedConvexSolid(slice, 0, kAny);
             ASSERT_FALSE(testing::Test::HasFatalFailure()) << p.name << " at " << w;
         }
@@ -110,7 +112,7 @@ TEST(Flatten, MakesTheSectionsOfNoisyPolytopesClosed) {
                                   &named("truncated icosahedral prism"), &named("{5/2,3,5}"), &dented}) {
         for (const double noise : {1e-12, 1e-9, 3e-9, 1e-6, 1e-4}) {
             for (const bool turned : {false, true}) {
-                // Unless they are turned, the hyperplanes w = const are parallel to cells.
+                // Without a rotation, the hyperplanes w = const are parallel to cells.
                 const geometry::Rotation rotation = turned ? support::randomRotation(random) : geometry::Rotation();
                 Points vertices;
                 for (const glm::dvec4& v : exact->vertices) vertices.push_back(rotation(v));
@@ -129,7 +131,8 @@ TEST(Flatten, MakesTheSectionsOfNoisyPolytopesClosed) {
     }
 }
 
-// The coordinates of a distant polytope are rounded more coarsely than 1e-12 of its size.
+// A polytope that is far from the origin is flat up to the rounding of its coordinates, which is more than 1e-12 of its
+// size.
 TEST(Flatten, LeavesDistantPolytopesAsExactAsTheirCoordinatesAre) {
     std::mt19937 random(52);
     for (const double distance : {1e2, 1e4, 1e6}) {
@@ -181,7 +184,7 @@ TEST(Flatten, TellsWhatItMoves) {
     const std::string warning = warningsOf(imported(cube, noisy(cube.vertices, 1e-6, random)));
     EXPECT_NE(warning.find("16 vertices were moved by up to "), std::string::npos) << warning;
     EXPECT_NE(warning.find("so that the vertices of each cell lie in one hyperplane"), std::string::npos) << warning;
-    // A vertex of a simplex may be anywhere.
+    // Any points can be the vertices of a simplex, so they are not moved.
     const Polytope& simplex = named("5-cell");
     const Points moved = noisy(simplex.vertices, 1e-3, random);
     const ImportedPolytope kept = imported(simplex, moved);
@@ -202,7 +205,7 @@ TEST(Flatten, MovesTheVerticesOfAHullWithinTheirDigits) {
     }
 }
 
-// Vertices, 2-faces and cells as they are in a polytope.
+// Returns the vertices, 2-faces and cells of a polytope as a polygon soup.
 PolygonSoup soupOf(const Polytope& p) { return {p.vertices, p.faces, p.cells, {}, {}}; }
 
 TEST(Flatten, DividesCellsThatItMayNotMakeFlat) {

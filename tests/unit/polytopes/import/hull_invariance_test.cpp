@@ -1,4 +1,4 @@
-// The convex hull does not change when its points are moved, scaled or rounded.
+// Tests that the convex hull does not change when its points are moved, scaled or rounded.
 
 #include <array>
 #include <charconv>
@@ -43,7 +43,7 @@ void expectTheSame(const char* name, const std::string& text, const std::string&
     EXPECT_EQ(imported.polytope.cellTypes.size(), 1U) << name << ", " << how;
 }
 
-/// Like expectTheSame(), but allows for several types of cells.
+/// Expects the numbers of elements of a named polytope, like expectTheSame(), but allows several types of cells.
 void expectTheCounts(const char* name, const std::string& text, const std::string& how) {
     const ImportedPolytope imported = sound(importPoints(text));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named(name))) << name << ", " << how;
@@ -66,7 +66,8 @@ TEST(Hull, IsInvariantUnderTranslation) {
 }
 
 TEST(Hull, OfWholeNumbersIsInvariantUnderTranslation) {
-    Points tesseract, permutations;  // (±1, ±1, ±1, ±1); the permutations of (±1, ±1, 0, 0), which form a 24-cell
+    Points tesseract, permutations;  // tesseract: (±1, ±1, ±1, ±1); permutations: those of (±1, ±1, 0, 0), which are a
+                                     // 24-cell
     for (int i = 0; i < 81; ++i) {
         const glm::dvec4 p(i % 3 - 1, i / 3 % 3 - 1, i / 9 % 3 - 1, i / 27 - 1);
         if (glm::dot(p, p) == 4) tesseract.push_back(p);
@@ -170,14 +171,14 @@ TEST(Hull, CellTypesAreTheSameFarFromTheOrigin) {
     EXPECT_EQ(sound(importPoints(asPoints(points))).polytope.cellTypes.size(), cellTypes);
 }
 
-/// A number in the fewest digits that tell it from the next of its type, as Python and C++ write it.
+/// Returns a number with the fewest digits that identify it among the numbers of its type, as Python and C++ write it.
 template <class Number>
 std::string shortest(Number value) {
     std::array<char, 64> digits{};
     return {digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr};
 }
 
-/// The points, rounded to single precision, with the shortest digits.
+/// Returns the points as text: each coordinate is rounded to single precision and written with the fewest digits.
 std::string shortestSingles(const Points& points) {
     std::string text;
     for (const auto& p : points) {
@@ -186,7 +187,7 @@ std::string shortestSingles(const Points& points) {
     return text;
 }
 
-// Numbers of single precision, with as many digits as programs write.
+// The hull of single-precision numbers is the original polytope, with the numbers of digits that programs write.
 TEST(Hull, OfSinglePrecisionNumbersIsThePolytope) {
     std::mt19937 random(33);
     constexpr std::array kNames{"8-cell", "24-cell", "120-cell", "600-cell", "3,6-duoprism", "rectified 5-cell"};
@@ -214,7 +215,8 @@ TEST(Hull, OfSinglePrecisionNumbersIsThePolytope) {
     }
 }
 
-// A coordinate near 0 has fewer digits after a fixed point than single precision.
+// With a fixed number of decimals, a coordinate near 0 has fewer significant digits than single precision. The
+// coordinates still count as single-precision numbers.
 TEST(Hull, OfSinglePrecisionNumbersMayHaveACoordinateNearZero) {
     std::mt19937 random(34);
     for (const double tiny : {1e-3, 1e-4, 1e-6, 1e-9}) {
@@ -225,19 +227,20 @@ TEST(Hull, OfSinglePrecisionNumbersMayHaveACoordinateNearZero) {
     }
 }
 
-// Two cells at an angle of 1e-5 are told apart in double precision, and are one cell in single precision.
+// Two cells at an angle of 1e-5 are separate cells if the points are in double precision, and one cell if they are in
+// single precision.
 TEST(Hull, OfDoublesIsNotTakenForSinglePrecision) {
     std::mt19937 random(35);
     Points points = turnedToSize1("8-cell", random);
     const Points corners = points;
-    glm::dvec4 middle(0);  // of a cell
+    glm::dvec4 middle(0);  // the center of a cell
     const Polytope& cube = named("8-cell");
     std::set<std::uint32_t> own;
     for (const auto f : cube.cells[0]) own.insert(cube.faces[f].begin(), cube.faces[f].end());
     for (const auto v : own) middle += corners[v] / static_cast<double>(own.size());
     points.push_back(middle * (1 + 1e-7));
     for (const int digits : {10, 12, 17}) {
-        // A pyramid on each of the six 2-faces of the cell takes its place.
+        // A point above the center of a cell replaces the cell by six pyramids, one on each of its 2-faces.
         EXPECT_EQ(sound(importPoints(formatted(points, "%.*f", digits))).polytope.cellCount(), 13U) << digits;
     }
     for (auto& p : points) p = glm::dvec4(glm::vec4(p));

@@ -1,4 +1,4 @@
-// The convex hulls of points: their elements, and the points that are refused.
+// Tests of the convex hulls of points: their elements, and the points that are not accepted.
 
 #include <algorithm>
 #include <array>
@@ -32,14 +32,14 @@ using support::turnedToSize1;
 using support::warningsOf;
 using Points = std::vector<glm::dvec4>;
 
-/// The Euler characteristic of the boundary, a 3-sphere: V − E + F − C = 0.
+/// Returns the Euler characteristic V − E + F − C of the boundary; it is 0 for a 3-sphere.
 std::ptrdiff_t eulerOf(const Polytope& p) {
     const auto [v, e, f, c] = countsOf(p);
     return static_cast<std::ptrdiff_t>(v + f) - static_cast<std::ptrdiff_t>(e + c);
 }
 
-// Checked in integer arithmetic: all points lie on one side of each cell's hyperplane, and the vertices of the hull in
-// the hyperplane are exactly those of the cell.
+// The hull of points with whole coordinates is exact, which is checked in integer arithmetic: all points lie on one
+// side of each cell's hyperplane, and the hull's vertices in the hyperplane are exactly the corners of the cell.
 TEST(Hull, OfWholeNumbersIsExact) {
     using Exact = std::array<std::int64_t, 4>;
     const auto between = [](const glm::dvec4& a, const glm::dvec4& b) {
@@ -111,7 +111,7 @@ TEST(Hull, OfPointsInABallIsASphere) {
             const ImportedPolytope imported = sound(importPoints(formatted(points, "%.*f", decimals)));
             const Polytope& hull = imported.polytope;
             EXPECT_EQ(eulerOf(hull), 0) << count << " with " << decimals;
-            if (decimals == 17) {  // the points are in general position, so all cells are simplices
+            if (decimals == 17) {  // all cells are simplices, because the points are in general position
                 EXPECT_EQ(hull.faces.size(), 2 * hull.cellCount());
                 EXPECT_TRUE(hull.convex);
             }
@@ -131,13 +131,14 @@ TEST(Hull, OfManyPointsOnASphereHasThemAll) {
     const ImportedPolytope imported = sound(importPoints(formatted(points, "%.*f", 5)));
     EXPECT_EQ(imported.polytope.vertices.size(), points.size());
     EXPECT_EQ(eulerOf(imported.polytope), 0);
-    // The points are about 0.1 apart, so nearly flat tetrahedra are not rare.
+    // The points are about 0.1 apart, so some tetrahedra are nearly flat.
     EXPECT_NE(warningsOf(imported).find("too imprecise to tell whether the two cells lie in one hyperplane"),
               std::string::npos)
         << warningsOf(imported);
 }
 
-// The moment curve (t, t², t³, t⁴), whose coordinates are whole numbers of very different sizes.
+// The hull of points on the moment curve (t, t², t³, t⁴) is the cyclic polytope, although the coordinates are whole
+// numbers of very different sizes.
 TEST(Hull, OfTheMomentCurveIsTheCyclicPolytope) {
     for (const int n : {6, 13, 30, 60}) {
         for (const double start : {0.0, -n / 2.0}) {
@@ -154,7 +155,7 @@ TEST(Hull, OfTheMomentCurveIsTheCyclicPolytope) {
     }
 }
 
-// Points inside edges, 2-faces and cells of the tesseract are not vertices, whatever their rounding.
+// Points inside edges, 2-faces and cells of the tesseract are not vertices of the hull, even if they are rounded.
 TEST(Hull, OfAGridIsTheTesseract) {
     std::mt19937 random(28);
     for (const int n : {3, 5}) {

@@ -33,7 +33,7 @@ inline Result importOff4(std::string_view text, std::size_t maxVertices = 100'00
     return importPolytope(FileFormat::off4, text, "p", {.maxVertices = maxVertices});
 }
 
-/// Returns the imported polytope. Throws std::runtime_error if the file was refused.
+/// Returns the imported polytope. Throws std::runtime_error if the file was not accepted.
 inline ImportedPolytope sound(Result result) {
     if (const auto* error = std::get_if<FileError>(&result)) {
         throw std::runtime_error("line " + std::to_string(error->line) + ": " + error->reason);
@@ -78,7 +78,7 @@ inline std::string formatted(const std::vector<glm::dvec4>& points, const char* 
     return text;
 }
 
-/// Returns the vertices of a polytope in random orientation.
+/// Returns the vertices of a polytope after a random rotation.
 inline std::vector<glm::dvec4> turned(const Polytope& p, std::mt19937& random) {
     const geometry::Rotation rotation = randomRotation(random);
     std::vector<glm::dvec4> points;
@@ -89,14 +89,14 @@ inline std::vector<glm::dvec4> turned(const Polytope& p, std::mt19937& random) {
 /// The names of the convex regular polytopes.
 inline constexpr std::array kRegular{"5-cell", "8-cell", "16-cell", "24-cell", "120-cell", "600-cell"};
 
-/// Returns the vertices of a regular polytope of circumradius 1 in random orientation.
+/// Returns the vertices of a regular polytope of circumradius 1 after a random rotation.
 inline std::vector<glm::dvec4> turnedToSize1(const char* name, std::mt19937& random) {
     std::vector<glm::dvec4> points = turned(named(name), random);
     for (auto& p : points) p /= named(name).circumradius;
     return points;
 }
 
-/// Vertices, 2-faces and cells as lists, for writing unsound files.
+/// The vertices, 2-faces and cells of a 4OFF file, as lists that tests may make invalid.
 struct Lines {
     std::vector<glm::dvec4> vertices;
     std::vector<std::vector<std::uint32_t>> faces, cells;
@@ -106,7 +106,7 @@ struct Lines {
         for (std::size_t c = 0; c < p.cells.size(); ++c) cells.emplace_back(p.cells[c].begin(), p.cells[c].end());
     }
 
-    /// Adds another polytope, translated by `by`.
+    /// Adds the elements of another polytope, translated by `by`.
     void add(const Lines& other, const glm::dvec4& by = {}) {
         const auto v0 = static_cast<std::uint32_t>(vertices.size());
         const auto f0 = static_cast<std::uint32_t>(faces.size());

@@ -1,4 +1,4 @@
-// The import of 4OFF files and of lists of points. The repairs of 4OFF files are in repair_test.cpp.
+// Tests of the import of 4OFF files and of lists of points. repair_test.cpp tests the repairs of 4OFF files.
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,7 @@ using support::sound;
 using support::turned;
 using support::warningsOf;
 
-// The text of a 4OFF file of a polytope.
+// Returns the text of a 4OFF file of a polytope.
 std::string asOff4(const Polytope& p, const std::string& end = "\n", int digits = 17) {
     std::ostringstream out;
     out.precision(digits);
@@ -72,7 +72,7 @@ TEST(Import, ReadsRegularPolychoraBack) {
             EXPECT_EQ(p.faces, original.faces);
             EXPECT_EQ(p.cells, original.cells);
         }
-        sound(importOff4(asOff4(original, "\n", 4), 1000));  // three decimals
+        sound(importOff4(asOff4(original, "\n", 4), 1000));  // 4 significant digits: three decimals
     }
 }
 
@@ -191,7 +191,8 @@ TEST(Import, CellsMustLieInAHyperplaneAndFacesInAPlane) {
     ASSERT_TRUE(error);
     EXPECT_NE(error->reason.find("is not flat"), std::string::npos) << error->reason;
 
-    // A cell with flat 2-faces that does not lie in a hyperplane: the triangles of two cells of the 5-cell as one cell.
+    // A cell with flat 2-faces that does not lie in a hyperplane is an error. Here, the triangles of two cells of the
+    // 5-cell form one cell.
     std::string bent = kPentachoron;
     bent.replace(bent.find("5 10 7 5"), 8, "5 10 7 4");
     bent.replace(bent.find("4 0 1 3 6 255 0 0\n4 0 2 4 7"), 27, "6 1 3 6 2 4 7");
@@ -237,13 +238,13 @@ TEST(Points, AreReadFromTables) {
     }
 }
 
-// The cyclic polytope of n points on the moment curve has n(n − 3)/2 cells, all simplices, and every pair of its
+// The cyclic polytope of n points on the moment curve has n(n − 3)/2 cells, which are simplices, and each pair of its
 // vertices is an edge (Ziegler, Lectures on Polytopes, §0).
 TEST(Points, OnTheMomentCurveGiveTheCyclicPolytope) {
     const auto curve = [](int n) {
         std::vector<glm::dvec4> points;
         for (int i = 0; i < n; ++i) {
-            // The trigonometric moment curve, whose convex hull is combinatorially the same.
+            // The trigonometric moment curve; the hull of its points is also a cyclic polytope.
             const double t = 2 * std::numbers::pi * i / n;
             points.emplace_back(std::cos(t), std::sin(t), std::cos(2 * t), std::sin(2 * t));
         }

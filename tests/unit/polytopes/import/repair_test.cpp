@@ -1,4 +1,4 @@
-// The repairs of unsound 4OFF files.
+// Tests of the repairs of invalid 4OFF files.
 
 #include <algorithm>
 #include <array>
@@ -51,7 +51,7 @@ TEST(Repair, RemovesUnusedElements) {
               "1 2-face lies in no cell and was left out; 2 vertices lie on no 2-face and were left out");
 }
 
-// Some programs write separate vertices and 2-faces for every cell.
+// Files in which every cell has vertices and 2-faces of its own are imported, because some programs write such files.
 TEST(Repair, MergesElementsGivenOncePerCell) {
     for (const char* name : {"8-cell", "24-cell", "600-cell"}) {
         const auto& original = named(name);
@@ -82,13 +82,14 @@ TEST(Repair, MergesElementsGivenOncePerCell) {
 TEST(Repair, RemovesRepeatedCornersFromFaces) {
     Lines lines(named("8-cell"));
     lines.faces[0].insert(lines.faces[0].begin() + 1, lines.faces[0][0]);
-    lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());  // traversed twice
+    // The vertex loop of this 2-face goes around the 2-face twice.
+    lines.faces[1].insert(lines.faces[1].end(), lines.faces[1].begin(), lines.faces[1].end());
     const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named("8-cell")));
 }
 
-// Four points in a line, of which only neighbors lie within the distance for merging, in all orders. The 2-faces at a
-// vertex of a 5-cell have one of them each.
+// Four points in a line become one vertex, in any order, although only neighbors are within the distance for merging.
+// They replace a vertex of a 5-cell; each 2-face at this vertex has one of them.
 TEST(Repair, MergesAChainOfVertices) {
     const Polytope& simplex = named("5-cell");
     const double distance = 1e-4;
@@ -127,12 +128,12 @@ TEST(Repair, MergesManyCopiesOfEachVertex) {
     EXPECT_EQ(warningsOf(imported), "1000 vertices coincide with others and were merged with them");
 }
 
-// The compound of three tesseracts inscribed in the 24-cell (compare Coxeter, Regular Polytopes, §8.2). Each of the 24
-// vertices belongs to two tesseracts and is given twice in the file.
+// A compound of three tesseracts, inscribed in the 24-cell (compare Coxeter, Regular Polytopes, §8.2), is imported.
+// Each of its 24 vertices belongs to two tesseracts, and occurs twice in the file.
 TEST(Repair, MergesTheVerticesOfACompound) {
     const auto& cube = named("8-cell");
     Lines lines(cube);
-    // An isoclinic rotation by 60 degrees maps the 24-cell to itself and each of its tesseracts to the next.
+    // An isoclinic rotation by 60° maps the 24-cell to itself, and each of the three tesseracts to the next.
     for (const double turns : {1.0, 2.0}) {
         const double angle = turns * std::numbers::pi / 3;
         const glm::dquat left(std::cos(angle), std::sin(angle) * glm::normalize(glm::dvec3(1, 1, 1)));
@@ -144,7 +145,7 @@ TEST(Repair, MergesTheVerticesOfACompound) {
     const ImportedPolytope imported = sound(importOff4(lines.text()));
     EXPECT_EQ(countsOf(imported.polytope), (std::array<std::size_t, 4>{24, 96, 72, 24}));
     EXPECT_EQ(warningsOf(imported), "24 vertices coincide with others and were merged with them");
-    // Each tesseract of edge 2 has hypervolume 16, and they overlap.
+    // The hypervolume is the sum of those of the three tesseracts, 16 each, although they overlap.
     std::mt19937 random(14);
     EXPECT_NEAR(support::hypervolumeBySlices(imported.polytope, support::randomRotation(random)), 48, 1e-6);
 }
@@ -155,7 +156,7 @@ TEST(Repair, SplitsCellsOfSeveralPieces) {
     const glm::dvec4 center = support::centerOfCell(cube, 0);
     const glm::dvec4 along = std::abs(center.x) > 0.5 ? glm::dvec4(0, 5, 0, 0) : glm::dvec4(5, 0, 0, 0);
     lines.add(Lines(cube), along);
-    // Join cell 0 of both polytopes, which lie in one hyperplane.
+    // Join the cells 0 of both polytopes to one cell; they lie in the same hyperplane.
     lines.cells[0].insert(lines.cells[0].end(), lines.cells[8].begin(), lines.cells[8].end());
     lines.cells.erase(lines.cells.begin() + 8);
     const ImportedPolytope imported = sound(importOff4(lines.text()));

@@ -39,7 +39,7 @@ TEST(RoundingEstimator, IsThatOfSinglePrecisionNumbers) {
         for (const int digits : {3, 6, 7})
             EXPECT_DOUBLE_EQ(errorOf(words(single, "%.*f", digits)), 0.5 * std::pow(10.0, -digits));
     }
-    // Short decimals are numbers of any precision.
+    // Short decimals are no evidence for single precision.
     EXPECT_LE(errorOf({"0.500000000", "1.000000000", "0.250000000", "0.750000000"}), 1e-8);
     EXPECT_EQ(errorOf({"0.5", "1", "-0.25"}), 0);
     EXPECT_EQ(errorOf({"16777216", "33554432", "1234567168"}, 1e9), 0.5);
@@ -52,7 +52,7 @@ TEST(RoundingEstimator, IsHalfTheUnitOfTheLastDigit) {
         return precision.maxRoundingError(size).x;
     };
     EXPECT_DOUBLE_EQ(maxRoundingError({"0.70711", "-1.00000"}, 1), 0.5e-5);
-    EXPECT_DOUBLE_EQ(maxRoundingError({"10.70711", "0.70711", "0.5"}, 1), 0.5e-5);  // fixed number of decimals
+    EXPECT_DOUBLE_EQ(maxRoundingError({"10.70711", "0.70711", "0.5"}, 1), 0.5e-5);  // a fixed number of decimals
     EXPECT_DOUBLE_EQ(maxRoundingError({"10.7071", "0.707107", "0.5"}, 1),
                      0.5e-4);  // fixed number of digits, determined by the largest number
     EXPECT_DOUBLE_EQ(maxRoundingError({"1.0707e+05", "7.0711E-1"}, 1e5), 5);
