@@ -13,7 +13,7 @@ namespace oval4d::fields {
 
 /// The unit of an axis of a picture.
 struct PictureAxisUnit {
-    std::string text;        ///< empty if the unit is unknown, or if the axis mixes axes of the box with different
+    std::string text;        ///< the unit; empty if it is unknown, or if the axis mixes axes of the box with different
                              ///< units
     bool isToScale = false;  ///< whether one unit has the length 1 in the picture
     bool operator==(const PictureAxisUnit&) const = default;
@@ -21,16 +21,17 @@ struct PictureAxisUnit {
 using PictureUnits = std::array<PictureAxisUnit, 4>;
 
 /// Returns the units of the axes x, y, z and w of the picture after a rotation of the field by `orientation`. Each
-/// coordinate in the picture is a linear combination of the coordinates in the box. It has a unit if all coordinates in
-/// the box with nonzero factors have the same unit. It is to scale if the vector of the factors has the length 1. For
-/// example, the axis w of an array is not to scale if fieldFromArray() or ReferenceFrame::pace has scaled w.
+/// coordinate in the picture is a linear combination of the coordinates in the box. A coordinate in the picture has a
+/// unit if all coordinates in the box with nonzero factors have the same unit. A coordinate in the picture is to scale
+/// if the vector of the factors has the length 1. For example, the axis w of an array is not to scale if
+/// fieldFromArray() or ReferenceFrame::pace has scaled w.
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
 /// A coordinate in the box of a field that is constant in each slice w = const of a picture.
 struct CommonCoordinate {
     int axis = 3;       ///< the axis of the box: 0 … 3 for x … w
     double center = 0;  ///< the coordinate in the slice w = 0
-    double scale = 1;   ///< by how much the coordinate grows if w grows by 1
+    double scale = 1;   ///< the increase of the coordinate if w increases by 1
 
     double at(double w) const { return center + scale * w; }
     /// Returns whether the coordinate is w itself: whether `axis` is the axis w of the box, and at(w) = w.

@@ -25,8 +25,8 @@ polytopes::Polytope makeDomain(const std::string& name, const glm::dvec4& half) 
         vertices.push_back(vertex);
     }
     geometry::JaggedArray faces, cells;
-    std::vector<std::vector<std::uint32_t>> facesOfCell(8);  // the cell 2a + s lies at the lower (s = 0) or upper (s =
-                                                             // 1) end of axis a
+    std::vector<std::vector<std::uint32_t>> facesOfCell(8);  // cell 2a + s lies at the lower (s = 0) or upper end of
+                                                             // axis a
     for (unsigned a = 0; a < 4; ++a) {
         for (unsigned b = a + 1; b < 4; ++b) {
             for (unsigned rest = 0; rest < 16; ++rest) {

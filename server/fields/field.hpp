@@ -70,7 +70,8 @@ struct Field : geometry::ObjectInfo {
     Inside initialInside = Inside::below;               ///< which side of the levels is inside the body at first
     std::string formula;                                ///< the text of the formula; empty if there is none
     std::shared_ptr<const ArrayFunction> array;  ///< the same as `function` if the function is an array; else null
-    AxisUnits units;                             ///< of `box` and `center`; only for arrays (see quantityText())
+    AxisUnits units;                             ///< the units of `box` and `center`; only for arrays (see
+                                                 ///< quantityText())
     Quantity quantity;                           ///< what the values measure; only for arrays (see quantityText())
     bool isPart = false;                         ///< whether the file of the array has more samples (see FieldArray)
     ImageLevel imageLevel;                       ///< the level of a multiscale image that the array is (see FieldArray)
@@ -105,8 +106,8 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
 void setSecondFunction(Field& field, SecondFunction second);
 
 /// Returns a copy of a field, with a new serial number, to which `change` has been applied. The copy has the same
-/// functions. It keeps the original alive: the use count of the original shows its owner whether the functions are in
-/// use.
+/// functions as the original, and keeps the original alive. So the use count of the original shows its owner whether
+/// the functions are in use.
 std::shared_ptr<const Field> changedCopy(std::shared_ptr<const Field> original,
                                          const std::function<void(Field&)>& change);
 

@@ -16,7 +16,7 @@ namespace oval4d::fields {
 struct SecondFunctionDefinition {
     std::string formula;              ///< empty if the function is an array
     std::string variable;             ///< the name of the array in its file; empty if it has none
-    std::optional<FieldArray> array;  ///< without units of the axes, because the axes are those of the field
+    std::optional<FieldArray> array;  ///< the array, without units of the axes, because the axes are those of the field
 };
 void visitStoredMembers(serialization::ReadOrWritten<SecondFunctionDefinition> auto& second, auto& visit) {
     auto& [formula, variable, array] = second;
@@ -28,7 +28,7 @@ void visitStoredMembers(serialization::ReadOrWritten<SecondFunctionDefinition> a
 /// The definition of a field: a file in the server's data folder, a formula, or an array. The members for the other two
 /// are empty.
 struct FieldDefinition {
-    geometry::ObjectInfo info;         ///< only the stored members are set; `originInFile` is 0
+    geometry::ObjectInfo info;         ///< the stored members of the field's ObjectInfo; `originInFile` is 0
     std::optional<FileSource> source;  ///< the file; if it is set, the definition has no second function
     std::string formula;
     Box box;  ///< the domain of the formula

@@ -79,9 +79,10 @@ class ScalarFunction {
     /// Returns bounds that contain every value that evaluate() can return in `region`. The bounds need not be tight.
     virtual ValueBounds boundsIn(const Box& region) const = 0;
 
-    /// Returns the function to evaluate on lattices with these steps: this function, or a coarser version of it. The
-    /// coarser version is faster, but may lack details that are smaller than the steps. It lives as long as this
-    /// object. `steps` are the vectors between neighboring points of the lattices, in the function's coordinates.
+    /// Returns the function to evaluate on lattices with these steps: this function, or a coarser version of this
+    /// function. A coarser version is faster, but may lack details that are smaller than the steps. The result lives as
+    /// long as this object. `steps` are the vectors between neighboring points of the lattices, in the function's
+    /// coordinates.
     virtual const ScalarFunction& versionForSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
 
     /// Releases memory that the next evaluations can restore quickly, such as pages of a mapped file that are also in

@@ -12,7 +12,7 @@
 
 namespace oval4d::fields {
 
-/// An interval of values.
+/// An interval of values, from `least` to `greatest`.
 struct ValueRange {
     double least = 0, greatest = 1;
     bool operator==(const ValueRange&) const = default;
@@ -39,10 +39,10 @@ struct FullAndTypicalRange {
 /// … 1.
 FullAndTypicalRange rangesOf(std::span<const float> values);
 
-/// The range of the values of a function on a box, without outliers. It is like FullAndTypicalRange::typical, but
-/// extended at both ends by half of its length instead of a tenth. The first call of typicalRange() computes the range
-/// from a few thousand points of the box, including the corners and the midpoints of edges, faces and cells. The range
-/// depends only on the function and the box. Thread-safe.
+/// The range of the values of a function on a box, without outliers. The range is like FullAndTypicalRange::typical,
+/// but extended at both ends by half of its length instead of a tenth. The first call of typicalRange() computes the
+/// range from a few thousand points of the box, including the corners and the midpoints of edges, faces and cells. The
+/// range depends only on the function and the box. Thread-safe.
 class TypicalRangeOnBox {
   public:
     TypicalRangeOnBox(std::shared_ptr<const ScalarFunction> function, const Box& box)

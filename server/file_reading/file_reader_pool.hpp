@@ -25,8 +25,8 @@ struct FileReaderOptions {
     std::chrono::duration<double> timeout;  ///< the time in seconds that reading one file may take
     std::chrono::duration<double> idle;     ///< a waiting process ends if no file is read for this time, in seconds
     std::function<void(const process::ProcessLoss&)> onLoss;  ///< called on any thread when a process dies unexpectedly
-    std::vector<std::string> environment;                     ///< the environment variables of a process: see
-                                                              ///< process::ChildOptions
+    std::vector<std::string> environment;                     ///< the environment variables of a process
+                                                              ///< (process::ChildOptions)
     std::size_t maxWaiting;                                   ///< the maximum number of processes that wait for a file
 };
 

@@ -14,19 +14,20 @@
 
 namespace oval4d::geometry {
 
-/// A cell complex in R⁴: vertices, and optionally edges, 2-faces and cells. It need not be a manifold. Every kind of
-/// object that has edges is derived from CellComplex, so that one implementation of slicing, projecting and measuring
-/// serves all of them. Indices are 0-based and have 32 bits.
+/// A cell complex in R⁴: vertices, and optionally edges, 2-faces and cells. A cell complex need not be a manifold.
+/// Every kind of object with edges is derived from CellComplex, so that slicing, projecting and measuring have one
+/// implementation for all kinds. Indices are 0-based and have 32 bits.
 struct CellComplex : ObjectInfo {
-    std::vector<glm::dvec4> vertices;                     ///< in arbitrary units
-    std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
-    JaggedArray faces;                                    ///< the vertex loop of each 2-face
-    JaggedArray faceEdges;                                ///< the edges of each 2-face: entry i of a row is the edge
-                                                          ///< from corner i to corner i + 1 of the vertex loop
-    JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
-    std::vector<std::int8_t> cellSigns;                   ///< per entry of cells.items: +1 if the vertex loop of the
-                                                          ///< 2-face is counterclockwise seen from outside the cell,
-                                                          ///< else −1; a 2-face has opposite signs in its two cells
+    std::vector<glm::dvec4> vertices;                 ///< the positions of the vertices, in arbitrary units
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices, the smaller index first
+    JaggedArray faces;                                ///< the vertex loop of each 2-face
+    JaggedArray faceEdges;                            ///< the edges of each 2-face: entry i of a row is the edge
+                                                      ///< from corner i to corner i + 1 of the vertex loop
+    JaggedArray cells;                                ///< the 2-faces of each cell; empty if there are no cells
+    std::vector<std::int8_t> cellSigns;               ///< the sign of each entry of cells.items: +1 if the vertex
+                                                      ///< loop of the 2-face is counterclockwise seen from outside
+                                                      ///< the cell, else −1; a 2-face has opposite signs in its two
+                                                      ///< cells
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
                                                           ///< sign of the 2-face is −1; empty if there are no cells
     std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`

@@ -8,18 +8,18 @@
 
 namespace oval4d::geometry {
 
-/// Says which point of a file becomes the origin of the object that is loaded from the file. The object turns about its
-/// origin, its size is measured from there, and its slices lie around it.
+/// The choice of the point of a file that becomes the origin of the object in the file. The object turns about its
+/// origin. Its size is measured from its origin, and its slices lie around its origin.
 struct Centering {
     enum class OriginChoice : std::uint8_t {
-        automatic,  ///< like the choice `object` if the object is far from the origin of the file (see
-                    ///< newOriginFor()), else like the choice `origin`
+        automatic,  ///< the choice `object` if the object is far from the origin of the file (see newOriginFor()), else
+                    ///< the choice `origin`
         object,     ///< the center of the object
         origin,     ///< the origin of the file
         point,      ///< the point `place`
     };
     OriginChoice choice = OriginChoice::automatic;
-    glm::dvec4 place{0};  ///< used only by the choice `point`, in the coordinates of the file
+    glm::dvec4 place{0};  ///< the new origin for the choice `point`, in the coordinates of the file; else not used
     bool operator==(const Centering&) const = default;
 };
 

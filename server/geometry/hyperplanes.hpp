@@ -15,11 +15,11 @@ inline constexpr double kMaxOffset = 10;
 struct Hyperplanes {
     int first = -10;
     int count = 21;
-    double spacing = 0.1;  ///< greater than 0, in the units of the object
+    double spacing = 0.1;  ///< the distance of neighboring hyperplanes, greater than 0, in the units of the object
     double offset = 0;     ///< w of the hyperplane n = 0, in the units of the object
-    /// Empty if the hyperplanes are evenly spaced. Otherwise, the w coordinates of the `count` hyperplanes in any
-    /// order, in the units of the object; `offset` is then not used, and `spacing` is only the thickness of the slices
-    /// of a point cloud.
+    /// The w coordinates of the `count` hyperplanes, in any order and in the units of the object; empty if the
+    /// hyperplanes are evenly spaced. If `listed` is not empty, `offset` is not used, and `spacing` is only the
+    /// thickness of the slices of a point cloud.
     std::vector<double> listed = {};
 
     /// Returns the w coordinate of the hyperplane with the index i (0 … count − 1), for which n = first + i.

@@ -5,7 +5,7 @@
 
 namespace oval4d::geometry {
 
-/// The value of an index that refers to no element.
+/// The value of an index that refers to no vertex, edge, 2-face or cell.
 inline constexpr std::uint32_t kNone = 0xffffffffU;
 
 }  // namespace oval4d::geometry

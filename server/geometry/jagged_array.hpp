@@ -10,7 +10,8 @@ namespace oval4d::geometry {
 /// A jagged array: rows of different lengths, stored one after another. Row i consists of the items with the indices
 /// begin[i] … begin[i + 1] − 1.
 struct JaggedArray {
-    std::vector<std::uint32_t> begin{0};  ///< the index of the first item of each row; then items.size()
+    std::vector<std::uint32_t> begin{0};  ///< the index in `items` of the first item of each row, followed by
+                                          ///< items.size()
     std::vector<std::uint32_t> items;
 
     /// Returns the number of rows.

@@ -34,7 +34,7 @@ struct ObjectInfo {
     bool convex = true;          ///< false only for a polytope that is not the boundary of a convex body; faces of
                                  ///< a slice of such a polytope may cross each other
     bool rebuildableFromName = false;  ///< whether the name alone is enough to build the object again
-    std::vector<CellType> cellTypes;   ///< empty for an object without cells
+    std::vector<CellType> cellTypes;   ///< the types of the cells; empty for an object without cells
 };
 void visitStoredMembers(serialization::ReadOrWritten<ObjectInfo> auto& info, auto& visit) {
     auto& [name, serial, circumradius, originInFile, convex, rebuildableFromName, cellTypes] = info;
@@ -43,7 +43,8 @@ void visitStoredMembers(serialization::ReadOrWritten<ObjectInfo> auto& info, aut
     visit.computedMember(serial);
     visit.computedMember(circumradius);
     visit.computedMember(convex);
-    // An object that is rebuildable from its name is stored as its name alone, so this member is false if it is read.
+    // This member is not stored. It is false if the other members are stored: an object that is rebuildable from its
+    // name is stored as its name alone.
     visit.computedMember(rebuildableFromName);
     visit.computedMember(cellTypes);
 }

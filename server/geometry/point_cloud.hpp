@@ -13,8 +13,8 @@
 
 namespace oval4d::geometry {
 
-/// A finite set of points in R⁴, each drawn as a ball. Made by makePointCloud() or transformedTo(), and not changed
-/// afterward.
+/// A finite set of points in R⁴, each drawn as a ball. makePointCloud() and transformedTo() make point clouds, which do
+/// not change afterward.
 struct PointCloud : ObjectInfo {
     std::vector<glm::dvec4> points;
     /// The radius of each point's ball, in the units of the points. 0 means that the ball gets the default radius:

@@ -32,8 +32,10 @@ struct ReferenceFrame {
     static constexpr double kMaxBoost = 0.999;         ///< the greatest length of `boost`
 
     double pace = 1;
-    glm::dvec3 follow{0};  ///< in units of x, y and z per unit of w, before `pace` scales w
-    glm::dvec3 boost{0};   ///< as a fraction of the speed of light, which is 1 after `pace` has scaled w
+    glm::dvec3 follow{0};  ///< the velocity of objects that this frame shows at rest, in units of x, y and z per unit
+                           ///< of w, before `pace` scales w
+    glm::dvec3 boost{0};   ///< the velocity of the observer, as a fraction of the speed of light, which is 1 after
+                           ///< `pace` has scaled w
 
     /// Returns the linear map M from the object's own coordinates to those of this frame. Its determinant is `pace`.
     glm::dmat4 matrix() const;

@@ -29,19 +29,19 @@ std::string_view name(Plane plane);
 /// Returns the plane with this name, or an empty optional if no plane has this name.
 std::optional<Plane> planeNamed(std::string_view text);
 
-/// A rotation, described by angles in coordinate planes, in radians. It turns in all these planes at the same time: it
-/// is exp(Σ θ_ab G_ab), where θ_ab is the angle in the plane ab, and G_ab is the matrix for which exp(θ G_ab) is the
-/// simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation. Angles in planes that share an
-/// axis give a rotation in oblique planes.
+/// A rotation that is described by angles in coordinate planes, in radians. The rotation turns in all these planes at
+/// the same time. It is exp(Σ θ_ab G_ab), where θ_ab is the angle in the plane ab, and G_ab is the matrix for which
+/// exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation. Angles in
+/// planes that share an axis give a rotation in oblique planes.
 class Turn {
   public:
-    /// No rotation: no plane has an angle.
+    /// Makes a turn without a rotation: no plane has an angle.
     Turn() = default;
-    /// The simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns by beta in the
-    /// perpendicular plane.
+    /// Makes the simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns by beta
+    /// in the perpendicular plane. The angles are in radians.
     Turn(Plane plane, double alpha, std::optional<double> beta = {});
 
-    /// Returns the angle in a plane, in radians; an empty optional if the turn has no angle in this plane.
+    /// Returns the angle in a plane, in radians. Returns an empty optional if the turn has no angle in this plane.
     const std::optional<double>& operator[](Plane plane) const { return angles_[static_cast<std::size_t>(plane)]; }
     std::optional<double>& operator[](Plane plane) { return angles_[static_cast<std::size_t>(plane)]; }
 
@@ -51,8 +51,8 @@ class Turn {
     Turn inverse() const;
     /// Returns the turn with all angles multiplied by `factor`.
     Turn scaled(double factor) const;
-    /// Returns the turn whose angle in each plane is the sum of the angles of a and b. In general, this turn is not the
-    /// composition of the two rotations.
+    /// Returns the turn whose angle in each plane is the sum of the angles of a and b. In general, the sum is not the
+    /// composition of the rotations a and b.
     friend Turn operator+(const Turn& a, const Turn& b);
     bool operator==(const Turn&) const = default;
 
@@ -65,11 +65,11 @@ class Turn {
 /// rotations takes two quaternion products. Normalizing l and r keeps the map orthogonal in spite of rounding errors.
 class Rotation {
   public:
-    /// The identity.
+    /// Makes the identity.
     Rotation() = default;
-    /// The rotation v ↦ left·v·right. Normalizes both quaternions, which must not be 0.
+    /// Makes the rotation v ↦ left·v·right. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
-    /// The rotation exp(Σ θ_ab G_ab) of a turn.
+    /// Makes the rotation exp(Σ θ_ab G_ab) of a turn.
     explicit Rotation(const Turn& turn);
 
     /// Returns the rotation with the matrix M (v' = M v), or an empty optional if M is not a rotation matrix. M counts
@@ -83,25 +83,25 @@ class Rotation {
     static std::optional<Rotation> fromQuaternions(const glm::dquat& left, const glm::dquat& right);
 
     /// Returns the simple rotation by the smallest angle that takes the direction of `from` to the direction of `to`.
-    /// If the directions are opposite, many rotations do this; returns one of them. Neither vector may be 0.
+    /// If the directions are opposite, returns one of the many rotations by π that do this. Neither vector may be 0.
     static Rotation between(const glm::dvec4& from, const glm::dvec4& to);
 
     /// Returns the rotation that undoes this one.
     Rotation inverse() const;
     /// Returns this rotation with the angles in its two invariant planes multiplied by `fraction`: 0 gives the
-    /// identity, and 1 this rotation. Several pairs of angles give this rotation; uses the pair with the smallest
-    /// angles, which are from −π to π. Exception: the invariant planes of the rotation v ↦ −v are not determined, so
-    /// every `fraction`, even 0, gives v ↦ −v.
+    /// identity, and 1 gives this rotation. Of the pairs of angles that give this rotation, uses the smallest, which
+    /// are from −π to π. Exception: the invariant planes of the rotation v ↦ −v are not determined, so every
+    /// `fraction`, even 0, gives v ↦ −v.
     Rotation power(double fraction) const;
     /// Returns the larger of the absolute values of the angles in the two invariant planes, in radians: from 0 to π.
     double largerAngle() const;
-    /// Returns the turn with the smallest angles that gives this rotation. It has no angle in a plane whose angle
-    /// differs from 0 only by rounding errors; for the identity, it has no angles. Several turns give the rotation v ↦
-    /// −v; returns one of them.
+    /// Returns the turn with the smallest angles that gives this rotation. The turn has no angle in planes where the
+    /// angle is 0 except for rounding errors, so the turn of the identity has no angles. For the rotation v ↦ −v,
+    /// returns one of several turns.
     Turn turn() const;
     /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;
-    /// Returns the matrix M with v' = M v.
+    /// Returns the matrix M of this rotation, with v' = M v.
     glm::dmat4 matrix() const;
 
     const glm::dquat& left() const { return left_; }

@@ -16,11 +16,12 @@
 
 namespace oval4d::geometry {
 
-/// A surface in R⁴: a cell complex without cells, whose 2-faces are triangles, quads or other polygons. Made by
-/// makeSurfaceMesh() or transformedTo(), and not changed afterward. A 2-face need not be flat: a slice of it consists
-/// of straight segments between the points where the hyperplane cuts the edges of the 2-face. An edge may lie in any
-/// number of 2-faces, so the surface may have a boundary and need be neither connected nor orientable nor a manifold.
-/// It may intersect itself.
+/// A surface in R⁴: a cell complex without cells, whose 2-faces are triangles, quads or other polygons.
+/// makeSurfaceMesh() and transformedTo() make surfaces, which do not change afterward.
+///
+/// A 2-face need not be flat: its slice consists of straight segments between the points where the hyperplane cuts the
+/// edges of the 2-face. An edge may lie in any number of 2-faces, so the surface may have a boundary, and need be
+/// neither connected nor orientable nor a manifold. A surface may intersect itself.
 struct SurfaceMesh : CellComplex {};
 static_assert(serialization::HasOwnMembers<SurfaceMesh, CellComplex, 0>, "visitStoredMembers() considers each member");
 void visitStoredMembers(serialization::ReadOrWritten<SurfaceMesh> auto& surface, auto& visit) {
@@ -42,7 +43,7 @@ class InvalidSurface : public std::invalid_argument {
 /// range, if a coordinate is not finite, or if all vertices are at the origin.
 SurfaceMesh makeSurfaceMesh(std::string name, std::vector<glm::dvec4> vertices, JaggedArray faces);
 
-/// Returns the surface in the coordinates of `frame`, with the serial number `serial`.
+/// Returns the surface in the coordinates of the frame of reference `frame`, with the serial number `serial`.
 SurfaceMesh transformedTo(const SurfaceMesh& surface, const ReferenceFrame& frame, std::uint64_t serial);
 
 /// Returns the memory that the surface occupies, in bytes, without its name.

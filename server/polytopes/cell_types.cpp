@@ -16,7 +16,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-// for lengths in two cells, in units of maxDistanceFromMean() of the polytope
+// The tolerance when lengths in two cells are compared, in units of maxDistanceFromMean() of the polytope.
 constexpr double kCongruenceTolerance = 1.0 / 500;
 constexpr double kRegularityTolerance = 0.01;  // for lengths in the same cell, relative to the greatest of them
 

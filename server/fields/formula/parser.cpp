@@ -279,8 +279,7 @@ class Parser {
         if (constants_.size() - expressions_.sharedConstants == limits_.constants)
             failAt(start, "a formula may have at most " + std::to_string(limits_.constants) + " constants");
         Graph graph;
-        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // buildGraph() folds operations on
-                                                                               // constants
+        const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // buildGraph() folds constants
         if (!std::isfinite(value)) failAt(valueStart, "the value of " + name + " is not a finite number");
         constants_.push_back({std::move(name), value});
     }
@@ -422,8 +421,7 @@ class Parser {
     bool isInDefinition_ = false;
     bool isConstantDefinition_ = false;  // whether the current definition has used no variable or defined name so far
     SyntaxTree tree_;                    // the tree of the formula or of the current definition
-    SyntaxTree expressions_;             // the trees of the shared definitions and of the definitions before the
-                                         // current one
+    SyntaxTree expressions_;             // the trees of the shared definitions and of earlier definitions
     std::vector<NameUse> uses_;
     std::vector<FormulaConstant> constants_;
 };

@@ -67,8 +67,8 @@ void setSeriesBox(FieldArray& series, std::span<const double> times, const Field
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
     CoordinateEnds ends{0, static_cast<double>(times.size() - 1)};
     if (known) {
-        static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // adds a warning if the times are not
-                                                                            // evenly spaced
+        static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // adds a warning if they are not evenly
+                                                                            // spaced
         ends = {times.front(), times.back()};
         if (!options.box) countFromLeastIfFar(ends, times.size(), "w", series.units[3], series.warnings);
     }

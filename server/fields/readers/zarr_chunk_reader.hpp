@@ -39,8 +39,7 @@ class ChunkReader {
     template <typename Afterward>
     Result<std::monostate> read(const std::vector<std::ptrdiff_t>& stride, std::size_t first, float* to,
                                 const Afterward& afterward) {
-        constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // the number of numbers between two calls of
-                                                                 // `afterward`
+        constexpr std::size_t kNumbers = std::size_t{1} << 24U;  // numbers between two calls of `afterward`
         const std::size_t rank = array_.shape.size();
         // Chunks are read shard by shard, so that the index of each shard is read only once. Without shards, each chunk
         // counts as a shard.

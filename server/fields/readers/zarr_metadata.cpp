@@ -22,8 +22,7 @@ namespace {
 
 constexpr std::size_t kMaxZarrDimensions = 32;
 constexpr std::size_t kMaxChunkBytes = std::size_t{512} << 20U;  // the maximum size of a decompressed chunk, in bytes
-constexpr std::size_t kMaxArrays = 10'000;                       // the maximum number of arrays among which one is
-                                                                 // chosen
+constexpr std::size_t kMaxArrays = 10'000;                       // the maximum number of arrays to choose from
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 Error unsupported(const std::string& what) {

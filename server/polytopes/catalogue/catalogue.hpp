@@ -16,9 +16,9 @@ namespace oval4d::polytopes {
 
 /// An entry of the catalogue. Its numbers and symbols are computed without building the polytope.
 struct CatalogueEntry {
-    std::string name;                  ///< such as "24-cell"
-    std::string family;                ///< "regular", "star", "uniform A4" (or B4, F4, H4), "other", "prism",
-                                       ///< "antiprism prism", "duoprism"
+    std::string name;                  ///< the canonical name, such as "24-cell"
+    std::string family;                ///< the group of entries: "regular", "star", "uniform A4" (or B4, F4, H4),
+                                       ///< "other", "prism", "antiprism prism" or "duoprism"
     std::vector<std::string> aliases;  ///< other names in lower case, such as "ico" and "rectified 16-cell"
     std::string diagram;               ///< Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o", or empty
     std::string schlaefli;             ///< Schläfli symbol, such as "{3,4,3}", or empty

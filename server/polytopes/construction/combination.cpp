@@ -29,7 +29,8 @@ bool isCombinationWord(std::string_view word) { return word == "hull" || word ==
 // One of the two polytopes of a hull or an intersection.
 struct Operand {
     Design design;
-    std::optional<double> circumradius;  // as stated in the name; empty for the default (see combinationNamed())
+    std::optional<double> circumradius;  // the circumradius that the name states; empty for the default (see
+                                         // combinationNamed())
 
     // Returns a name from which operandNamed() makes an equal operand.
     std::string name() const {
@@ -136,15 +137,15 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
 
 // Parses the name of a combination of two polytopes: "hull of tesseract and 16-cell", "intersection of 120-cell and
 // 600-cell of circumradius 4", "product of 5-gon and 7-gon". Returns an error if the text begins with "hull of",
-// "intersection of" or "product of" but is not a valid name; an empty optional for other texts.
+// "intersection of" or "product of" but is not a valid name. Returns an empty optional for other texts.
 //
-// Both polytopes of a hull or an intersection must be convex; each is centered at the origin. The first polytope
-// has the size that it has alone, and the second polytope is scaled to the circumradius of the first. A name
-// followed by "of circumradius" and a number from 0.01 to 100 sets another circumradius. The result is moved such
-// that the mean of its vertices is the origin. Recipe::build throws std::invalid_argument if one of the two
-// polytopes is not convex, and TooLarge if a limit of convex_hull.hpp is exceeded.
+// Both polytopes of a hull or an intersection must be convex; each is centered at the origin. By default, the first
+// polytope has the size that it has alone, and the second polytope has the circumradius of the first. A name followed
+// by "of circumradius" and a number from 0.01 to 100 sets another circumradius. The result is moved such that the mean
+// of its vertices is the origin. Recipe::build throws std::invalid_argument if one of the two polytopes is not convex,
+// and TooLarge if a limit of convex_hull.hpp is exceeded.
 //
-// The product of two polygons is their duoprism; the product of a polyhedron and a segment (of length 2) is the prism
+// The product of two polygons is their duoprism. The product of a polyhedron and a segment (of length 2) is the prism
 // over the polyhedron.
 std::optional<DesignOrError> combinationNamed(const NameWords& text) {
     const Words& words = text.words;

@@ -37,14 +37,14 @@ class TooLarge : public std::invalid_argument {
 /// std::invalid_argument if the points do not span four dimensions.
 Polytope hullPolytope(std::string name, std::span<const glm::dvec4> points);
 
-/// Returns hullPolytope() of the points, moved such that the mean of its vertices is the origin. The origin then lies
-/// in the interior. Throws like hullPolytope().
+/// Returns the convex hull of the points, moved such that the origin is the mean of the hull's vertices, which is an
+/// interior point. Throws like hullPolytope().
 Polytope centeredHull(std::string name, std::span<const glm::dvec4> points);
 
 /// Returns the polytope, moved such that the mean of its vertices is the origin.
 Polytope centered(Polytope polytope);
 
-/// Builds the polytope of `design` for a construction that computes a convex hull from its vertices. Throws
+/// Builds the polytope of `design`, from whose vertices a construction will compute a convex hull. Throws
 /// std::invalid_argument if the polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides.
 /// Also throws the exceptions of build().
 Polytope buildRequiringConvex(const Design& design);

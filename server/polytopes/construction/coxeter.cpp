@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kPhi = std::numbers::phi;
 
-// The branches p, q and r of a diagram that is a chain, and mirrors that meet at the angles of this diagram. With
+// A diagram that is a chain, given by its branches p, q and r, and mirrors that meet at the angles of the diagram. With
 // these mirrors, the polytopes of the diagram have the coordinates that are usual in the literature.
 struct DiagramWithMirrors {
     std::array<Branch, 3> branches;

@@ -34,18 +34,18 @@ constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
 
-/// A cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0): the convex hull of n points at
-/// equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t). Vertex k has t = 2πk/n;
-/// numbers of vertices are modulo n.
+/// A recipe for a cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0). It is the convex
+/// hull of n points at equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t). Vertex k
+/// has t = 2πk/n; numbers of vertices are modulo n.
 ///
-/// By Gale's evenness condition, the cells are the tetrahedra of two disjoint pairs of neighbors, {i, i + 1} and
-/// {j, j + 1}. Let a and b be the t halfway between the vertices of each pair. The function
-/// (cos(π/n) − cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others, because no
-/// vertex lies between neighbors. It is a trigonometric polynomial of degree 2, that is, an affine function on the
-/// curve, so a hyperplane supports the polytope in the four vertices.
+/// By Gale's evenness condition, the cells are the tetrahedra of two disjoint pairs of neighbors, {i, i + 1} and {j, j
+/// + 1}. Proof: let a and b be the values of t halfway between the two vertices of each pair. The function (cos(π/n) −
+/// cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others, because no vertex lies
+/// between neighbors. It is a trigonometric polynomial of degree 2, that is, an affine function on the curve. So a
+/// hyperplane supports the polytope in the four vertices.
 class CyclicPolytopeRecipe : public Recipe {
   public:
-    /// n must be at least 6.
+    /// Makes a recipe for n vertices. n must be at least 6.
     explicit CyclicPolytopeRecipe(std::uint32_t n) : n_(n) {}
 
     ElementCounts counts() const override {
@@ -63,9 +63,8 @@ class CyclicPolytopeRecipe : public Recipe {
         const double step = 2 * std::numbers::pi / n;
         // With this radius r, the edges between neighbors have the length 2, and no edge is shorter. Proof: the edge
         // between vertices that are k steps apart has the length 2r √R, where R = s + 4s(1 − s) and s = sin²(kπ/n). R
-        // is a concave function of s. Therefore, of all s from that of neighbors (k = 1) to 1, R is least at one of
-        // these two ends. It is at most 1 for neighbors, and 1 for s = 1, so no edge is shorter than those between
-        // neighbors.
+        // is a concave function of s. Therefore, for s from its value for neighbors (k = 1) to 1, R is least at one of
+        // these two ends. R is at most 1 for neighbors, and 1 for s = 1, so neighbors have the shortest edges.
         const double radius = 1 / std::hypot(std::sin(step / 2), std::sin(step));
         std::vector<glm::dvec4> vertices;
         for (std::uint32_t k = 0; k < n; ++k) {
@@ -104,7 +103,7 @@ class CyclicPolytopeRecipe : public Recipe {
     std::uint32_t n_;
 };
 
-// Returns n for the symbol "c(n,4)"; an empty optional for other texts.
+// Returns n for the symbol "c(n,4)". Returns an empty optional for other texts.
 std::optional<Branch> verticesInSymbol(std::string_view symbol) {
     constexpr std::string_view kBegin = "c(", kEnd = ")";
     if (!symbol.starts_with(kBegin) || !symbol.ends_with(kEnd)) return {};

@@ -83,7 +83,7 @@ class SnubPrismRecipe : public Recipe {
     Polytope build(const std::string& name) const override { return prismOver(name, snubOf(p_, q_)); }
 
   private:
-    // The order of the rotation group of {p, q}, which is also the number of vertices of the snub polyhedron.
+    // Returns the order of the rotation group of {p, q}, which is also the number of vertices of the snub polyhedron.
     std::uint64_t rotations() const { return groupOrder(Diagram::linear(p_, q_, {}, {true, true, true, true})) / 4; }
 
     Branch p_, q_;
@@ -125,7 +125,7 @@ Design designOf(const Diagram& diagram) {
     const auto& named = namedDesigns();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
     // If every connected component of the diagram has at most two mirrors, the polytope is a duoprism. A component of
-    // two mirrors generates a polygon; two components of one mirror each generate a square.
+    // two mirrors generates a polygon. Two components of one mirror each generate a square together.
     std::vector<RegularPolygon> polygons;
     int single = 0;
     for (const MirrorSet component : componentsOf(diagram)) {

@@ -10,8 +10,8 @@ namespace {
 
 MirrorSet bit(int mirror) { return 1U << static_cast<unsigned>(mirror); }
 
-// Returns the mirrors of `set` that a chain of branches between mirrors of `set` connects to a mirror in both `start`
-// and `set`. Includes the mirrors in both `start` and `set`.
+// Returns the mirrors of `set` that are connected, by branches between mirrors of `set`, to a mirror in both `start`
+// and `set`. The mirrors in both sets are included.
 MirrorSet connectedTo(const Diagram& diagram, MirrorSet start, MirrorSet set) {
     MirrorSet reached = start & set;
     for (int sweep = 0; sweep < kMirrors; ++sweep) {
@@ -77,7 +77,7 @@ const std::vector<FiniteCoxeterGroup>& finiteGroups() {
     return kGroups;
 }
 
-// Returns the order of the group of a connected component; 0 if the group is not finite.
+// Returns the order of the Coxeter group of a connected component; 0 if the group is not finite.
 std::uint64_t orderOfComponent(const Diagram& diagram, MirrorSet component) {
     constexpr std::uint64_t kD4 = 192;
     std::vector<Branch> chain = branchesAlong(diagram, component);

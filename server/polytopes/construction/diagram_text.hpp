@@ -15,7 +15,7 @@ namespace oval4d::polytopes {
 /// The reason why a text names no polytope.
 struct NameError {
     enum class Reason : std::uint8_t {
-        unknown,     ///< neither a known name nor a known notation; `message` may be empty
+        unknown,     ///< the text is neither a known name nor in a known notation; `message` may be empty
         impossible,  ///< the text has a known notation, but describes no polytope, such as "2,5-duoprism", or is too
                      ///< long
         too_large,   ///< the polytope has too many vertices, or is built from convex hulls of too many points
@@ -40,7 +40,7 @@ std::variant<Diagram, NameError> parseDiagram(std::string_view text);
 /// "r{3,3,3}", "{5}×{7}", "t{4,3}×{}"; "x" may replace "×". Returns the same errors as parseDiagram().
 std::variant<Diagram, NameError> parseSchlaefli(std::string_view text);
 
-/// Returns the diagram in linear notation, in the order of its mirrors.
+/// Returns the diagram in linear notation, such as "x3o4o3o", in the order of its mirrors.
 std::string linearNotationOf(const Diagram& diagram);
 
 /// Returns the Schläfli symbol, such as "{3,3,5}", "t0,1{4,3,3}", "t0,1{4,3}×{}" or "{5}×{7}". Returns an empty string

@@ -46,7 +46,7 @@ glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
 /// The vertices of the duoantiprism are those with an even sum i + j.
 class DuoantiprismRecipe : public Recipe {
   public:
-    /// p must be at least 2, and q at least 3 and not less than p.
+    /// Makes a recipe for a p-gon and a q-gon. p must be at least 2, and q at least 3 and not less than p.
     DuoantiprismRecipe(int p, int q) : p_(static_cast<std::uint32_t>(p)), q_(static_cast<std::uint32_t>(q)) {}
 
     ElementCounts counts() const override {
@@ -54,9 +54,9 @@ class DuoantiprismRecipe : public Recipe {
         const bool digons = p == 2;  // a digon is not a 2-face, and its two sides are the same edge
         return {2 * pairs, (digons ? 7 : 8) * pairs, 8 * pairs + 2 * p + (digons ? 0 : 2 * q), 2 * (pairs + p + q)};
     }
-    // The dihedral groups of order 4p and 4q act on the two circles. Of the 16pq pairs of an element of each group,
-    // half map the vertices of the duoantiprism to each other. If p = q, there are twice as many symmetries, because
-    // the two planes can be exchanged.
+    // The dihedral groups of order 4p and 4q act on the two circles. There are 16pq pairs of an element of one group
+    // and an element of the other. Half of these pairs map the vertices of the duoantiprism to each other. If p = q,
+    // there are twice as many symmetries, because the two planes can be exchanged.
     std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
     std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
     std::string schlaefli() const override {
@@ -74,9 +74,9 @@ class DuoantiprismRecipe : public Recipe {
 
         geometry::JaggedArray faces;
         const auto nextFace = [&] { return static_cast<std::uint32_t>(faces.size()); };
-        // The 2-faces of the antiprisms: betweenQ[i] belongs to the antiprism between the q-gons at the points i and i
-        // + 1 of the first circle, and betweenP[j] to that between the p-gons at the points j and j + 1 of the second
-        // circle.
+        // The 2-faces of the antiprisms. betweenQ[i] belongs to the antiprism between the q-gons at the points i and i
+        // + 1 of the first circle. betweenP[j] belongs to the antiprism between the p-gons at the points j and j + 1 of
+        // the second circle.
         std::vector<std::vector<std::uint32_t>> betweenQ(m), betweenP(n);
         std::vector<std::uint32_t> loop;
         for (std::uint32_t i = 0; i < m; ++i) {

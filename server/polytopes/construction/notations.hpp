@@ -38,8 +38,8 @@ struct NameWords {
 /// A notation for a family of polytopes. `polytopes`, `examples` and `edges` are Markdown texts, from which `tests/lint
 /// --fix` makes a row of a table in protocol/README.md.
 struct Notation {
-    std::string_view polytopes;  ///< which polytopes have names in the notation, such as "a duoprism"
-    std::string_view examples;   ///< names in backquotes, such as "`5,7-duoprism`, `5/2,5-duoprism`"
+    std::string_view polytopes;  ///< the polytopes that have names in the notation, such as "a duoprism"
+    std::string_view examples;   ///< examples of names in backquotes, such as "`5,7-duoprism`, `5/2,5-duoprism`"
     std::string_view edges;      ///< the lengths of edges; "2" if all edges of all polytopes of the family have the
                                  ///< length 2
     /// The words with which the names of constructions begin, such as "hull" of "hull of X and Y", separated by commas.

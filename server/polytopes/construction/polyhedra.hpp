@@ -18,10 +18,11 @@ namespace oval4d::polytopes {
 
 /// A uniform polyhedron with a name of its own: a Platonic, Archimedean or Kepler–Poinsot solid.
 struct NamedPolyhedron {
-    std::string_view name;            ///< such as "truncated cube"
-    std::string_view adjective;       ///< the adjective in the name of its prism, such as "truncated cubic"
+    std::string_view name;            ///< the name of the polyhedron, such as "truncated cube"
+    std::string_view adjective;       ///< the adjective in the name of the prism over the polyhedron, such as
+                                      ///< "truncated cubic"
     std::string_view linearNotation;  ///< its diagram, such as "x4x3o"; the nodes of a snub polyhedron are s: "s4s3s"
-    std::string_view prism;  ///< Bowers' short name of its prism; empty if the catalogue does not contain the prism
+    std::string_view prism;  ///< Bowers' short name of the prism; empty if the catalogue does not contain the prism
 };
 
 /// Returns all named polyhedra: the Platonic and Archimedean solids, then the Kepler–Poinsot solids.
@@ -50,7 +51,7 @@ std::optional<RegularPolygon> polygonNamed(std::string_view word);
 /// have exactly two polygons; callers that need at least three sides must reject polygons of two sides.
 std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std::string> words);
 
-/// The properties by which nameOf() recognizes a uniform polyhedron.
+/// The properties by which nameOf() identifies a uniform polyhedron.
 struct PolyhedronSignature {
     std::map<RegularPolygon, std::uint32_t> faces;  ///< for each kind of polygon, the number of faces
     std::uint32_t vertices = 0;                     ///< the number of vertices

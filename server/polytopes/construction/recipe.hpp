@@ -16,7 +16,7 @@ class Recipe {
   public:
     virtual ~Recipe() = default;
 
-    /// Returns the numbers of elements. If build() computes a convex hull, the numbers are estimates.
+    /// Returns the numbers of elements of the polytope. If build() computes a convex hull, the numbers are estimates.
     virtual ElementCounts counts() const = 0;
 
     /// The value that symmetryOrder() returns if the order is not known.
@@ -28,11 +28,11 @@ class Recipe {
     /// build() computes no convex hull.
     virtual std::uint64_t hullPointCount() const { return 0; }
 
-    /// Returns the Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o" or, for a snub, "s3s4o3o"; empty if
-    /// there is none.
+    /// Returns the Coxeter–Dynkin diagram in linear notation, such as "x3o4o3o" or, for a snub, "s3s4o3o". Returns an
+    /// empty string if there is none.
     virtual std::string linearNotation() const { return {}; }
 
-    /// Returns the Schläfli symbol; empty if there is none.
+    /// Returns the Schläfli symbol, such as "{3,4,3}". Returns an empty string if there is none.
     virtual std::string schlaefli() const { return {}; }
 
     /// Builds the polytope, centered at the origin, and gives it this name. Throws std::invalid_argument if the

@@ -39,7 +39,7 @@ struct Solid {
 /// value of "octahedron".
 std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words);
 
-/// Returns the name, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".
+/// Returns the name of the solid, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".
 std::string nameOf(const Solid& solid);
 
 SolidCounts countsOf(const Solid& solid);

@@ -19,8 +19,8 @@ namespace oval4d::polytopes {
 namespace {
 
 using geometry::kNone;
-constexpr double kAmbiguityFactor = 3;  // if two cells would be merged with error bounds this many times as large, they
-                                        // are ambiguous
+constexpr double kAmbiguityFactor = 3;  // cells that would be merged with error bounds this many times as large are
+                                        // ambiguous
 constexpr int kMaxCorrections = 32;
 
 // Returns the triangle of the simplex that is opposite the vertex with this index, 0 … 3.

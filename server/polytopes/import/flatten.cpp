@@ -34,8 +34,7 @@ constexpr double kLeastExtent = 1e-9;  // a flat has the extent 0 along an axis 
                                        // flat's radius
 
 constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
-constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of the conjugate gradient method in a
-                                                // round
+constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round
 constexpr std::size_t kMaxWork = 150'000'000;   // the maximum number of equations and unknowns, added up over all steps
 // A round of Newton's method ends when the gradient of the error is less than a tolerance times the gradient at the
 // start of the round. The first round has the tolerance kFirstTolerance, which makes the result more precise by a few
