@@ -53,9 +53,9 @@ FieldDefinition definitionOf(const Field& field);
 FieldDefinition definitionByFunctions(const Field& field);
 
 /// Makes the field of a formula or an array from its definition. Errors: those of fieldFromFormula(), fieldFromArray(),
-/// setSecondFormula() and setSecondArray(); and `bad_field` if members contradict each other, such as a formula and an
-/// array, if the number of samples does not match the shape, if quantityText() would change a unit or a quantity, or if
-/// the definition refers to a file.
+/// setSecondFormula() and setSecondArray(). Also `bad_field` if the definition refers to a file, if members contradict
+/// each other (such as a formula and an array), if the number of samples does not match the shape, or if quantityText()
+/// would change a unit or a quantity.
 Result<Field> fieldFromDefinition(const FieldDefinition& definition);
 
 }  // namespace oval4d::fields

@@ -94,11 +94,13 @@ Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
 
 // Let u be one of the imaginary units i, j and k. Multiplication by exp(uθ) from the left rotates the plane of the
 // other two imaginary units by θ, and the plane (w, u) by θ from w toward u. Multiplication by exp(uθ) from the right
-// rotates the plane of the other two units by −θ, and the plane (w, u) by θ. So the rotation by A in the plane of the
-// other two units (from i toward j, from j toward k, or from k toward i) and by B from u toward w has θ = (A − B) / 2
-// on the left and θ = −(A + B) / 2 on the right. Multiplications from the left commute with those from the right.
-// Therefore the rotation of the whole turn is v ↦ l·v·r, where the logarithm of l is the sum of u θ over the three
-// units u with the θ of the left side, and the logarithm of r is this sum with the θ of the right side.
+// rotates the plane of the other two units by −θ, and the plane (w, u) by θ.
+//
+// A rotation by A in the plane of the other two units (from i toward j, from j toward k, or from k toward i) and by B
+// from u toward w is the product of both. It has θ = (A − B) / 2 on the left and θ = −(A + B) / 2 on the right.
+// Multiplications from the left commute with those from the right. Therefore the rotation of the whole turn is v ↦
+// l·v·r. The logarithm of l is the sum of u θ over the three units u, with the θ on the left; the logarithm of r is
+// this sum with the θ on the right.
 Rotation::Rotation(const Turn& turn) {
     glm::dvec3 left(0), right(0);
     for (int u = 0; u < 3; ++u) {

@@ -10,11 +10,12 @@ namespace oval4d::polytopes {
 
 /// Returns the name of a cell that is a pyramid, bipyramid, cuboid, other prism, antiprism or trapezohedron, such as
 /// "pentagonal pyramid", or a Catalan solid, such as "rhombic dodecahedron". Returns an empty string for other cells,
-/// among them tetrahedra, and for all cells if a 2-face of the polytope is not convex. A cell counts as a cuboid only
-/// if its six faces are rectangles, as a prism only if its lateral faces are rectangles, as an antiprism only if its
-/// bases are regular and its lateral edges equally long, and as a Catalan solid only if the distances of its vertices
-/// from their mean have the same ratios to each other as in this solid. A base of four sides is called square, rhombic,
-/// rectangular or quadrilateral. All comparisons of lengths have a relative tolerance of 1 %.
+/// among them tetrahedra, and for all cells if a 2-face of the polytope is not convex. Comparisons of lengths have a
+/// relative tolerance of 1 %.
+///
+/// A cuboid must have six rectangles, and a prism must have rectangles as lateral faces. An antiprism must have regular
+/// bases and equally long lateral edges. The distances of a Catalan solid's vertices from their mean must have the
+/// right ratios. A base of four sides is called square, rhombic, rectangular or quadrilateral.
 std::string nameOfIrregularCell(const Polytope& polytope, std::uint32_t cell);
 
 }  // namespace oval4d::polytopes

@@ -93,9 +93,9 @@ class ConvexityTest {
         return foot;
     }
 
-    // Returns whether each cell is convex. A cell is convex if none of its edges is reentrant, and if, for each
-    // vertex, the 2-faces around the vertex make one full turn about the axis from the mean of the cell's corners
-    // to the vertex.
+    // Returns whether each cell is convex. A cell is convex if none of its edges is reentrant, and if the 2-faces
+    // around each vertex make one full turn about an axis. This axis leads from the mean of the cell's corners to the
+    // vertex.
     bool cellsAreConvex() {
         std::vector<glm::dvec4> feet(p_.faces.size()), centers(p_.faces.size());
         std::vector<std::uint32_t> first(p_.edges.size());

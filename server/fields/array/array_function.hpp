@@ -41,22 +41,22 @@ class ArrayFunction final : public ScalarFunction {
     /// std::invalid_argument if the constructor of Lattice does, or if there are not sampleCount(shape) samples.
     ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples = kEagerSamples);
 
-    /// See ScalarFunction::evaluate(). Does not allocate memory. Takes about 4 ns per point with AVX2 if the samples
-    /// are in the processor's cache.
+    /// Writes the value at each point (see ScalarFunction). Does not allocate memory. Takes about 4 ns per point with
+    /// AVX2 if the samples are in the processor's cache.
     void evaluate(const PointBatch& points, std::span<float> values) const override;
 
-    /// See ScalarFunction::evaluateWithGradient(). The gradient is that of the cell that contains the point. On a face
-    /// between two cells, it is that of the cell with the greater coordinates. Outside the box, it is the gradient at
-    /// the nearest point of the box, so it does not jump at the surface of the box. It is (0, 0, 0, 0) if a corner of
-    /// the cell is missing. Its component along an axis with one sample is 0.
+    /// Writes the value and the gradient at each point (see ScalarFunction). The gradient belongs to the cell that
+    /// contains the point; on a face between two cells, to the cell with the greater coordinates. Outside the box, it
+    /// is the gradient at the nearest point of the box, so it does not jump at the surface of the box. It is (0, 0, 0,
+    /// 0) if a corner of the cell is missing. Its component along an axis with one sample is 0.
     void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                               const GradientBatch& gradients) const override;
 
-    /// See ScalarFunction::boundsIn(). The bounds are those of all bricks that meet the region (see BrickBounds),
-    /// widened by the rounding error of the interpolation. `hasValueEverywhere` is false if a sample of these bricks
-    /// may be missing. It is also false if the difference of the bounds exceeds the largest float, because an
-    /// interpolated value may then be NaN. A region whose minimum or maximum along an axis is NaN extends along the
-    /// whole axis.
+    /// Returns bounds of the values in a region (see ScalarFunction). They are the bounds of all bricks that meet the
+    /// region (see BrickBounds), widened by the rounding error of the interpolation. `hasValueEverywhere` is false if a
+    /// sample of these bricks may be missing. It is also false if the difference of the bounds exceeds the largest
+    /// float, because an interpolated value may then be NaN. A region whose minimum or maximum along an axis is NaN
+    /// extends along the whole axis.
     ValueBounds boundsIn(const Box& region) const override;
 
     /// Returns this array or a downsampled version: the coarsest version in which each step is at least one cell long.
@@ -71,9 +71,9 @@ class ArrayFunction final : public ScalarFunction {
 
     EvaluationCost cost() const override { return {10, 25, 100}; }
 
-    /// Returns the memory in bytes of the BrickBounds, of the downsampled versions (at most about 1/15 of the memory of
-    /// the samples), and of the samples unless they are in a mapped file. For an array that the constructor has not
-    /// read, includes the maximum that the BrickBounds and the selection of versionForSteps() may take.
+    /// Returns the memory used, in bytes: by the BrickBounds, by the downsampled versions (at most about 1/15 of the
+    /// memory of the samples), and by the samples unless they are in a mapped file. For an array that the constructor
+    /// has not read, includes the maximum that the BrickBounds and the selection of versionForSteps() may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }

@@ -81,10 +81,10 @@ class BrickBounds {
     const bool eager_;
     SampleStatistics statistics_;
     std::vector<std::vector<std::uint64_t>> eagerEntries_;
-    // A slot of the cache of bricks that were read. It works without locks, after R. Hyatt and T. Mann, "A lockless
-    // transposition table implementation for parallel search": `check` is the brick's index XOR its entry. If two
+    // A slot of the cache of bricks that were read. The cache needs no locks, after R. Hyatt and T. Mann, "A lockless
+    // transposition table implementation for parallel search". `check` is the brick's index XOR its entry. If two
     // threads have written the two members for different bricks, `check` XOR `entry` is practically never the index of
-    // the brick that is looked up, and the slot counts as empty.
+    // the brick that is looked up. Such a slot counts as empty.
     struct CacheSlot {
         std::uint64_t check, entry;
     };

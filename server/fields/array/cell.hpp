@@ -68,7 +68,7 @@ struct CellPoint {
     /// Returns the interpolated value, or NaN if a corner with a nonzero weight is not finite.
     float value() const {
         const float plain =
-            interpolateCorners(mix);  // not finite if a corner is not finite, even a corner with the weight 0
+            interpolateCorners(mix);  // the mean may be not finite because of a corner with the weight 0
         if (isFinite(plain)) return plain;
         const float weighted = interpolateCorners([](float a, float b, float s) {
             return s == 0 ? a : s == 1 ? b : mix(a, b, s);

@@ -26,7 +26,7 @@ inline constexpr std::size_t kChunkCacheSize = std::size_t{192} << 20U;
 /// A dimension of an array in a file.
 struct Dimension {
     std::size_t size = 1;
-    std::size_t axis = 0;   ///< 0 … 3 for x, y, z, w
+    std::size_t axis = 0;   ///< the axis of the field: 0 … 3 for x, y, z, w
     bool reversed = false;  ///< whether the coordinate decreases along the dimension
 };
 
@@ -89,9 +89,9 @@ class AxisMapping {
     std::size_t first_ = 0;
 };
 
-/// Returns a box, centered at the origin, for an array of which only the shape is known. By two rules, the distance
+/// Returns a box for an array for which only the shape is known. The box is centered at the origin. The distance
 /// between samples is the same along all axes, and the longest axis extends from −1 to 1. However, if `time` is true, w
-/// always extends from −1 to 1, and the two rules hold for x, y and z alone. An axis with one sample has no extent.
+/// always extends from −1 to 1, and only x, y and z follow these rules. An axis with one sample has no extent.
 Box defaultBox(const Shape& shape, bool time);
 
 }  // namespace oval4d::fields

@@ -36,9 +36,10 @@ std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, cons
                                                 std::vector<std::string>& warnings);
 
 /// Shifts coordinates that are too close together for their distance from 0, such as hours since 1900: 32-bit floats,
-/// with which functions are evaluated, hardly distinguish places between them. If `count` coordinates between these
-/// ends are on average closer than 2·10⁻⁵ of this distance, subtracts the least coordinate from both ends, adds a
-/// warning that states it, and removes " since …" from `unit`. `name` is the name of the dimension.
+/// with which functions are evaluated, hardly distinguish places between them. They are too close if the mean distance
+/// of the `count` coordinates between these ends is less than 2·10⁻⁵ of their distance from 0. In this case, subtracts
+/// the least coordinate from both ends, adds a warning with this coordinate, and removes " since …" from `unit`. `name`
+/// is the name of the dimension.
 void countFromLeastIfFar(CoordinateEnds& ends, std::size_t count, const std::string& name, std::string& unit,
                          std::vector<std::string>& warnings);
 

@@ -42,8 +42,9 @@ struct FieldReadOptions {
     MappedFileMaker newFile = {};  ///< makes a file for converted samples; null if they are always kept in memory
     std::span<float> into = {};    ///< memory for converted samples, used if it has exactly the size of the array; must
                                    ///< remain valid as long as the samples are used
-    /// The part of the array that is read, in the coordinates of its box: the samples that cover this region or, along
-    /// an axis where the region has no extent, the sample nearest to it. Only readZarr() reads parts.
+    /// The part of the array that is read: the samples that cover this region, or the sample nearest to it along an
+    /// axis where the region has no extent. The region is in the coordinates of the array's box. Only readZarr() reads
+    /// parts.
     std::optional<Box> region = {};
     /// The maximum number of samples of the level of a multiscale image that readZarr() chooses. Finer levels of at
     /// most `maxInMemory` samples count as ImageLevel::finer.

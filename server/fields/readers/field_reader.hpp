@@ -1,5 +1,5 @@
 #pragma once
-// Reads fields from single files of all formats.
+// Reads fields from files of all formats, and from series of files.
 
 #include <cstddef>
 #include <filesystem>

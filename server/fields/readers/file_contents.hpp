@@ -41,11 +41,11 @@ struct FileContents {
     /// Returns the bytes of a part, without those beyond the end of the file.
     FileContents cutTo(const FilePart& part) const;
 
-    /// Returns a copy of the bytes.
+    /// Returns contents that own a copy of `bytes`.
     static FileContents copyOf(std::string_view bytes);
-    /// Takes ownership of the bytes.
+    /// Returns contents that own `bytes`.
     static FileContents of(std::vector<std::byte> bytes);
-    /// Takes ownership of the bytes.
+    /// Returns contents that own `bytes`.
     static FileContents ofString(std::string bytes);
     /// Returns the bytes of a mapped file.
     static FileContents of(MappedFilePtr file);

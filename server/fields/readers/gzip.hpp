@@ -21,7 +21,7 @@ class GzipReader {
     /// The format around the deflate data (RFC 1951): a gzip file (RFC 1952) or a zlib stream (RFC 1950).
     enum class StreamFormat : bool { gzip, zlib };
 
-    /// `compressed` must outlive this object.
+    /// Begins to decompress `compressed`, which must outlive this object.
     explicit GzipReader(std::span<const std::byte> compressed, StreamFormat format = StreamFormat::gzip);
     ~GzipReader();
     GzipReader(const GzipReader&) = delete;

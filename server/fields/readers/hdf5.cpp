@@ -1,6 +1,6 @@
 #include "fields/readers/hdf5.hpp"
 
-#define H5_USE_110_API  // functions that all versions from 1.10 on have
+#define H5_USE_110_API  // declares the functions of HDF5 1.10, which later versions have, too
 #include <hdf5.h>
 
 #include <algorithm>

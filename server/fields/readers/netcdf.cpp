@@ -167,10 +167,10 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
     return format;
 }
 
-// Returns the coordinate variable of a dimension of `variable`. It has the name of the dimension, and has only this
-// dimension. It may be in the group of `variable` or in an outer group. The name alone does not identify it: a variable
-// may be named like a dimension that it does not have, and a dimension of a group may be named like a dimension of an
-// outer group.
+// Returns the coordinate variable of a dimension of `variable`: the variable that has the name of the dimension, and
+// has only this dimension. The coordinate variable may be in the group of `variable` or in an outer group. The name
+// alone does not identify it: a variable may be named like a dimension that it does not have, and a dimension of a
+// group may be named like a dimension of an outer group.
 std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;

@@ -16,7 +16,7 @@ namespace oval4d::fields {
 namespace {
 
 constexpr std::string_view kMagic("\x93NUMPY", 6);
-constexpr std::size_t kMaxHeader = 65'536;       // in bytes; NumPy writes less than 200 for an array of numbers
+constexpr std::size_t kMaxHeader = 65'536;  // the maximum size of a header in bytes; usual headers have less than 200
 constexpr std::size_t kMaxNumpyDimensions = 32;  // the maximum number of dimensions of an array in NumPy 1
 constexpr std::size_t kMaxSize = std::size_t{1} << 48U;
 

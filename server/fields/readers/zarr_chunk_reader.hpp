@@ -142,9 +142,8 @@ class ChunkReader {
     }
 
     // Visits the stored rows of a chunk that have numbers in the part. Calls `visit` for each row with four numbers:
-    // the index in the chunk of the row's first number in the part; the place of this number in `to`, relative to that
-    // of the part's first number; the number of the row's numbers in the part; and the distance between their places in
-    // `to`.
+    // the index in the chunk of the row's first number in the part; the distance in `to` from the part's first number
+    // to this number; the number of the row's numbers in the part; and the distance between their places in `to`.
     template <typename Visit>
     void visitRows(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
                    const Visit& visit) const {

@@ -14,8 +14,8 @@
 namespace oval4d::polytopes {
 
 /// Returns the design of the polytope that `diagram` describes. The caller must ensure that parseDiagram() accepts the
-/// diagram. All diagrams of one polytope give the same design: that of the diagram with the largest group. For example,
-/// x3o3o *b3o gives the design of x3o3o4o.
+/// diagram. All diagrams of one polytope give the same design, the design of the diagram with the largest group. For
+/// example, x3o3o *b3o gives the design of x3o3o4o.
 Design designOf(const Diagram& diagram);
 
 /// Returns the design of the duoprism of the regular polygons p and q, which may be stars. The caller must ensure that

@@ -41,9 +41,9 @@ glm::dvec2 pointOnCircle(std::uint32_t n, std::uint32_t index) {
     return glm::dvec2(std::cos(angle * index), std::sin(angle * index)) / std::sin(angle);
 }
 
-/// A recipe for a duoantiprism other than the 16-cell. The duoprism of a 2p-gon and a 2q-gon has a vertex for each pair
-/// (i, j) of point i of 2p points on a circle in the xy plane, and point j of 2q points on a circle in the zw plane.
-/// The vertices of the duoantiprism are those with an even sum i + j.
+/// A recipe for a duoantiprism other than the 16-cell. A vertex of the duoprism of a 2p-gon and a 2q-gon is a pair (i,
+/// j). i is one of 2p points on a circle in the xy plane, and j is one of 2q points on a circle in the zw plane. The
+/// vertices of the duoantiprism are those with an even sum i + j.
 class DuoantiprismRecipe : public Recipe {
   public:
     /// Makes a recipe for a p-gon and a q-gon. p must be at least 2, and q at least 3 and not less than p.

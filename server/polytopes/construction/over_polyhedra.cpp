@@ -121,10 +121,10 @@ Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
 // begins with "prism of", "pyramid of" or "bipyramid of" but the rest names no convex polyhedron. Returns an empty
 // optional for other texts.
 //
-// The prism has the height 2. The height of a pyramid, and of each half of a bipyramid, is such that all edges to the
-// apex have length 2 if the polyhedron is uniform and its circumradius is less than 2. Otherwise, the height is the
+// The prism has the height 2. If the polyhedron is uniform and its circumradius is less than 2, all edges to the apex
+// of a pyramid or bipyramid have length 2. Otherwise, the height of a pyramid, and of each half of a bipyramid, is the
 // circumradius of the polyhedron. The mean of the vertices is the origin. If the name denotes a uniform polytope,
-// returns the design of this polytope: that of the 5-cell for "pyramid of tetrahedron".
+// returns the design of this polytope, for example the 5-cell for "pyramid of tetrahedron".
 std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
     if (text.words.size() < 3 || text.words[1] != "of") return {};
     const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, PrismOrPyramidKind>::first);

@@ -16,8 +16,8 @@ namespace oval4d::polytopes {
 namespace {
 
 // Three mirrors that meet at the angles π/p, π/q and π/2, given by their unit normals, and two rotations. rotationP, of
-// order p, is the product of the reflections in the first two mirrors; rotationQ, of order q, that of the reflections
-// in the last two mirrors.
+// order p, is the product of the reflections in the first two mirrors. rotationQ, of order q, is the product of the
+// reflections in the last two mirrors.
 struct TriangleGroupGenerators {
     std::array<glm::dvec3, 3> mirrorNormals;
     glm::dmat3 rotationP, rotationQ;
@@ -38,8 +38,8 @@ TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
 glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
                                           glm::dmat3(1) - generators.rotationP * generators.rotationQ};
-    // The initial guess lies midway between the first two mirrors, at distance 1 from the third mirror, and as far from
-    // the axis of rotationP as the corners of a p-gon of edge length 2 from its center.
+    // The initial guess lies midway between the first two mirrors, at distance 1 from the third mirror. Its distance
+    // from the axis of rotationP is the circumradius of a p-gon of edge length 2.
     const double circle = 1 / std::sin(std::numbers::pi / p.numerator);
     const double angle = std::numbers::pi / 2 * (1 - 1.0 / p.numerator);
     glm::dvec3 x(circle * std::cos(angle), circle * std::sin(angle), 0);

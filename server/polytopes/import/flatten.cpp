@@ -30,8 +30,7 @@ constexpr double kMaxRounding = 2, kGoalRounding = 0.5;
 // Two hyperplanes count as nearly parallel if the cosine of the angle between them is larger than this. Rounding errors
 // then make the plane in which they meet too uncertain.
 constexpr double kNearlyParallel = 0.995;
-constexpr double kLeastExtent = 1e-9;  // a flat has the extent 0 along an axis if it is less than this, relative to the
-                                       // flat's radius
+constexpr double kLeastExtent = 1e-9;  // extents below this, relative to the radius of a constraint, count as 0
 
 constexpr int kMaxNewtonRounds = 16;            // the maximum number of rounds of Newton's method
 constexpr std::size_t kMaxGradientSteps = 300;  // the maximum number of steps of conjugate gradients in a round

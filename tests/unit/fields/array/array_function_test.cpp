@@ -178,7 +178,7 @@ TEST(ArrayFunction, IsConstantAlongAnAxisWithOneSample) {
               5);
 }
 
-// The function has a value at a point if all samples with a weight other than 0 have values.
+// The function has a value at a point exactly if all samples with a weight other than 0 have values.
 TEST(ArrayFunction, HasNoValueWhereAMissingSampleHasAWeight) {
     std::mt19937 random(8);
     const Shape shape{5, 5, 5, 5};

@@ -37,7 +37,7 @@ TEST(Interpolation, GivesTheSameBitsWithAllInstructions) {
             interpolateWithGradient(from, other.batch(), other.values, other.gradients(), fastest);
             EXPECT_EQ(bitsOf(points.values), bitsOf(values));
             EXPECT_EQ(bitsOf(points.values), bitsOf(other.values));
-            EXPECT_EQ(points.dx, other.dx);  // the operator == of floats, for which −0 equals 0
+            EXPECT_EQ(points.dx, other.dx);  // compares floats by ==, so −0 equals 0
             EXPECT_EQ(points.dy, other.dy);
             EXPECT_EQ(points.dz, other.dz);
             EXPECT_EQ(points.dw, other.dw);

@@ -85,7 +85,7 @@ std::map<std::string, std::uint32_t> cellsByName(const Polytope& p) {
     return cells;
 }
 
-// --- Prisms, pyramids and bipyramids over polyhedra
+// --- Tests of prisms, pyramids and bipyramids over polyhedra
 
 class OverPolyhedra : public testing::TestWithParam<const char*> {};
 
@@ -190,7 +190,7 @@ TEST(OverPolyhedra, haveCellsWithNames) {
     }
 }
 
-// --- Truncations, rectifications, hulls and intersections
+// --- Tests of truncations, rectifications, hulls and intersections
 
 TEST(TruncationsAndRectifications, ofRegularPolytopesAreUniform) {
     EXPECT_EQ(support::designFor("rectification of 16-cell").name, "24-cell");
@@ -292,7 +292,7 @@ TEST(Combinations, areBetweenTheirParts) {
               fVector(built("hull of 24-cell and 5,5-duoprism")).at(3));
 }
 
-// --- Compositions of several constructions
+// --- Tests of compositions of several constructions
 
 TEST(Dual, ofAnyConvexPolytopeReversesTheElements) {
     for (const std::string name :
@@ -386,7 +386,7 @@ TEST(Compositions, ofRandomNamesAreSound) {
     EXPECT_GT(builtCount, trials(120) * 2 / 3);
 }
 
-// --- Mistakes in names, and limits of size
+// --- Tests of mistakes in names, and of limits of size
 
 TEST(Compositions, withMistakesAreExplained) {
     for (const auto& [name, part] : std::vector<std::pair<std::string, std::string>>{

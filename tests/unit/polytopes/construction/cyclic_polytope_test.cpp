@@ -105,8 +105,8 @@ TEST_P(CyclicPolytopeOf, hasTheLeastEdgeLengthTwoBetweenNeighbors) {
     }
 }
 
-// By Gale's evenness condition, four vertices are the corners of a cell if, between any two other vertices, the number
-// of these four is even.
+// By Gale's evenness condition, four vertices are the corners of a cell if an even number of these four vertices lies
+// between any two other vertices.
 TEST_P(CyclicPolytopeOf, hasTheCellsOfGalesEvennessCondition) {
     std::set<std::set<std::uint32_t>> found, expected;
     for (std::size_t c = 0; c < polytope.cells.size(); ++c) found.insert(cornersOf(polytope, c));

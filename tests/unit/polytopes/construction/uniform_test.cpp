@@ -270,7 +270,7 @@ TEST(Hypervolume, ofProductsIsTheProduct) {
     EXPECT_NEAR(hypervolumeOf(built("3,24-duoprism")), area(3) * area(24), 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("cuboctahedral prism")), 2 * 5 / 3.0 * kRoot2 * 8, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("truncated icosahedral prism")), 2 * (125 + 43 * kRoot5) / 4 * 8, 1e-9);
-    // With edge length 1, the square antiprism has the volume √(4 + 3√2) / 3, and the snub cube 7.889477399975….
+    // With edge length 1, the snub cube has the volume 7.889477399975…, and the square antiprism √(4 + 3√2) / 3.
     EXPECT_NEAR(hypervolumeOf(built("square antiprism prism")), 2 * std::sqrt(4 + 3 * kRoot2) / 3 * 8, 1e-9);
     EXPECT_NEAR(hypervolumeOf(built("snub cube prism")), 2 * 7.889477399975 * 8, 1e-9);
 }

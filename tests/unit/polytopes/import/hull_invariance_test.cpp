@@ -43,7 +43,7 @@ void expectTheSame(const char* name, const std::string& text, const std::string&
     EXPECT_EQ(imported.polytope.cellTypes.size(), 1U) << name << ", " << how;
 }
 
-/// Expects the numbers of elements of a named polytope, like expectTheSame(), but allows several types of cells.
+/// Expects the numbers of elements of a named polytope. Unlike expectTheSame(), allows several types of cells.
 void expectTheCounts(const char* name, const std::string& text, const std::string& how) {
     const ImportedPolytope imported = sound(importPoints(text));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(named(name))) << name << ", " << how;
@@ -187,7 +187,8 @@ std::string shortestSingles(const Points& points) {
     return text;
 }
 
-// The hull of single-precision numbers is the original polytope, with the numbers of digits that programs write.
+// The hull of a polytope's vertices is the polytope, even if the coordinates are single-precision numbers. They are
+// written with the numbers of digits that programs use.
 TEST(Hull, OfSinglePrecisionNumbersIsThePolytope) {
     std::mt19937 random(33);
     constexpr std::array kNames{"8-cell", "24-cell", "120-cell", "600-cell", "3,6-duoprism", "rectified 5-cell"};
