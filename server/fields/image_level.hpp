@@ -10,7 +10,7 @@ namespace oval4d::fields {
 struct ImageLevel {
     std::uint32_t level = 0;   ///< 0 for the finest level; less than `levels`, unless `levels` is 0
     std::uint32_t levels = 0;  ///< the number of levels of the image; 0 if the array is not a level of an image
-    std::uint32_t finer = 0;   ///< the number of successive finer levels that fit into memory, too
+    std::uint32_t finer = 0;   ///< the number of finer levels that fit into memory, and are read afterward
     bool operator==(const ImageLevel&) const = default;
 };
 void visitStoredMembers(serialization::ReadOrWritten<ImageLevel> auto& image, auto& visit) {

@@ -22,7 +22,7 @@ namespace {
 
 // Limits on the errors and warnings that the server accepts from a reader process. A malicious file may control the
 // process. Usual errors and warnings are far below these limits.
-constexpr std::size_t kMaxText = 2000;  // in bytes, for each error or warning
+constexpr std::size_t kMaxText = 2000;  // the maximum size in bytes of an error or warning
 constexpr std::size_t kMaxWarnings = 100;
 
 enum class OutcomeKind : std::uint8_t {

@@ -33,7 +33,7 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out);
 
 /// A request of a file reader process for a file of the folder that it reads.
 struct FindRequest {
-    std::string path;       ///< relative to the folder
+    std::string path;       ///< the path of the file, relative to the folder
     fields::FilePart part;  ///< the part of the file that the process needs
 };
 /// Encodes a FindRequest, and writes it to `out`.

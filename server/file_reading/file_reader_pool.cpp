@@ -33,7 +33,7 @@ FileReaderPool::FileReaderPool(FileReaderOptions options)
 FileReaderPool::~FileReaderPool() {
     replacing_.request_stop();
     replacing_.join();
-    for (const ChildProcessPtr& process : waiting_) process->kill();  // a waiting process reads no file
+    for (const ChildProcessPtr& process : waiting_) process->kill();  // a waiting process has no file to finish
 }
 
 FileReaderPool::ChildProcessPtr FileReaderPool::acquire() {
@@ -72,7 +72,7 @@ void FileReaderPool::replaceUsed(const std::stop_token& stop) {
         std::vector<ChildProcessPtr> used = std::exchange(used_, {});
         std::vector<ChildProcessPtr> surplus;
         if (used.empty() && Clock::now() >= lastUsed_ + idle) surplus = std::exchange(waiting_, {});
-        // There may be more processes than needed, because acquire() creates a process whenever none is waiting.
+        // There may be more than maxWaiting processes, because acquire() creates a process if none is waiting.
         while (!used.empty() && waiting_.size() + used.size() > options_.maxWaiting) {
             surplus.push_back(std::move(used.back()));
             used.pop_back();

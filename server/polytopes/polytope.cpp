@@ -241,7 +241,7 @@ void findFacesAtEdges(Polytope& p) {
         }
     }
     std::vector<std::uint32_t> sideAfterCell(
-        p.cells.size());  // per cell: the index in `sides` of the 2-face that comes next after this cell
+        p.cells.size());  // for each cell, the index in `sides` of the 2-face that comes next after the cell
     for (std::size_t e = 0; e < p.edges.size(); ++e) {
         const auto sides = std::span(items).subspan(begin[e], begin[e + 1] - begin[e]);
         const auto cellBefore = [&](std::uint32_t side) { return p.faceCells[side >> 1U][side & 1U]; };

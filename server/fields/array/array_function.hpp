@@ -36,7 +36,7 @@ class ArrayFunction final : public ScalarFunction {
     /// constructor does not read.
     static constexpr std::size_t kSelectedSamples = std::size_t{1} << 20U;
 
-    /// `samples` must be in the order of Lattice: x varies fastest. The constructor reads all samples if there are at
+    /// Makes the interpolant of `samples`, in which x varies fastest (see Lattice). Reads all samples if there are at
     /// most `eagerSamples`. Otherwise, each sample is read when it is needed (see BrickBounds). Throws
     /// std::invalid_argument if the constructor of Lattice does, or if there are not sampleCount(shape) samples.
     ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples = kEagerSamples);

@@ -93,8 +93,8 @@ class BrickBounds {
     };
     std::unique_ptr<CacheSlot[], FreeDeleter>
         slots_;                         // zero-initialized, because the entry 0 means an empty slot; null if eager
-    std::size_t slotCount_ = 0;         // a power of 2
-    std::vector<PyramidLevel> levels_;  // from fine to coarse; only the finest level unless eager_
+    std::size_t slotCount_ = 0;         // the number of slots: a power of 2
+    std::vector<PyramidLevel> levels_;  // the levels from fine to coarse; only the finest level unless eager_
 };
 
 }  // namespace oval4d::fields

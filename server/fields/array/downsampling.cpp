@@ -151,7 +151,7 @@ std::vector<float> selectSamples(const Shape& shape, const SampleStorage& sample
     const std::span<const float> from = samples.values();
     for (const std::size_t w : places[3]) {
         for (const std::size_t z : places[2]) {
-            // First announces all rows to the system, which then reads them in parallel, in much less time.
+            // First announce all rows to the system, which then reads them in parallel, in much less time.
             for (const std::size_t y : places[1]) prefetchRow(samples, w + z + y, places[0]);
             for (const std::size_t y : places[1]) {
                 for (const std::size_t x : places[0]) selected.push_back(from[w + z + y + x]);

@@ -12,7 +12,7 @@ namespace oval4d::fields {
 /// The instruction set that interpolation uses. All instruction sets give the same results, bit for bit.
 enum class InstructionSet : std::uint8_t {
     portable,  ///< runs on every processor
-    avx2,      ///< only for a processor for which fastestInstructions() returns avx2
+    avx2,      ///< runs only on processors with AVX2 (see fastestInstructions())
 };
 
 /// Returns the fastest instruction set that this processor has.

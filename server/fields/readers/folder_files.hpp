@@ -22,7 +22,7 @@ using FolderFileReader =
 
 /// A file that was found in a folder.
 struct FoundFile {
-    std::shared_ptr<const FileHandle> file;  ///< the open file; null if the folder's store has no open files
+    std::shared_ptr<const FileHandle> file;  ///< the open file; null if the folder is not on a disk
     std::string bytes;                       ///< only if `file` is null: the bytes of the requested part
 };
 

@@ -30,7 +30,7 @@ struct ZarrArrayMetadata {
                                               ///< slowest to the fastest
     NumberFormat format;                      ///< the type, and the scale, offset and missing values of the CF
                                               ///< attributes
-    std::optional<ChunkCodec> codec;          ///< empty if chunks are not compressed
+    std::optional<ChunkCodec> codec;          ///< the compression of chunks; empty if there is none
     std::optional<ShardLayout> shards;        ///< how chunks lie in shards; empty if each chunk is a file
     double fill;                              ///< the value of missing chunks, as a stored number; NaN if the metadata
                                               ///< state none

@@ -17,7 +17,7 @@ namespace oval4d::fields {
 struct ShardLayout {
     std::vector<std::size_t> chunks;  ///< the number of chunks along each dimension
     bool indexAtStart = false;
-    bool bigEndian = false;    ///< the byte order of the index
+    bool bigEndian = false;    ///< whether the index is big-endian
     bool hasChecksum = false;  ///< whether a checksum (CRC-32C) follows the index
 
     std::size_t chunkCount() const;

@@ -85,7 +85,7 @@ class CyclicPolytopeRecipe : public Recipe {
         };
 
         geometry::JaggedArray cells;
-        std::vector<std::uint32_t> orbits;  // per cell: its orbit under the symmetry group
+        std::vector<std::uint32_t> orbits;  // the orbit of each cell under the symmetry group
         for (std::uint32_t i = 0; i < n; ++i) {
             for (std::uint32_t j = i + 2; j < n; ++j) {
                 const std::uint32_t steps = j - i;

@@ -97,7 +97,7 @@ class DuoantiprismRecipe : public Recipe {
         // All other 2-faces are triangles. Each triangle separates an antiprism from a disphenoid. The four corners of
         // a disphenoid are the neighbors of a vertex (i, j) of the duoprism that is not a vertex of the duoantiprism.
         geometry::JaggedArray cells;
-        std::vector<std::uint32_t> orbits;  // per cell: its orbit under the symmetry group
+        std::vector<std::uint32_t> orbits;  // the orbit of each cell under the symmetry group
         for (std::uint32_t i = 0; i < m; ++i) {
             for (std::uint32_t j = 1 - i % 2; j < n; j += 2) {
                 const std::uint32_t beforeI = vertex(i + m - 1, j), afterI = vertex(i + 1, j);

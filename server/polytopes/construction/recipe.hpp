@@ -43,7 +43,7 @@ class Recipe {
 /// A polytope that can be built: its name and its recipe. Designs with equal names build equal polytopes; caches use
 /// the name as their key.
 struct Design {
-    std::string name;  ///< such as "truncated tesseract" or "5,7-duoprism"
+    std::string name;  ///< the name of the polytope, such as "truncated tesseract" or "5,7-duoprism"
     std::shared_ptr<const Recipe> recipe;
 };
 

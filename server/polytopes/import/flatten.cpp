@@ -332,11 +332,11 @@ class Flattener {
     double maxDeviation_, goalDeviation_;
     std::vector<CohyperplanarityConstraint> constraints_;
     std::vector<std::uint32_t>
-        constraintOfCell_;           // per cell: the index of its constraint; kNone for a cell of at most four vertices
+        constraintOfCell_;           // the constraint of each cell; kNone for a cell of at most four vertices
     geometry::JaggedArray corners_;  // the vertices of each constraint
     std::vector<glm::dvec4>
-        offsets_;  // per corner: its offset from CohyperplanarityConstraint::middle, divided by the radius
-    std::vector<double> distances_;  // per corner: its signed distance from the hyperplane
+        offsets_;  // the offset of each corner from CohyperplanarityConstraint::middle, divided by the radius
+    std::vector<double> distances_;  // the signed distance of each corner from the hyperplane
     std::vector<glm::dvec4> rest_;
     std::uint32_t farthest_ = kNone;  // the constraint with the largest deviation
 };

@@ -214,7 +214,7 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     // Merge points that differ only within the error bounds. `places` holds one point of each merged group, in the
     // coordinates of `frame`.
     Points places;
-    std::vector<std::uint32_t> numbers;  // per element of `places`: its index in `points`
+    std::vector<std::uint32_t> numbers;  // the index in `points` of each element of `places`
     geometry::EqualPointFinder index(4 * 2 * frame.largestErrorBound());
     for (const std::uint32_t i : order) {
         if (index.findOrAdd(frame(points[i]), places).second) numbers.push_back(i);

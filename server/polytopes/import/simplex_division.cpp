@@ -111,7 +111,7 @@ class SimplexDivider {
 
     PolygonSoup& soup_;
     bool hasPositions_;
-    std::vector<std::vector<std::uint32_t>> becomes_;  // per 2-face: the 2-faces that replace it
+    std::vector<std::vector<std::uint32_t>> becomes_;  // for each 2-face, the 2-faces that replace this 2-face
     geometry::JaggedArray faces_, cells_;
     std::vector<PolygonSoup::SourcePosition> facePositions_, cellPositions_;
 };

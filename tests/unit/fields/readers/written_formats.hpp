@@ -25,7 +25,7 @@
 
 namespace oval4d::fields::test {
 
-inline constexpr Shape kShape{5, 4, 3, 2};  // nx, ny, nz, nw
+inline constexpr Shape kShape{5, 4, 3, 2};  // the numbers of samples along x, y, z, w
 inline constexpr std::size_t kCount = 120;
 
 inline std::vector<float> numbers() {

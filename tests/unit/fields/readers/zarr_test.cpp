@@ -134,7 +134,7 @@ float expectedSample(std::size_t x, std::size_t y, std::size_t z, std::size_t w)
 // Returns the files of an array of 5 × 4 × 7 × 6 numbers with the axes t z y x. Its chunks of 2 × 3 × 4 × 6 numbers
 // extend beyond the array.
 Files filesInChunks() {
-    constexpr std::array<std::size_t, 4> kShape{6, 7, 4, 5}, kChunk{6, 4, 3, 2};  // x, y, z, t
+    constexpr std::array<std::size_t, 4> kShape{6, 7, 4, 5}, kChunk{6, 4, 3, 2};  // along x, y, z, t
     Files files{{".zarray", zarray("[5,4,7,6]", "[2,3,4,6]")}};
     for (std::size_t t = 0; t < kShape[3]; t += kChunk[3]) {
         for (std::size_t z = 0; z < kShape[2]; z += kChunk[2]) {

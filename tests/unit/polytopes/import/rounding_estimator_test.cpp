@@ -54,7 +54,7 @@ TEST(RoundingEstimator, IsHalfTheUnitOfTheLastDigit) {
     EXPECT_DOUBLE_EQ(maxRoundingError({"0.70711", "-1.00000"}, 1), 0.5e-5);
     EXPECT_DOUBLE_EQ(maxRoundingError({"10.70711", "0.70711", "0.5"}, 1), 0.5e-5);  // a fixed number of decimals
     EXPECT_DOUBLE_EQ(maxRoundingError({"10.7071", "0.707107", "0.5"}, 1),
-                     0.5e-4);  // fixed number of digits, determined by the largest number
+                     0.5e-4);  // a fixed number of digits: the largest number determines the last place
     EXPECT_DOUBLE_EQ(maxRoundingError({"1.0707e+05", "7.0711E-1"}, 1e5), 5);
     EXPECT_DOUBLE_EQ(maxRoundingError({"7.0711e-10", "0"}, 1e-9), 0.5e-14);
     EXPECT_EQ(maxRoundingError({"0.5", "1.5", "0"}, 2), 0);
