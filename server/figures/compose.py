@@ -12,8 +12,7 @@ FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 
 def compose(panels, columns):
-    """Returns a picture of all panels in rows of `columns` panels, with the letters (a), (b), ... in their upper right
-    corners. All panels must have the size of the first panel."""
+    """All panels have the size of the first; they are lettered (a), (b), ... in their upper right corners."""
     width, height = panels[0].size
     rows = math.ceil(len(panels) / columns)
     size = (columns * (width + GAP) - GAP, rows * (height + GAP) - GAP)

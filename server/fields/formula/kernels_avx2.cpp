@@ -1,5 +1,5 @@
 // This file is compiled with -mavx2. If several files compile the same inline function, the linker keeps only one copy.
-// If it kept the copy of this file, processors without AVX2 could not run it. Therefore all functions here have
+// If the linker kept the copy of this file, processors without AVX2 could not run it. Therefore all functions here have
 // internal linkage, or are templates with an argument type that only this file has.
 #include "fields/formula/kernels_avx2.hpp"
 

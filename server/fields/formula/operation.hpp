@@ -9,10 +9,10 @@ namespace oval4d::fields {
 /// An operation of a compiled formula on the operands a and b. The result is NaN if an operand is NaN. Therefore pow(1,
 /// NaN) and pow(NaN, 0) are NaN, unlike in C.
 enum class Operation : std::uint8_t {
-    // without operands
+    // Operations without operands:
     constant,  ///< a number
     variable,  ///< x, y, z or w
-    // with one operand
+    // Operations with one operand, a:
     copy,
     negate,
     abs,
@@ -34,7 +34,7 @@ enum class Operation : std::uint8_t {
     step,  ///< 0 for a < 0, otherwise 1
     sign,  ///< −1, 0 or 1
     floor,
-    // with two operands
+    // Operations with two operands, a and b:
     add,
     subtract,
     multiply,

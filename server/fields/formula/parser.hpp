@@ -11,9 +11,9 @@
 
 namespace oval4d::fields {
 
-/// Limits on the size of a formula.
+/// The limits on the size of a formula. Each member is a maximum.
 struct FormulaLimits {
-    std::size_t bytes = 2000;         ///< the length of the text
+    std::size_t bytes = 2000;         ///< the length of the text in bytes
     int nesting = 64;                 ///< the depth of nested parentheses, calls and exponents
     std::size_t constants = 16;       ///< the number of named constants
     std::size_t expressions = 100;    ///< the number of named expressions

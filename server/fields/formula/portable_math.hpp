@@ -1,7 +1,7 @@
 #pragma once
 // The mathematical functions of the C library, applied to the elements of arrays.
 
-#include <math.h>  // not <cmath>: see ValueLoops for why its inline functions must not be used
+#include <math.h>  // not <cmath>, whose inline functions must not be used: see ValueLoops
 
 #include <cstddef>
 

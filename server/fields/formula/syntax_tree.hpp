@@ -15,7 +15,7 @@ namespace oval4d::fields {
 /// A named constant of a formula, such as a in "x^2+y^2-a^2; a=0.7".
 struct FormulaConstant {
     std::string name;
-    double value = 0;  ///< finite
+    double value = 0;  ///< a finite number
 
     bool operator==(const FormulaConstant&) const = default;
 };

@@ -35,7 +35,7 @@ class GzipReader {
     Result<std::monostate> fill(std::span<std::byte> to);
 
     /// Returns whether the caller has read all decompressed bytes and the checksum of the bytes is correct. Do not read
-    /// from this object after the call, because it skips a byte if bytes were left.
+    /// from this object after the call, because the call skips a byte if bytes were left.
     bool verifyEnd();
 
   private:

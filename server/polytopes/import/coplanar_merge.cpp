@@ -77,8 +77,8 @@ class SimplexMerger {
         Triangle corners;
     };
 
-    // Sets signs_ such that all simplices are oriented coherently. The ascending order of its vertices orients a
-    // simplex with the sign +1; a simplex with the sign −1 has the opposite orientation.
+    // Sets signs_ such that all simplices are oriented coherently. A simplex with the sign +1 has the orientation in
+    // which its vertices are in ascending order; a simplex with the sign −1 has the opposite orientation.
     void orient() {
         std::vector<std::uint32_t> waiting{0};
         signs_[0] = 1;
