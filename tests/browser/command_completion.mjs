@@ -47,6 +47,11 @@ test("command line: Tab completes what is unique, or what the possible words hav
         "set slices=31 col": "set slices=31 color=",
         "set polytope=grand a": "set polytope=grand antiprism",
         "polytope GRAND A": "polytope grand antiprism",
+        "highlight ce": "highlight cell ",
+        "highlight edge": "highlight edge ",
+        "highlight n": "highlight none",
+        "set highlight=f": "set highlight=face:",
+        "set highlight=no": "set highlight=none",
         "hide te": "hide tetrahedron",
         "key ct": "key ctrl-r",
         "export 3": "export 3mf",
@@ -69,6 +74,11 @@ test("command line: Tab completes what is unique, or what the possible words hav
     assert.equal((await completed(page, "set sl")).line, "set slices=");
     assert.deepEqual((await completed(page, "export svg ")).options, ["of=", "size=", "at=", "fit="]);
     assert.deepEqual((await completed(page, "export latency s")).options, []);
+    const highlighted = ["vertex", "edge", "face", "cell", "none"];
+    assert.deepEqual((await completed(page, "highlight ")).options, highlighted);
+    assert.deepEqual((await completed(page, "set highlight=")).options, highlighted);
+    for (const line of ["highlight cell ", "highlight cell 1", "highlight none", "set highlight=cell:"])
+        assert.deepEqual(await completed(page, line), { line, options: [] }, "a number follows, or nothing");
     assert.equal((await completed(page, "polytope trunc")).line, "polytope truncated ");
     assert.equal((await completed(page, "polytope hexacosichoron", "Tab")).line, "polytope 600-cell");
     await page.fill("#command", "set h=1 end");

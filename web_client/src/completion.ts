@@ -40,15 +40,20 @@ export function completionsOf(line: string, names: CompletableNames): Completion
     const start = line.length - word.length;
     if (completes === "setting") return settingCompletions(line, start, rest, names);
     if (completes === "format" && word !== rest) return fileOptionCompletions(line, rest, word);
-    if (word !== rest) return { start, options: [], suffix: "" }; // only the first argument is completed
-    return completionsUnlessComplete(line, start, valuesOf(completes, word, names));
+    if (word !== rest) return { start, options: [], suffix: "" }; // of other commands, only the first argument
+    const options = valuesOf(completes, word, names);
+    return completionsUnlessComplete(line, start, options, completes === "highlight" ? beforeNumber(options, " ") : "");
 }
 
 /** The completions of the last word of `set NAME=VALUE …`. */
 function settingCompletions(line: string, start: number, rest: string, names: CompletableNames): Completions {
     // The value of `polytope` may contain blanks if `polytope` is the only setting in the line.
     const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
-    if (name !== "") return completionsUnlessComplete(line, line.length - value.length, valuesOf(name, value, names));
+    if (name !== "") {
+        const options = valuesOf(name, value, names);
+        const suffix = name === "highlight" ? beforeNumber(options, ":") : "";
+        return completionsUnlessComplete(line, line.length - value.length, options, suffix);
+    }
     const all = [...kSettings.keys(), ...kPageSettings.keys()].map((one) => `${one}=`);
     return completionsUnlessComplete(line, start, filterByPrefix(all, line.slice(start)));
 }
@@ -73,6 +78,7 @@ function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Compl
     const lists: Record<string, string[]> = {
         planes: kPlanes,
         element: kElementKinds,
+        highlight: [...kElementKinds, "none"],
         kind: [...new Set(kinds)],
         key: keys,
         format: [...kFormats.flatMap(({ formats }) => formats.map(({ name }) => name)), "latency"],
@@ -91,6 +97,11 @@ function polytopeNames(catalogue: Catalogue, typed: string): string[] {
 function filterByPrefix(list: string[], prefix: string): string[] {
     const wanted = prefix.toLowerCase();
     return list.filter((one) => one.toLowerCase().startsWith(wanted));
+}
+
+/** `separator`, which separates a kind of elements from its number, or "" if no number follows the first option. */
+function beforeNumber(options: string[], separator: string): string {
+    return kElementKinds.includes(options[0] ?? "") ? separator : "";
 }
 
 function completionsUnlessComplete(line: string, start: number, options: string[], suffix = ""): Completions {
