@@ -124,14 +124,14 @@ test("first visit: the welcome covers nothing, and leaves when its advice was fo
     }
 });
 
-test("tour: six steps point at what they explain, forward and back", async () => {
+test("tour: five steps point at what they explain, forward and back", async () => {
     const { page, errors, close } = await openWithScript({ firstVisit: true, viewport: { width: 1440, height: 900 } });
     await page.click("#welcome-tour");
     assert.equal(await isShown(page, "#welcome"), false);
-    const targets = ["#drawing", "[data-group=turn]", "#state-fields", "#drawing", "#drawing", "#header-files"];
+    const targets = ["#drawing", "[data-group=turn]", "#drawing", "#drawing", "#header-files"];
     const texts = [];
     for (const [i, target] of targets.entries()) {
-        assert.equal(await page.locator("#tour-number").innerText(), `${i + 1} of 6`);
+        assert.equal(await page.locator("#tour-number").innerText(), `${i + 1} of 5`);
         texts.push(await step(page));
         const [at, ring, panel] = await Promise.all(
             [target, "#tour-ring", "#tour"].map((selector) => page.locator(selector).boundingBox()),
@@ -142,11 +142,11 @@ test("tour: six steps point at what they explain, forward and back", async () =>
         const apart = (axis, size) => panel[axis] >= ring[axis] + ring[size] || ring[axis] >= panel[axis] + panel[size];
         const isAround = panel.width < ring.width && panel.height < ring.height;
         assert.ok(apart("x", "width") || apart("y", "height") || isAround, `the panel does not cover ${target}`);
-        if (i < 5) await page.click("#tour-next");
+        if (i < 4) await page.click("#tour-next");
     }
-    assert.equal(new Set(texts).size, 6);
+    assert.equal(new Set(texts).size, 5);
     assert.equal(await isShown(page, "#tour-next"), false);
-    for (let i = 4; i >= 0; --i) {
+    for (let i = 3; i >= 0; --i) {
         await page.click("#tour-back");
         assert.equal(await step(page), texts[i]);
     }
@@ -179,12 +179,12 @@ test("tour: one step shows a field, and the user's object and view return after 
         assert.ok(isTurnedBack, "it is turned as before");
     };
     for (const leave of ["#tour-next", "#tour-back"]) {
-        await goTo("5", leave === "#tour-next" ? "#tour-next" : "#tour-back");
+        await goTo("4", leave === "#tour-next" ? "#tour-next" : "#tour-back");
         await script.until((one) => one.polytope.name === "tiger" && one.field, "the field");
         await press("4"); // the rotation applies to the field
         await leaveBy(leave);
     }
-    await goTo("5", "#tour-next");
+    await goTo("4", "#tour-next");
     await script.until((one) => one.polytope.name === "tiger", "the field");
     await script.request({ type: "set", polytope: "24-cell" });
     await page.click("#tour-end");
@@ -215,11 +215,11 @@ test("tour: works with the keyboard alone, while keys still turn the polytope", 
     await page.keyboard.press("y");
     const { last } = await script.until((one) => one.last !== null, "the rotation");
     assert.deepEqual(last.planes, ["xy", "zw"]);
-    for (const key of ["Enter", "Space", "Enter", "Space", "Enter"]) await page.keyboard.press(key);
-    assert.equal(await page.locator("#tour-number").innerText(), "6 of 6");
+    for (const key of ["Enter", "Space", "Enter", "Space"]) await page.keyboard.press(key);
+    assert.equal(await page.locator("#tour-number").innerText(), "5 of 5");
     assert.equal(await focused(page), "tour-end", "the button that disappears passes the focus on");
     assert.equal((await script.state()).turning, false);
-    for (let i = 0; i < 5; ++i) await page.locator("#tour-back").press("Enter");
+    for (let i = 0; i < 4; ++i) await page.locator("#tour-back").press("Enter");
     assert.equal(await focused(page), "tour-next");
     await page.keyboard.press("Escape");
     assert.equal(await isShown(page, "#tour"), false);
@@ -233,14 +233,14 @@ test("tour: on a phone and zoomed in, its panel and buttons are in the window", 
         const welcome = await page.locator("#welcome").boundingBox();
         assert.ok(welcome.x >= 0 && welcome.x + welcome.width <= width);
         await page.click("#welcome-tour");
-        for (let i = 0; i < 6; ++i) {
+        for (let i = 0; i < 5; ++i) {
             for (const part of ["#tour", "#tour-end", "#tour-ring"]) {
                 const box = await page.locator(part).boundingBox();
                 const [right, bottom] = [box.x + box.width, box.y + box.height].map((end) => end - 0.01); // rounded
                 const isWithin = box.x >= 0 && box.y >= 0 && right <= width && bottom <= height;
                 assert.ok(isWithin, `${width} × ${height}, step ${i + 1}: ${part} ${JSON.stringify(box)}`);
             }
-            if (i < 5) await page.click("#tour-next");
+            if (i < 4) await page.click("#tour-next");
         }
         assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)) <= 0);
         await close();
