@@ -221,9 +221,9 @@ void addLimits(CLI::App& app, ServerOptions& options) {
         "sides with k crossings. Faces beyond the limit are filled approximately")
         ->check(atLeastOne);
     add(app, "--max-occlusion", options.picture.occlusionSteps,
-        "Maximum number of steps to find what lies behind other cells in the projection of a nonconvex polytope: "
-        "comparisons of a part of an element with a cell or a triangle. Beyond the limit, only cells turned away from "
-        "the 4-D eye are left out")
+        "Maximum number of steps to find what lies behind other cells in the projection of a polytope that is not "
+        "convex or has hidden cells: comparisons of a part of an element with a cell or a triangle. Beyond the limit, "
+        "only cells turned away from the 4-D eye are left out")
         ->check(atLeastOne);
     add(app, "--max-slice-edges", options.picture.sliceEdges,
         "Maximum number of edges of all slices of a picture or a file together")

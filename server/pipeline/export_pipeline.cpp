@@ -81,9 +81,10 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     return hyperplanesAt(request.chosenW, picture);
 }
 
-// Returns a set whose only slice is the projection of the whole object. This set is exported instead of `slices`. The
-// projection is orthogonal if the picture shows an orthogonal projection, else perspective. `occlusionSteps` limits the
-// time: see slicing::Projector::ProjectionOptions.
+// Returns a set whose only slice is the projection of the whole object, to be exported instead of `slices`. The
+// projection is orthogonal if the picture shows an orthogonal projection, else perspective. Cells of hidden types hide
+// what lies behind them, because bodies contain the cells of all types. `occlusionSteps`: see
+// slicing::Projector::ProjectionOptions.
 slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slicing::SliceSet& slices,
                                std::size_t occlusionSteps) {
     const scene::ProjectionSettings& settings = picture.look.projection;

@@ -257,6 +257,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const slicing::Projector::ProjectionOptions options{.projection = {perspective ? 1 / (eye * out.circumradius) : 0},
                                                         .cells = look.parts.projectionFaces,
                                                         .culled = !look.parts.back,
+                                                        .hiddenTypes = look.cellTypes.hidden,
                                                         .occlusionSteps = occlusionSteps_,
                                                         .firstSlice = all ? 0 : focusSlice,
                                                         .endSlice = all ? slices.planes.count : focusSlice + 1};

@@ -34,7 +34,7 @@ glm::dvec2 OcclusionFinder::ProjectedFaceFrame::coordinatesOf(const glm::dvec4& 
 }
 
 bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
-                           const std::vector<bool>& facing, bool withFaces, std::size_t steps, DrawnElements& out) {
+                           const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out) {
     complex_ = &complex;
     out.vertices.assign(complex.vertices.size(), false);
     out.edges.assign(complex.edges.size(), false);
@@ -44,16 +44,17 @@ bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const
     std::vector<bool> mayShowVertex(complex.vertices.size()), mayShowEdge(complex.edges.size());
     for (std::uint32_t f = 0; f < complex.faces.size(); ++f) {
         const auto [first, second] = complex.faceCells[f];
-        if (!facing[first] && !facing[second]) continue;
+        if (!roles.drawn[first] && !roles.drawn[second]) continue;
         faces.push_back(f);
         for (const std::uint32_t v : complex.faces[f]) mayShowVertex[v] = true;
         for (const std::uint32_t e : complex.faceEdges[f]) mayShowEdge[e] = true;
     }
     const std::size_t tested = static_cast<std::size_t>(std::count(mayShowEdge.begin(), mayShowEdge.end(), true)) +
                                (withFaces ? faces.size() : 0);
-    if (tested > steps / complex.cells.size()) return false;
-    cells_.place(complex, images, steps);
-    if (withFaces) findContourFaces();
+    const auto hiding = static_cast<std::size_t>(std::count(roles.hides.begin(), roles.hides.end(), true));
+    if (hiding > 0 && tested > steps / hiding) return false;
+    cells_.place(complex, images, roles.hides, steps);
+    if (withFaces) findContourFaces(roles.hides);
 
     for (const std::uint32_t f : faces) {
         if (cells_.isExhausted()) return false;
@@ -109,10 +110,9 @@ int OcclusionFinder::sideOfCell(std::uint32_t cell) const {
     return static_cast<int>(positive) - static_cast<int>(negative);
 }
 
-// Finds the 2-faces at which cells may begin or cease to hide what lies behind them. If the projections of the two
-// cells of a 2-face have the same sign (see sideOfCell()), they lie on opposite sides of the 2-face. Then one cell
-// hides beyond the 2-face what the other cell hid before it, so the 2-face is left out.
-void OcclusionFinder::findContourFaces() {
+// If the projections of the two cells of a 2-face have the same sign (see sideOfCell()), they lie on its two sides, so
+// that beyond the 2-face the one cell hides what the other one hid before.
+void OcclusionFinder::findContourFaces(const std::vector<bool>& hides) {
     const geometry::CellComplex& p = *complex_;
     contourFaces_.clear();
     std::vector<int> side(p.cells.size(), 0);
@@ -122,6 +122,7 @@ void OcclusionFinder::findContourFaces() {
     }
     for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
         const auto [first, second] = p.faceCells[f];
+        if (!hides[first] && !hides[second]) continue;
         if (side[first] != 0 && side[first] == side[second]) continue;
         const glm::dvec4& start = cells_.points()[p.faces[f][0]];
         ContourFace face{f, {glm::dvec3(start), glm::dvec3(start)}, start.w};

@@ -20,6 +20,11 @@ struct DrawnElements {
     std::vector<bool> vertices, edges, faces;
 };
 
+/// For each cell of a complex: whether its elements may be drawn, and whether it hides what lies behind it.
+struct CellRoles {
+    std::vector<bool> drawn, hides;
+};
+
 /// Finds the elements of a cell complex that lie wholly behind its cells. A cell does not hide the elements that it
 /// contains; ProjectedCells describes which other points it hides. Reuses its memory. Only one thread at a time may use
 /// an occlusion finder.
@@ -28,10 +33,9 @@ class OcclusionFinder {
     /// The default limit on the number of steps (see find()). This many steps take a few tenths of a second.
     static constexpr std::size_t kDefaultSteps = 50'000'000;
 
-    /// Finds which elements of `complex` are drawn, and writes them to `out`. `images` has the image of each vertex
-    /// (see ProjectedCells). `facing` says for each cell whether it is turned toward the eye. Of the elements of cells
-    /// that face the eye, these are drawn:
-    /// - if `withFaces`, the 2-faces that are not wholly hidden, with their edges and vertices; otherwise, no 2-face;
+    /// Finds what is drawn of `complex`; `images` has the image of each vertex, as ProjectedCells describes it. Only
+    /// elements of the cells CellRoles::drawn are drawn, and of these:
+    /// - if `withFaces`, the 2-faces that are not wholly hidden, and what bounds them; otherwise, no 2-face;
     /// - the edges that are not wholly hidden, and their ends;
     /// - the vertices that are not hidden.
     ///
@@ -41,10 +45,10 @@ class OcclusionFinder {
     /// both sides of all these lines are hidden. Visible parts narrower than about 10⁻⁶ of the size of the projection
     /// may be overlooked.
     ///
-    /// `steps` limits the time. A step is the comparison of a part of an element with a cell, or with a triangle of the
-    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If the steps are fewer than
-    /// the pairs of a cell and an element to be tested, returns false at once.
-    bool find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const std::vector<bool>& facing,
+    /// `steps` limits the time. A step is the comparison of a part of an element with a cell or with a triangle of the
+    /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If they are fewer than the
+    /// pairs of a cell that hides and of an element to be tested, returns false at once.
+    bool find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const CellRoles& roles,
               bool withFaces, std::size_t steps, DrawnElements& out);
 
   private:
@@ -68,7 +72,7 @@ class OcclusionFinder {
         glm::dvec2 coordinatesOf(const glm::dvec4& point) const;
     };
 
-    void findContourFaces();
+    void findContourFaces(const std::vector<bool>& hides);
     int sideOfCell(std::uint32_t cell) const;
 
     bool isFaceHidden(std::uint32_t face);

@@ -55,7 +55,7 @@ void ProjectedCells::spend(std::size_t steps) {
 }
 
 void ProjectedCells::place(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
-                           std::size_t steps) {
+                           const std::vector<bool>& hides, std::size_t steps) {
     stepsLeft_ = steps;
     exhausted_ = false;
     if (object_ != complex.serial) prepare(complex);
@@ -70,7 +70,7 @@ void ProjectedCells::place(const geometry::CellComplex& complex, std::span<const
         points_.emplace_back(glm::dot(x, p), glm::dot(y, p), glm::dot(z, p), image.w);
         size_ = std::max(size_, glm::length(image));
     }
-    findOccluders();
+    findOccluders(hides);
 }
 
 // Sets the members that depend only on which elements of the complex contain which others.
@@ -139,9 +139,10 @@ std::optional<glm::dvec4> ProjectedCells::normalOf(std::span<const Triangle> tri
     return glm::normalize(normal);
 }
 
-void ProjectedCells::findOccluders() {
+void ProjectedCells::findOccluders(const std::vector<bool>& hides) {
     occluders_.clear();
     for (std::uint32_t c = 0; c + 1 < triangleBegin_.size(); ++c) {
+        if (!hides[c]) continue;
         const auto triangles = trianglesOf(c);
         spend(triangles.size());
         auto normal = normalOf(triangles);

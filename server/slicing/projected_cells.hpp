@@ -49,7 +49,7 @@ class ProjectedCells {
         bool meets(const Box& other) const;
         void include(const glm::dvec3& point);
     };
-    /// A cell that can hide something, because it is not seen edge-on.
+    /// A cell that hides something: it is not seen edge-on.
     struct Occluder {
         std::uint32_t cell;
         Box box;
@@ -66,15 +66,16 @@ class ProjectedCells {
     };
 
     /// Sets the cells of `complex`, which must exist as long as this object is used. `images` has the image of each
-    /// vertex. Allows `steps` steps (see spend()) from now on.
-    void place(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, std::size_t steps);
+    /// vertex, and `hides` says for each cell whether it hides anything. Allows `steps` steps from now on.
+    void place(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const std::vector<bool>& hides,
+               std::size_t steps);
 
     /// Returns the image of each vertex, turned in R³ by a fixed rotation, so that 2-faces are unlikely to be parallel
     /// to an axis. All points that the functions of this class take or return are turned by this rotation.
     const std::vector<glm::dvec4>& points() const { return points_; }
     /// Returns the greatest distance from 0 of a point in points().
     double size() const { return size_; }
-    /// Returns the cells that can hide something.
+    /// Returns the cells that hide something.
     const std::vector<Occluder>& occluders() const { return occluders_; }
     /// Returns the indices of all occluders: 0, 1, 2, …
     std::span<const std::uint32_t> allOccluders() const { return allOccluders_; }
@@ -99,7 +100,7 @@ class ProjectedCells {
 
   private:
     void prepare(const geometry::CellComplex& complex);
-    void findOccluders();
+    void findOccluders(const std::vector<bool>& hides);
     std::optional<glm::dvec4> normalOf(std::span<const Triangle> triangles) const;
     std::span<const Triangle> trianglesOf(std::uint32_t cell) const;
     bool isCovered(const Segment& segment, std::span<const std::uint32_t> candidates);

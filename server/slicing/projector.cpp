@@ -93,7 +93,9 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const auto cells = static_cast<std::uint32_t>(p.cells.size());
         const bool culled = options.culled && cells > 0, drawn = options.cells;
         if (cells > 0 && (culled || drawn)) findFacingCells(object, orientation, projection);
-        const bool mayHideItself = culled && !infoOf(object).convex;
+        const bool allHide = findHidingCells(p, options.hiddenTypes);
+        const bool mayHideItself = culled && (!allHide || !infoOf(object).convex);
+        if (mayHideItself) roles_.drawn = allHide ? cellIsFacing_ : roles_.hides;
         const ElementSelection selection{mayHideItself ? findUnhidden(p, orientation, slices, options) : nullptr,
                                          culled ? &cellIsFacing_ : nullptr};
         lacksSteps_ = mayHideItself && selection.unhidden == nullptr;
@@ -119,7 +121,10 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
                 continue;
             }
             const auto [first, second] = p.faceCells[f];
-            faceCells.push_back(cellIsFacing_[second] && !cellIsFacing_[first] ? second : first);
+            const bool takesSecond = roles_.hides[first] == roles_.hides[second]
+                                         ? cellIsFacing_[second] && !cellIsFacing_[first]
+                                         : roles_.hides[second];
+            faceCells.push_back(takesSecond ? second : first);
         }
     };
     const auto addCloud = [&](const geometry::PointCloud& cloud) {
@@ -188,19 +193,36 @@ void Projector::findFacingCells(const Object& object, const geometry::Rotation& 
     }
 }
 
-// Returns the elements of a nonconvex object that do not lie wholly behind its cells. Returns null if
-// options.occlusionSteps are too few to find them. Requires that cellIsFacing_ is valid.
+// Sets roles_.hides: only cells of the types `hiddenTypes` hide nothing. Returns whether all cells hide what lies
+// behind them.
+bool Projector::findHidingCells(const geometry::CellComplex& complex, std::span<const std::uint32_t> hiddenTypes) {
+    roles_.hides.assign(complex.cells.size(), true);
+    bool all = true;
+    for (std::size_t c = 0; c < complex.cells.size() && !hiddenTypes.empty(); ++c) {
+        if (!std::ranges::binary_search(hiddenTypes, complex.typeOfCell[c])) continue;
+        roles_.hides[c] = false;
+        all = false;
+    }
+    return all;
+}
+
+// Returns the elements of an object that do not lie wholly behind its cells, or null if options.occlusionSteps are too
+// few to find them. Expects that roles_ is valid.
 const DrawnElements* Projector::findUnhidden(const geometry::CellComplex& complex,
                                              const geometry::Rotation& orientation, const SliceSet& slices,
                                              const ProjectionOptions& options) {
-    const OcclusionInput input{complex.serial, orientation, options.projection, options.cells, options.occlusionSteps};
+    const OcclusionInput input{complex.serial,
+                               orientation,
+                               options.projection,
+                               options.cells,
+                               {options.hiddenTypes.begin(), options.hiddenTypes.end()},
+                               options.occlusionSteps};
     if (occlusionInput_ != input) {
         occlusionInput_.reset();
         images_.clear();
         for (const glm::dvec4& vertex : slices.rotatedVertices)
             images_.push_back(options.projection.withHeight(vertex));
-        occlusionFound_ =
-            occlusion_.find(complex, images_, cellIsFacing_, options.cells, options.occlusionSteps, unhidden_);
+        occlusionFound_ = occlusion_.find(complex, images_, roles_, options.cells, options.occlusionSteps, unhidden_);
         occlusionInput_ = input;
     }
     return occlusionFound_ ? &unhidden_ : nullptr;

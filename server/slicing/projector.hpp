@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -44,13 +45,17 @@ class Projector {
         /// 2-faces. The loop of a 2-face that is not convex may cross itself, and that of a surface need not be flat;
         /// FaceFiller fills such loops.
         bool cells = false;
-        /// Whether to leave out what the 4-D eye cannot see. These are the elements that belong only to cells whose
-        /// outer sides are turned away from the eye. If the object is not convex, these are also the elements that lie
-        /// wholly behind other cells and bound no element that is drawn (see OcclusionFinder::find()). Leaves out
-        /// nothing if the object has no cells.
+        /// Whether to leave out what the 4-D eye cannot see: the elements that belong only to cells whose outer sides
+        /// are turned away from it, which are all of a convex object, and of any other object also those that lie
+        /// wholly behind other cells and bound no element that is drawn (see OcclusionFinder::find()). If cells are
+        /// hidden, the eye sees the inner sides of cells through the gaps: then leaves out what belongs only to hidden
+        /// cells and, also of a convex object, what lies wholly behind the others. Leaves out nothing if the object has
+        /// no cells.
         bool culled = false;
-        /// The maximum number of steps to find the elements that lie behind other cells (see OcclusionFinder::find()).
-        /// If the steps are too few, only the elements that belong only to cells turned away from the eye are left out.
+        /// The types of cells that are hidden, and therefore hide nothing: sorted indices into ObjectInfo::cellTypes.
+        std::span<const std::uint32_t> hiddenTypes = {};
+        /// The maximum number of steps to find what lies behind other cells. If they are too few, only what belongs to
+        /// cells turned away is left out.
         std::size_t occlusionSteps = OcclusionFinder::kDefaultSteps;
         int firstSlice = 0, endSlice = 0;  ///< the slices with the indices firstSlice … endSlice − 1 are projected
     };
@@ -60,10 +65,10 @@ class Projector {
     /// `slices` must have been cut from `object` rotated by `orientation`. The source number of a vertex, edge or
     /// 2-face in part 0 is the one that it would have in a slice whose hyperplane contains it (see SliceSet).
     ///
-    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, the entry is the cell that
-    /// determines the color of the 2-face: the first of its two cells, unless only the second one is turned toward the
-    /// eye. If the object has no cells, the entry is the index of the 2-face. For a face of a slice, the entry is the
-    /// source number of the face. Overwrites `out` and `faceCells`.
+    /// Writes one entry to `faceCells` for each face in `out`. For a 2-face in part 0, this is the cell that determines
+    /// the color of the 2-face: if one of its two cells is hidden, the other one; otherwise the first one, unless only
+    /// the second one is turned toward the eye. If the object has no cells, the entry is the index of the 2-face. For a
+    /// face of a slice, it is the source number of the face. Overwrites `out` and `faceCells`.
     void project(const Object& object, const geometry::Rotation& orientation, const SliceSet& slices,
                  const ProjectionOptions& options, SliceSet& out, std::vector<std::uint32_t>& faceCells);
 
@@ -78,12 +83,14 @@ class Projector {
         geometry::Rotation orientation;
         ProjectionToHyperplane projection;
         bool withFaces = false;
+        std::vector<std::uint32_t> hiddenTypes;
         std::size_t steps = 0;
         bool operator==(const OcclusionInput&) const = default;
     };
 
     void findFacingCells(const Object& object, const geometry::Rotation& orientation,
                          const ProjectionToHyperplane& projection);
+    bool findHidingCells(const geometry::CellComplex& complex, std::span<const std::uint32_t> hiddenTypes);
     const DrawnElements* findUnhidden(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
                                       const SliceSet& slices, const ProjectionOptions& options);
     void addSlice(const SliceSet& slices, int slice, const ProjectionToHyperplane& projection, SliceSet& out,
@@ -96,7 +103,8 @@ class Projector {
     std::vector<std::uint32_t> number_;      // per vertex of the object: its index in part 0, or kNone
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
 
-    bool lacksSteps_ = false;  // the result of the function lacksSteps()
+    bool lacksSteps_ = false;  // see lacksSteps()
+    CellRoles roles_;          // of the last object; `drawn` is valid only for findUnhidden()
     OcclusionFinder occlusion_;
     // The data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid.
     std::optional<OcclusionInput> occlusionInput_;

@@ -5,6 +5,7 @@ import math
 import png
 import pytest
 from test_cloud import torus_points
+from test_import import get_file, tesseract_file
 from wire import Client, Refused
 
 SIZE = {"width": 640, "height": 360}
@@ -71,6 +72,36 @@ async def test_the_geometry_has_the_whole_object_and_its_sections(server):
         parts = (await projection_of(client))["parts"]
         assert len(parts) == 1 + len(slices["slices"])
         assert len(parts[0]["vertices"]) < 16
+
+
+async def test_the_eye_sees_through_hidden_kinds_of_cells(server):
+    """The eye looks at the upper one of the two cubes of a box. Without them, it sees the other cells from inside."""
+    lines = tesseract_file().splitlines()
+    points = [line.split() for line in lines[2:18]]
+    lines[2:18] = [" ".join([*xyz, str(2 * float(w))]) for *xyz, w in points]
+    async with Client(server, stream="none") as client:
+        await client.request("load", name="box", format="off", data="\n".join(lines) + "\n")
+        await client.request("set", projection="perspective", shown={"cells": True, "back": False},
+                             orientation=[[int(i == j) for j in range(4)] for i in range(4)])
+        kinds = (await client.request("get", what="state"))["polytope"]["kinds"]
+        cubes = next(number for number, kind in enumerate(kinds) if kind["cells"] == 2)
+
+        async def seen():
+            part = (await projection_of(client))["parts"][0]
+            return [len(part[kind]) for kind in ("vertices", "edges", "faces")]
+
+        def pictures():
+            return [client.request_frame(**SIZE), get_file(client, format="svg", of="projection")]
+
+        assert await seen() == [8, 12, 6]
+        closed = [await one for one in pictures()]
+        body = await get_file(client, format="stl", of="projection", body="skeleton")
+        await client.request("set", hidden=[cubes])
+        assert await seen() == [16, 32, 24]
+        assert all([one != await other for one, other in zip(closed, pictures())])
+        assert body == await get_file(client, format="stl", of="projection", body="skeleton"), "it has all kinds"
+        await client.request("set", hidden=[])
+        assert await seen() == [8, 12, 6]
 
 
 async def test_frames_and_stored_sessions_have_it(server):

@@ -1,90 +1,24 @@
 // Tests of hidden elements: the projection of a nonconvex object leaves out what lies wholly behind other cells.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <set>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-#include "slicing/projector.hpp"
-#include "slicing/slicer.hpp"
-#include "unit/slicing/support.hpp"
+#include "unit/slicing/occlusion_support.hpp"
 
 namespace oval4d::slicing {
 namespace {
 
 using polytopes::Polytope;
 using support::named;
-using support::objectOf;
-
-// A box with sides parallel to the axes.
-struct TestBox {
-    glm::dvec4 least, most;
-};
-
-TestBox cubeAt(const glm::dvec4& center, double halfEdge) { return {center - halfEdge, center + halfEdge}; }
-
-/// Returns one polytope that consists of the boxes `all`. Box i has the vertices 16 i … 16 i + 15, the 2-faces 24 i …
-/// 24 i + 23 and 8 cells.
-Polytope boxes(const std::vector<TestBox>& all) {
-    const support::Polygon square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-    const Polytope tesseract = support::product(square, square);
-    std::vector<glm::dvec4> vertices;
-    geometry::JaggedArray faces, cells;
-    for (const TestBox& box : all) {
-        const auto firstVertex = static_cast<std::uint32_t>(vertices.size());
-        const auto firstFace = static_cast<std::uint32_t>(faces.size());
-        const auto shifted = [](std::span<const std::uint32_t> row, std::uint32_t by) {
-            std::vector<std::uint32_t> out(row.begin(), row.end());
-            for (std::uint32_t& item : out) item += by;
-            return out;
-        };
-        for (const glm::dvec4& v : tesseract.vertices) {
-            glm::dvec4 corner(0);
-            for (int i = 0; i < 4; ++i) corner[i] = v[i] > 0 ? box.most[i] : box.least[i];
-            vertices.push_back(corner);
-        }
-        for (std::size_t f = 0; f < tesseract.faces.size(); ++f) faces.add(shifted(tesseract.faces[f], firstVertex));
-        for (std::size_t c = 0; c < tesseract.cells.size(); ++c) cells.add(shifted(tesseract.cells[c], firstFace));
-    }
-    return polytopes::makePolytope("boxes", std::move(vertices), std::move(faces), std::move(cells));
-}
-
-/// The elements of an object that are drawn.
-struct Drawn {
-    std::set<std::uint32_t> vertices, edges, faces;
-    bool operator==(const Drawn&) const = default;
-};
-
-Drawn drawnWith(Projector& projector, const Polytope& p, const geometry::Rotation& turn,
-                const Projector::ProjectionOptions& options) {
-    SliceSet slices, parts;
-    std::vector<std::uint32_t> faceCells;
-    Slicer().sliceWithoutSurfaces(objectOf(p), turn, {0, 1, 1}, slices);
-    projector.project(objectOf(p), turn, slices, options, parts, faceCells);
-    const auto vertices = static_cast<std::uint32_t>(p.edges.size()),
-               edges = static_cast<std::uint32_t>(p.faces.size()), faces = static_cast<std::uint32_t>(p.cells.size());
-    Drawn out;
-    for (const std::uint32_t source : parts.vertexSource) out.vertices.insert(source - vertices);
-    for (const std::uint32_t source : parts.edgeSource) out.edges.insert(source - edges);
-    for (const std::uint32_t source : parts.faceSource) out.faces.insert(source - faces);
-    return out;
-}
-
-Drawn drawn(const Polytope& p, const geometry::Rotation& turn, const Projector::ProjectionOptions& options) {
-    Projector projector;
-    return drawnWith(projector, p, turn, options);
-}
 
 /// Returns a random rotation of x, y and z, which does not change w.
 geometry::Rotation randomRotationOfSpace(std::mt19937& random) {
@@ -234,63 +168,6 @@ TEST(Occlusion, IsNotSoughtForConvexPolytopes) {
     }
 }
 
-/// Returns the winding number of the boundary of a projected cell around a projected point, as a sum of solid angles
-/// (A. Van Oosterom and J. Strackee, "The solid angle of a plane triangle", 1983).
-int windingBySolidAngle(const Polytope& p, std::size_t cell, const std::vector<glm::dvec3>& projected,
-                        const glm::dvec3& point) {
-    double sum = 0;
-    for (std::uint32_t at = p.cells.begin[cell]; at < p.cells.begin[cell + 1]; ++at) {
-        const auto loop = p.faces[p.cells.items[at]];
-        for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-            const glm::dvec3 a = projected[loop[0]] - point, b = projected[loop[i]] - point,
-                             c = projected[loop[i + 1]] - point;
-            const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-            const double angle =
-                2 * std::atan2(glm::dot(a, glm::cross(b, c)),
-                               la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-            sum += p.cellSigns[at] * angle;
-        }
-    }
-    return static_cast<int>(std::lround(sum / (4 * std::numbers::pi)));
-}
-
-/// Finds out whether points of a star's elements can be seen, by casting rays, without the code under test.
-class RayCaster {
-  public:
-    RayCaster(const Polytope& p, const geometry::Rotation& turn, double inverseDistance)
-        : p_(p), inverseDistance_(inverseDistance) {
-        for (const glm::dvec4& v : p.vertices) {
-            turned_.push_back(turn(v));
-            projected_.push_back(ProjectionToHyperplane{inverseDistance}(turned_.back()));
-        }
-        findCellHyperplanes(objectOf(p), normals_, offsets_);
-        for (glm::dvec4& normal : normals_) normal = turn(normal);
-    }
-
-    const glm::dvec4& vertex(std::uint32_t v) const { return turned_[v]; }
-
-    /// Returns whether no cell is between the point and the eye. Ignores the cells in `own`.
-    bool sees(const glm::dvec4& point, const std::set<std::uint32_t>& own) const {
-        const bool perspective = inverseDistance_ > 0;
-        const glm::dvec4 up(0, 0, 0, 1), way = perspective ? up / inverseDistance_ - point : up;
-        const glm::dvec3 at = ProjectionToHyperplane{inverseDistance_}(point);
-        for (std::uint32_t c = 0; c < p_.cells.size(); ++c) {
-            const double speed = glm::dot(normals_[c], way);
-            if (own.contains(c) || speed == 0) continue;
-            const double when = (offsets_[c] - glm::dot(normals_[c], point)) / speed;
-            if (when > 1e-6 && windingBySolidAngle(p_, c, projected_, at) != 0) return false;
-        }
-        return true;
-    }
-
-  private:
-    const Polytope& p_;
-    double inverseDistance_;
-    std::vector<glm::dvec4> turned_, normals_;
-    std::vector<glm::dvec3> projected_;
-    std::vector<double> offsets_;
-};
-
 TEST(Occlusion, NeverLeavesOutWhatARaySees) {
     std::mt19937 random(25);
     std::uniform_real_distribution<double> part(0.01, 0.99);
@@ -298,11 +175,7 @@ TEST(Occlusion, NeverLeavesOutWhatARaySees) {
     for (const char* name : {"small stellated 120-cell", "grand 600-cell"}) {
         SCOPED_TRACE(name);
         const Polytope& p = named(name);
-        std::vector<std::set<std::uint32_t>> cellsOfEdge(p.edges.size());
-        for (std::size_t f = 0; f < p.faces.size(); ++f) {
-            for (const std::uint32_t e : p.faceEdges[f])
-                cellsOfEdge[e].insert(p.faceCells[f].begin(), p.faceCells[f].end());
-        }
+        const auto cellsOfEdge = cellsOfEdges(p);
         for (const double inverse : {0.0, 0.5 / p.circumradius}) {
             const geometry::Rotation turn = support::randomRotation(random);
             const RayCaster rays(p, turn, inverse);
@@ -354,16 +227,22 @@ TEST(Occlusion, IsFoundAnewWhenAnythingChanges) {
     const Polytope beside = boxes({cubeAt({0, 0, 0, 3}, 1), cubeAt({5, 0, 0, -3}, 0.5)});
     std::mt19937 random(27);
     const geometry::Rotation turn = support::randomRotation(random);
+    const std::vector<std::uint32_t> none, first{0};
     Projector projector;
     for (const Polytope* p : {&behind, &beside, &behind}) {
         for (const double inverse : {0.0, 0.5 / p->circumradius}) {
             for (const geometry::Rotation& orientation : {geometry::Rotation(), turn}) {
                 for (const bool cells : {true, false}) {
-                    for (const std::size_t steps : {OcclusionFinder::kDefaultSteps, std::size_t{0}}) {
-                        const Projector::ProjectionOptions options{
-                            .projection = {inverse}, .cells = cells, .culled = true, .occlusionSteps = steps};
-                        EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
-                        EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
+                    for (const std::vector<std::uint32_t>& hiddenTypes : {none, first}) {
+                        for (const std::size_t steps : {OcclusionFinder::kDefaultSteps, std::size_t{0}}) {
+                            const Projector::ProjectionOptions options{.projection = {inverse},
+                                                                       .cells = cells,
+                                                                       .culled = true,
+                                                                       .hiddenTypes = hiddenTypes,
+                                                                       .occlusionSteps = steps};
+                            EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
+                            EXPECT_EQ(drawnWith(projector, *p, orientation, options), drawn(*p, orientation, options));
+                        }
                     }
                 }
             }

@@ -191,6 +191,23 @@ TEST(Projector, ShowsAllTwoFacesWithoutCulling) {
     }
 }
 
+TEST(Projector, ColorsTwoFacesOfHiddenCellsByTheirOtherCells) {
+    const Polytope p = support::rectifiedFiveCell();
+    std::mt19937 random(8);
+    const geometry::Rotation turn = support::randomRotation(random);
+    for (const std::uint32_t hidden : {0U, 1U}) {
+        const std::vector<std::uint32_t> hiddenTypes{hidden};
+        const auto [slices, parts, cells] =
+            projected(objectOf(p), turn, {.projection = {0.2}, .cells = true, .hiddenTypes = hiddenTypes}, spanning(p));
+        ASSERT_EQ(parts.faceSource.size(), p.faces.size());
+        for (std::size_t f = 0; f < p.faces.size(); ++f) {
+            const auto [first, second] = p.faceCells[f];
+            EXPECT_TRUE(cells[f] == first || cells[f] == second);
+            if (p.typeOfCell[first] != p.typeOfCell[second]) EXPECT_NE(p.typeOfCell[cells[f]], hidden);
+        }
+    }
+}
+
 TEST(Projector, WritesTheLoopsOfTwoFacesThatCrossThemselves) {
     const Polytope& p = named("small stellated 120-cell");  // the 2-faces of this polytope are pentagrams
     const auto [slices, parts, cells] = projected(objectOf(p), {}, {.projection = {0.2}, .cells = true}, spanning(p));
