@@ -218,7 +218,9 @@ struct ValueWriter {
 
 Result<std::monostate> parseSetting(std::string_view name, std::string_view written, Set& set) {
     if (name == kPolytope) return ValueReader{name, written}(set.object);
-    const std::string_view value = text::trimmed(written);
+    const std::string_view given = text::trimmed(written);
+    // People call the view `strip` a row, as its key does; the table of views has no aliases, because views are stored.
+    const std::string_view value = name == "view" && given == "row" ? "strip" : given;
     std::optional<Result<std::monostate>> parsed;
     forEachSetting([&](const auto& setting) {
         if (setting.name.text == name) parsed = ValueReader{name, value, setting.isAngle()}(setting.ofSet(set));

@@ -14,9 +14,9 @@ namespace oval4d::session {
 /// The name of the setting Set::object (the object to show).
 inline constexpr std::string_view kPolytope = "polytope";
 
-/// Parses the value of one setting and stores it in `set`. Examples of a name and a value: "slices" and "31", "alpha"
-/// and "pi/12", "faces" and "off". Errors: `unknown_command` for an unknown name; `bad_expression` or `out_of_range`
-/// for an invalid value.
+/// Parses the value of one setting and writes it to `set`. Examples of a name and a value: "slices" and "31", "alpha"
+/// and "pi/12", "faces" and "off". The view `strip` is also read as "row". Errors: `unknown_command` for an unknown
+/// name; `bad_expression` or `out_of_range` for an invalid value.
 Result<std::monostate> parseSetting(std::string_view name, std::string_view written, Set& set);
 
 /// Returns the names and values of the settings in `set`, in the form that parseSetting() reads.

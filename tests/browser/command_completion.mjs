@@ -39,6 +39,7 @@ test("command line: Tab completes what is unique, or what the possible words hav
         "rotate xy,": "rotate xy,zw",
         "view si": "view single",
         "view m": "view matrix",
+        "view r": "view row",
         "set poi": "set point=",
         "set view=m": "set view=matrix",
         "project p": "project perspective",

@@ -79,6 +79,7 @@ function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: Compl
         planes: kPlanes,
         element: kElementKinds,
         highlight: [...kElementKinds, "none"],
+        view: [...(kSettings.get("view") ?? []), "row"], // another name of "strip"
         kind: [...new Set(kinds)],
         key: keys,
         format: [...kFormats.flatMap(({ formats }) => formats.map(({ name }) => name)), "latency"],

@@ -43,6 +43,11 @@ TEST(CommandLine, DoesWhatTheMethodPageShows) {
         << "by the keys' angles";
     line(session, "view oval");
     EXPECT_EQ(session.current.look.view, scene::View::oval);
+    for (const char* row : {"view row", "set view=row", "view strip"}) {
+        line(session, "view oval");
+        line(session, row);
+        EXPECT_EQ(session.current.look.view, scene::View::strip) << row;
+    }
     line(session, "focus 3");
     EXPECT_EQ(session.current.slices.focus, 3);
     line(session, "undo");
