@@ -22,7 +22,7 @@ def velocity(x, y, z, t):
     return component(x, y, z) * decay, component(y, z, x) * decay, component(z, x, y) * decay
 
 
-def create(path):
+def create_netcdf(path):
     """Opens a new NetCDF file with the library that is installed. Returns the file, and a function that adds a
     variable."""
     try:
@@ -44,7 +44,7 @@ def create(path):
 def write(path):
     space, time = numpy.linspace(-1, 1, SIZE), numpy.linspace(0, DURATION, MOMENTS)
     t, z, y, x = numpy.meshgrid(time, space, space, space, indexing="ij")
-    file, add = create(path)
+    file, add = create_netcdf(path)
     for name, values in (("t", time), ("z", space), ("y", space), ("x", space)):
         file.createDimension(name, len(values))
         add(name, (name,), values, axis=name.upper(), units="1")

@@ -29,7 +29,7 @@ def source_of(name):
     return array.astype("<f4")
 
 
-def coarser(array):
+def downsampled(array):
     """Returns the means of 2 × 2 × 2 × 2 samples. An axis with one sample stays; an odd sample at the end of an axis is
     left out."""
     axes = {axis: 2 for axis, size in enumerate(array.shape) if size > 1}
@@ -52,7 +52,7 @@ def write_levels(array, folder):
             break
         halved = numpy.array([2 if size > 1 else 1 for size in array.shape])
         first, steps = first + steps * (halved - 1) / 2, steps * halved  # a mean lies in the middle of its samples
-        array = coarser(dask.array.from_array(level, chunks=chunk))
+        array = downsampled(dask.array.from_array(level, chunks=chunk))
     group.attrs["multiscales"] = [{"version": "0.4", "axes": [
         {"name": "t", "type": "time"}, *({"name": name, "type": "space"} for name in "zyx")], "datasets": levels}]
 

@@ -95,9 +95,9 @@ class Closed(Exception):
         self.reason = reason
 
 
-def _json(message):
+def _to_json(message):
     """Returns a message as JSON. Raises TypeError or ValueError if JSON cannot contain it."""
-    def plain(value):
+    def to_builtin(value):
         if hasattr(value, "tolist"):  # numpy's numbers and arrays
             listed = value.tolist()
             if not hasattr(listed, "tolist"):
@@ -107,7 +107,7 @@ def _json(message):
         raise TypeError(f"a message cannot contain {value!r}")
 
     try:
-        text = json.dumps(message, allow_nan=False, ensure_ascii=False, default=plain)
+        text = json.dumps(message, allow_nan=False, ensure_ascii=False, default=to_builtin)
         text.encode("utf-8")
     except UnicodeEncodeError as error:
         raise ValueError(f"a message cannot contain the lone surrogate {error.object[error.start]!r}") from None
@@ -183,11 +183,11 @@ class Client:
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
         try:
-            self._socket = asyncio.run_coroutine_threadsafe(self._open(url, headers), self._loop).result()
+            self._socket = asyncio.run_coroutine_threadsafe(self._open_socket(url, headers), self._loop).result()
         except BaseException:
-            self._stop()
+            self._stop_loop()
             raise
-        self._reader = asyncio.run_coroutine_threadsafe(self._read(), self._loop)
+        self._reader = asyncio.run_coroutine_threadsafe(self._run_connection(), self._loop)
 
     # Methods that send messages
 
@@ -257,7 +257,7 @@ class Client:
         such as "a*x", its values color the surfaces. All this is one step of undo. Raises Refused; if
         only the levels or `inside` are refused, the field is shown nevertheless, without these."""
         colored = {} if values is None else {"values": values}
-        return self._set_levels(self.load(name, formula, "formula", box, **colored), levels, inside)
+        return self._request_levels(self.load(name, formula, "formula", box, **colored), levels, inside)
 
     def field(self, name: str, array, axes: Optional[str] = None, spacing=None, origin=None, levels=None,
               inside: Optional[Inside] = None, values=None) -> Done:
@@ -268,16 +268,16 @@ class Client:
         the values, and the inside is above. If `values` is given, its values color the surfaces: another array of the
         same shape, or a formula of x, y, z and w in the units of the box. A numpy array does not state its units;
         upload() a NetCDF, HDF5 or NIfTI file that states them, and pictures name them (see state())."""
-        samples = _samples(array)
+        samples = _sample_array(array)
         axes = axes or "tzyx"[-samples.ndim :]
-        box = None if spacing is None and origin is None else _box(samples.shape, axes, spacing, origin)
-        return self._set_levels(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
+        box = None if spacing is None and origin is None else _box_of_array(samples.shape, axes, spacing, origin)
+        return self._request_levels(self._send_array(name, samples, values, axes=axes, box=box), levels, inside)
 
     def append(self, name: str, array, axes: Optional[str] = None, values=None) -> Done:
         """Adds moments to the field `name`, after its last w, for example while a simulation runs. The numpy array is
         one moment with the axes "zyx", or several with the axes "tzyx". If the field has an array of `values`, the
         moments need one, too. The settings stay the same. undo() does not remove the moments."""
-        samples = _samples(array)
+        samples = _sample_array(array)
         return self._send_array(name, samples, values, axes=axes or "tzyx"[-samples.ndim :], append=True)
 
     def upload(self, name: str, data, format: Optional[str] = None, axes: Optional[str] = None, box=None,
@@ -320,7 +320,7 @@ class Client:
             raise Refused(str(answer.status), reason)
         return message
 
-    def _set_levels(self, done, levels, inside):
+    def _request_levels(self, done, levels, inside):
         settings = {} if levels is None else {"levels": [float(level) for level in levels]}
         settings |= {} if inside is None else {"inside": inside}
         return self.request("set", continues=True, **settings) if settings else done
@@ -333,7 +333,7 @@ class Client:
             data = file.getvalue()
             members |= {} if values is None else {"values": values}
         else:
-            format, data = "netcdf", _netcdf({"field": samples, "values": _samples(values)})
+            format, data = "netcdf", _netcdf_file({"field": samples, "values": _sample_array(values)})
             members |= {"variable": "field", "values_variable": "values"}
         if len(data) > MAX_DATA or 4 * len(data) > 2 * self.welcome["limits"]["message"]:
             return self.upload(name, data, format, box=box, **members)
@@ -389,16 +389,16 @@ class Client:
         RuntimeError outside of a notebook."""
         from IPython.display import Image, display
 
-        def picture(png):
+        def as_image(png):
             return Image(data=png, format="png", width=width, height=height)
 
         self._live = None
         kept = {name: value for name, value in self._hello.items() if name in ("scheme", "encoding")}
         self.hello("frames", width=width, height=height, **kept)
-        handle = display(picture(self.frame(width, height)), display_id=True)
+        handle = display(as_image(self.frame(width, height)), display_id=True)
         if handle is None:
             raise RuntimeError("live() shows its picture in a notebook, and this is none")
-        self._live = lambda png: handle.update(picture(png))
+        self._live = lambda png: handle.update(as_image(png))
 
     def at(self, x: float, y: float, width: Optional[int] = None, height: Optional[int] = None) -> At:
         """Returns what the picture shows at the point (x, y), in pixels from the upper left corner."""
@@ -491,19 +491,19 @@ class Client:
         numbers and arrays become numbers and lists; text and bytes are sent unchanged. Raises ValueError if JSON cannot
         contain the dict, because it has numbers that are not finite or text that is not Unicode."""
         if isinstance(message, dict):
-            message = _json(message)
+            message = _to_json(message)
         self._wait_for(lambda: not self._reconnecting, None, "the server")
         try:
-            self._run(self._socket.send(message))
+            self._run_coroutine(self._socket.send(message))
         except websockets.ConnectionClosed:
             raise Closed(self._socket.close_code, self._socket.close_reason or "") from None
 
     def close(self) -> None:
         self._closing = True
         if self._loop.is_running():
-            self._run(self._socket.close())
+            self._run_coroutine(self._socket.close())
             self._reader.result(self.timeout)
-            self._stop()
+            self._stop_loop()
 
     def __enter__(self) -> Client:
         return self
@@ -513,7 +513,7 @@ class Client:
 
     _stream = "none"
 
-    async def _open(self, url, headers):
+    async def _open_socket(self, url, headers):
         options = {"subprotocols": [SUBPROTOCOL], "max_size": None, "compression": None, "open_timeout": self.timeout}
         version = int(websockets.__version__.split(".")[0])
         if version >= 15:
@@ -522,14 +522,14 @@ class Client:
             options["additional_headers" if version >= 14 else "extra_headers"] = headers
         return await websockets.connect(url, **options)
 
-    async def _read(self):
+    async def _run_connection(self):
         while True:
             unreadable = None
             try:
                 async for message in self._socket:
-                    pictures = self._receive(message)
+                    pictures = self._handle_message(message)
                     for _, picture in pictures:
-                        self._pass_on(picture)
+                        self._pass_to_live(picture)
                     if pictures and self.show:
                         await self._socket.send(json.dumps({"type": "shown", "revision": pictures[-1][0]}))
             except websockets.ConnectionClosed:
@@ -561,7 +561,7 @@ class Client:
             await asyncio.sleep(pause * (0.5 + random.random()))
             pause = min(2 * pause, 5)
             try:
-                self._socket = await self._open(url, self._headers)
+                self._socket = await self._open_socket(url, self._headers)
                 if self._closing:
                     await self._socket.close()
                     break
@@ -574,7 +574,7 @@ class Client:
                 end = (1013, refusal["message"])
                 await self._socket.close()
                 continue
-            self._receive(answer)
+            self._handle_message(answer)
             with self._change:
                 self._reconnecting = False
                 self._change.notify_all()
@@ -585,7 +585,7 @@ class Client:
             self._change.notify_all()
         return False
 
-    def _receive(self, data):
+    def _handle_message(self, data):
         """Handles a message. Returns the pictures that are now known to be of the stream, each with its revision. A frame
         that arrives while a call waits for one is of the stream unless it is followed by the done of the call."""
         with self._change:
@@ -619,7 +619,7 @@ class Client:
             self._change.notify_all()
         return pictures
 
-    def _pass_on(self, picture):
+    def _pass_to_live(self, picture):
         """Passes a picture of the stream, if the picture is a frame, to the function that live() has set."""
         try:
             if self._live and isinstance(picture, bytes):
@@ -638,16 +638,16 @@ class Client:
                     raise TimeoutError(f"timed out waiting for {what}")
                 self._change.wait(left)
 
-    def _run(self, coroutine):
+    def _run_coroutine(self, coroutine):
         return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(self.timeout)
 
-    def _stop(self):
+    def _stop_loop(self):
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(self.timeout)
         self._loop.close()
 
 
-def _samples(values):
+def _sample_array(values):
     """Returns the values as a numpy array. Floats of more than 32 bits become float32, in which the server computes.
     Masked values become NaN; an array that has some is converted to float32."""
     if numpy is None:
@@ -658,7 +658,7 @@ def _samples(values):
     return values.astype("f4") if values.dtype.kind == "f" and values.dtype.itemsize > 4 else values
 
 
-def _netcdf(arrays):
+def _netcdf_file(arrays):
     """Returns a NetCDF file (classic, with 64-bit offsets) that contains these arrays as float32. `arrays` is a dict of
     numpy arrays by name. Raises ValueError if their shapes differ."""
     shape = next(iter(arrays.values())).shape
@@ -668,7 +668,7 @@ def _netcdf(arrays):
     def text(name):
         return struct.pack(">i", len(name)) + name.encode() + bytes(-len(name) % 4)
 
-    def listed(tag, items):
+    def tagged_list(tag, items):
         return struct.pack(">ii", tag, len(items)) + b"".join(items)
 
     data = [values.astype(">f4").tobytes() for values in arrays.values()]
@@ -682,12 +682,12 @@ def _netcdf(arrays):
             size = min(len(bytes_of), 0xFFFFFFFC)
             variables.append(text(name) + places + absent + struct.pack(">iIq", number, size, begin))
             begin += len(bytes_of)
-        return b"CDF\x02" + bytes(4) + listed(dimension, dimensions) + absent + listed(variable, variables)
+        return b"CDF\x02" + bytes(4) + tagged_list(dimension, dimensions) + absent + tagged_list(variable, variables)
 
     return header(len(header(0))) + b"".join(data)
 
 
-def _box(shape, axes, spacing, origin):
+def _box_of_array(shape, axes, spacing, origin):
     """Returns the box of an array, a pair of ends for each of x, y, z and w. Both ends are equal along an axis that the
     array does not have."""
     spacing = (1 if spacing is None else spacing,) * 4 if spacing is None or numpy.isscalar(spacing) else spacing
@@ -739,7 +739,7 @@ def from_json(text):
                                     for name, value in piece["surface"].items()}
             if "fog" in piece:
                 fog = piece["fog"]
-                fog["values"] = _lattice(bytes(itertools.chain(*fog["values"])), fog["size"])
+                fog["values"] = _fog_values(bytes(itertools.chain(*fog["values"])), fog["size"])
     return message
 
 
@@ -749,11 +749,11 @@ def from_cbor(data):
     if cbor2 is None:
         raise ImportError("decoding slices in CBOR needs python3-cbor2")
 
-    def typed(_, tag):
+    def decode_typed_array(_, tag):
         kind = ARRAY_TYPES.get(tag.tag)
         return tag if kind is None else array.array(kind, tag.value)
 
-    return _with_rows("CBOR", lambda: cbor2.loads(data, tag_hook=typed), cbor2.CBORDecodeError)
+    return _decode_slices("CBOR", lambda: cbor2.loads(data, tag_hook=typed), cbor2.CBORDecodeError)
 
 
 def from_msgpack(data):
@@ -761,11 +761,11 @@ def from_msgpack(data):
     if msgpack is None:
         raise ImportError("decoding slices in MessagePack needs python3-msgpack")
 
-    def typed(code, content):
+    def decode_typed_array(code, content):
         kind = ARRAY_TYPES.get(code)
         return msgpack.ExtType(code, content) if kind is None else array.array(kind, content)
 
-    return _with_rows("MessagePack", lambda: msgpack.unpackb(data, ext_hook=typed), msgpack.UnpackException)
+    return _decode_slices("MessagePack", lambda: msgpack.unpackb(data, ext_hook=typed), msgpack.UnpackException)
 
 
 def from_bjdata(data):
@@ -814,16 +814,16 @@ def from_bjdata(data):
             return text(take(1))
         return marker == b"T" if marker in (b"T", b"F") else number(marker)
 
-    def whole():
+    def whole_message():
         message = value(take(1))
         if at < len(data):
             raise ValueError("there are bytes after its end")
         return message
 
-    return _with_rows("BJData", whole, ValueError)
+    return _decode_slices("BJData", whole, ValueError)
 
 
-def _with_rows(encoding, read, failure):
+def _decode_slices(encoding, read, failure):
     """Returns the slices message that read() decodes, with one dict per slice. Raises ValueError, which names the
     encoding, if it is not such a message; `failure` is what read() then raises beside errors of Python."""
     try:
@@ -850,7 +850,7 @@ BINARY_KINDS = {"file": BinaryMessageKind(range(0x21, 0x7F), bytes),
                 "bjdata": BinaryMessageKind(range(0x7B, 0x7C), from_bjdata, second_byte=0x55)}
 
 
-def _rows(flat, sizes, width=1):
+def _split_by_sizes(flat, sizes, width=1):
     """Splits an array into consecutive parts. Part i has sizes[i] items, and each item has `width` numbers."""
     ends = list(itertools.accumulate(sizes, initial=0))
     return [flat[width * begin : width * end] for begin, end in zip(ends, ends[1:])]
@@ -861,32 +861,32 @@ def _elements_of(columns):
     property, with the values of all slices."""
     counts = columns["counts"]
 
-    def of_each(lists):
-        rows = [_rows(lists[name], counts[name]) for name in lists]
+    def elements_of_lists(lists):
+        rows = [_split_by_sizes(lists[name], counts[name]) for name in lists]
         return [dict(zip(lists, row)) for row in zip(*rows)]
 
-    sides = _rows(columns["sides"], counts["faces"])
-    properties = {"vertices": _rows(columns["vertices"], counts["vertices"], 3),
-                  "edges": _rows(columns["edges"], counts["edges"], 2)}
+    sides = _split_by_sizes(columns["sides"], counts["faces"])
+    properties = {"vertices": _split_by_sizes(columns["vertices"], counts["vertices"], 3),
+                  "edges": _split_by_sizes(columns["edges"], counts["edges"], 2)}
     properties["faces"] = [{"begin": array.array("I", itertools.accumulate(own, initial=0)), "corners": corners}
-                           for own, corners in zip(sides, _rows(columns["corners"], map(sum, sides)))]
-    properties["of"] = of_each(columns["of"])
+                           for own, corners in zip(sides, _split_by_sizes(columns["corners"], map(sum, sides)))]
+    properties["of"] = elements_of_lists(columns["of"])
     if "seen" in columns:
-        properties["seen"] = of_each(columns["seen"])
+        properties["seen"] = elements_of_lists(columns["seen"])
     elements = [dict(zip(properties, row)) for row in zip(*properties.values())]
     if "tints" in columns:
-        for piece, tints in zip(elements, _rows(columns["tints"], counts["faces"])):
+        for piece, tints in zip(elements, _split_by_sizes(columns["tints"], counts["faces"])):
             if tints != piece["of"]["faces"]:
                 piece["tints"] = tints
     if "balls" in columns:
-        scales, opacities = (_rows(columns["balls"][name], counts["vertices"]) for name in ("scale", "opacity"))
+        scales, opacities = (_split_by_sizes(columns["balls"][name], counts["vertices"]) for name in ("scale", "opacity"))
         for piece, scale, opacity in zip(elements, scales, opacities):
             piece["balls"] = {"scale": scale, "opacity": opacity}
     if "fill" in columns:
         fill = columns["fill"]
         points, triangles = fill["counts"]["points"], fill["counts"]["triangles"]
-        parts = {"points": _rows(fill["points"], points, 3), "triangles": _rows(fill["triangles"], triangles, 3)}
-        parts |= {name: _rows(fill[name], triangles) for name in ("tints", "seen") if name in fill}
+        parts = {"points": _split_by_sizes(fill["points"], points, 3), "triangles": _split_by_sizes(fill["triangles"], triangles, 3)}
+        parts |= {name: _split_by_sizes(fill[name], triangles) for name in ("tints", "seen") if name in fill}
         for piece, row in zip(elements, zip(*parts.values())):
             if row[1]:
                 piece["fill"] = dict(zip(parts, row))
@@ -897,7 +897,7 @@ def _slices_of(columns):
     """Returns one dict per slice."""
     threes = [3] * len(columns["index"])
     properties = {name: columns[name] for name in ("index", "w", "label", "label_size", "focus", "drawn")}
-    properties |= {name: [row.tolist() for row in _rows(columns[name], threes)] for name in ("position", "label_at")}
+    properties |= {name: [row.tolist() for row in _split_by_sizes(columns[name], threes)] for name in ("position", "label_at")}
     slices = [dict(zip(properties, row)) | own for *row, own in zip(*properties.values(), _elements_of(columns))]
     if "surface" in columns:
         for piece, surface in zip(slices, _surfaces_of(columns["surface"])):
@@ -912,16 +912,16 @@ def _slices_of(columns):
 
 def _fogs_of(columns):
     """Returns one dict per slice with its fog."""
-    sizes = _rows(columns["size"], [1] * len(columns["step"]), 3)
-    walls = _rows(columns["walls"], columns["counts"]["walls"], 4)
-    values = _rows(columns["values"], [math.prod(map(operator.index, size)) for size in sizes])
-    minima = _rows(columns["min"], [1] * len(sizes), 3)
+    sizes = _split_by_sizes(columns["size"], [1] * len(columns["step"]), 3)
+    walls = _split_by_sizes(columns["walls"], columns["counts"]["walls"], 4)
+    values = _split_by_sizes(columns["values"], [math.prod(map(operator.index, size)) for size in sizes])
+    minima = _split_by_sizes(columns["min"], [1] * len(sizes), 3)
     return [{"size": size.tolist(), "min": least.tolist(), "step": step,
-             "walls": [own[i : i + 4].tolist() for i in range(0, len(own), 4)], "values": _lattice(row, size)}
+             "walls": [own[i : i + 4].tolist() for i in range(0, len(own), 4)], "values": _fog_values(row, size)}
             for size, least, step, own, row in zip(sizes, minima, columns["step"], walls, values)]
 
 
-def _lattice(values, size):
+def _fog_values(values, size):
     """Returns the values of fog, whose x varies fastest, in the form that slices() describes."""
     if numpy is not None:
         return numpy.frombuffer(bytearray(values), numpy.uint8).reshape(tuple(reversed(size)))
@@ -943,5 +943,5 @@ def _surfaces_of(columns):
                             ("level", "triangles", 1), ("cap", "triangles", 1), ("colors", "points", 1),
                             ("cap_colors", "points", 1)):
         if name in columns:
-            surfaces[name] = [shaped(row, name, width) for row in _rows(columns[name], counts[of], width)]
+            surfaces[name] = [shaped(row, name, width) for row in _split_by_sizes(columns[name], counts[of], width)]
     return [dict(zip(surfaces, row)) for row in zip(*surfaces.values())]

@@ -82,7 +82,7 @@ type IndexRange = [begin: number, end: number];
  * Returns consecutive index ranges with these sizes, starting at index 0. Throws a RangeError if a size is not a whole
  * number from 0 on, or if the last range ends beyond `length`.
  */
-function ranges(sizes: Integers, length: number): IndexRange[] {
+function rangesOfSizes(sizes: Integers, length: number): IndexRange[] {
     let end = 0;
     const all: IndexRange[] = [];
     for (const size of sizes) {
@@ -98,7 +98,7 @@ function vector(flat: Float32Array, i: number): Vector {
     return [flat[3 * i]!, flat[3 * i + 1]!, flat[3 * i + 2]!];
 }
 
-function widener(allocate: IntegerAllocator): (integers: Integers) => Uint32Array {
+function makeUint32Converter(allocate: IntegerAllocator): (integers: Integers) => Uint32Array {
     return (integers) => {
         if (integers instanceof Uint32Array) return integers;
         const all = allocate(integers.length);
@@ -112,7 +112,7 @@ function widener(allocate: IntegerAllocator): (integers: Integers) => Uint32Arra
  * `allocate`.
  */
 function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elements[] {
-    const wide = widener(allocate);
+    const wide = makeUint32Converter(allocate);
     const wideOfEach = (lists: PerElementKind<Integers>): PerElementKind<Uint32Array> => {
         return { vertices: wide(lists.vertices), edges: wide(lists.edges), faces: wide(lists.faces) };
     };
@@ -122,9 +122,9 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
         faces: lists.faces.subarray(...faces[i]!),
     });
     const { counts, sides } = columns;
-    const vertices = ranges(counts.vertices, columns.vertices.length / 3);
-    const edges = ranges(counts.edges, columns.edges.length / 2);
-    const faces = ranges(counts.faces, sides.length);
+    const vertices = rangesOfSizes(counts.vertices, columns.vertices.length / 3);
+    const edges = rangesOfSizes(counts.edges, columns.edges.length / 2);
+    const faces = rangesOfSizes(counts.faces, sides.length);
     const [ends, corners, of] = [wide(columns.edges), wide(columns.corners), wideOfEach(columns.of)];
     const tints = columns.tints && wide(columns.tints);
     const seen = columns.seen && wideOfEach(columns.seen);
@@ -161,7 +161,7 @@ function elementsOf(columns: ElementColumns, allocate: IntegerAllocator): Elemen
  */
 export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAllocator): Slice[] {
     const elements = elementsOf(columns, allocate);
-    const surfaces = columns.surface && surfacesOf(columns.surface, widener(allocate));
+    const surfaces = columns.surface && surfacesOf(columns.surface, makeUint32Converter(allocate));
     const fogs = columns.fog && fogsOf(columns.fog);
     return columns.index.map((index, i) => {
         const slice: Slice = {
@@ -185,13 +185,13 @@ export function slicesFromColumns(columns: SliceColumns, allocate: IntegerAlloca
  * Converts the columns of the projection's parts to one object per part. The arrays are views of `columns`, or come
  * from `allocate`.
  */
-export function partsOf(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
+export function partsFromColumns(columns: PartColumns, allocate: IntegerAllocator): ObjectProjection["parts"] {
     return elementsOf(columns, allocate).map((elements, i) => ({ ...columns.looks[i]!, ...elements }));
 }
 
 function fillsOf(fill: NonNullable<ElementColumns["fill"]>, wide: (list: Integers) => Uint32Array): Fill[] {
-    const points = ranges(fill.counts.points, fill.points.length / 3);
-    const triangles = ranges(fill.counts.triangles, fill.tints.length);
+    const points = rangesOfSizes(fill.counts.points, fill.points.length / 3);
+    const triangles = rangesOfSizes(fill.counts.triangles, fill.tints.length);
     const [corners, tints, seen] = [wide(fill.triangles), wide(fill.tints), fill.seen && wide(fill.seen)];
     return points.map(([first, last], i) => {
         const [begin, end] = triangles[i]!;
@@ -205,8 +205,8 @@ function fillsOf(fill: NonNullable<ElementColumns["fill"]>, wide: (list: Integer
 }
 
 function surfacesOf(surface: NonNullable<SliceColumns["surface"]>, wide: (list: Integers) => Uint32Array): Surface[] {
-    const points = ranges(surface.counts.points, surface.points.length / 3);
-    const triangles = ranges(surface.counts.triangles, surface.level.length);
+    const points = rangesOfSizes(surface.counts.points, surface.points.length / 3);
+    const triangles = rangesOfSizes(surface.counts.triangles, surface.level.length);
     const colors = surface.colors && wide(surface.colors);
     const capColors = surface.cap_colors && wide(surface.cap_colors);
     return points.map(([first, last], i) => {
@@ -225,9 +225,9 @@ function surfacesOf(surface: NonNullable<SliceColumns["surface"]>, wide: (list: 
 }
 
 function fogsOf(fog: NonNullable<SliceColumns["fog"]>): Fog[] {
-    const walls = ranges(fog.counts.walls, fog.walls.length / 4);
+    const walls = rangesOfSizes(fog.counts.walls, fog.walls.length / 4);
     const sizes = Array.from(fog.step, (_, i): Vector => [fog.size[3 * i]!, fog.size[3 * i + 1]!, fog.size[3 * i + 2]!]);
-    const points = ranges(Uint32Array.from(sizes, ([x, y, z]) => x * y * z), fog.values.length);
+    const points = rangesOfSizes(Uint32Array.from(sizes, ([x, y, z]) => x * y * z), fog.values.length);
     return sizes.map((size, i) => ({
         size,
         min: vector(fog.min, i),

@@ -4,7 +4,7 @@
 import * as cborX from "cbor-x/decode-no-eval";
 
 import type { Arena, TypedArrayConstructor } from "./arena.js";
-import { partsOf, slicesFromColumns, type SliceColumns, type PartColumns } from "./columns.js";
+import { partsFromColumns, slicesFromColumns, type SliceColumns, type PartColumns } from "./columns.js";
 import type { Encoding } from "./messages.js";
 import type { Elements, Fog, Integers, ObjectProjection, ProjectionLook, Slice, Slices, Surface } from "./slices.js";
 import type { Message } from "./types.js";
@@ -363,8 +363,8 @@ function withTypedArrays(message: Message): Message {
     const { scene, slices, projection, ...rest } = loose;
     return {
         ...rest,
-        scene: { ...scene, colors: { ...scene.colors, cells: indices(scene.colors.cells) } },
-        coordinates: floats(loose.coordinates ?? []),
+        scene: { ...scene, colors: { ...scene.colors, cells: flatIndices(scene.colors.cells) } },
+        coordinates: flatFloats(loose.coordinates ?? []),
         density: loose.density instanceof Uint8Array ? loose.density : Uint8Array.from((loose.density ?? []).flat()),
         slices: Array.isArray(slices) ? slices.map(sliceFromJson) : slicesFromColumns(slices, allocateIntegers),
         ...(projection && {
@@ -372,7 +372,7 @@ function withTypedArrays(message: Message): Message {
                 ...projection,
                 parts: Array.isArray(projection.parts)
                     ? projection.parts.map(elementsFromJson)
-                    : partsOf(projection.parts, allocateIntegers),
+                    : partsFromColumns(projection.parts, allocateIntegers),
             },
         }),
     };
@@ -382,19 +382,19 @@ function elementsFromJson<T extends JsonElements>(all: T): Omit<T, keyof JsonEle
     const { vertices, edges, faces, of, tints, seen, balls, fill, ...rest } = all;
     return {
         ...rest,
-        vertices: floats(vertices),
-        edges: indices(edges),
+        vertices: flatFloats(vertices),
+        edges: flatIndices(edges),
         faces: flattenFaces(faces),
-        of: indicesPerKind(of),
-        ...(tints && { tints: indices(tints) }),
-        ...(seen && { seen: indicesPerKind(seen) }),
-        ...(balls && { balls: { scale: floats(balls.scale), opacity: floats(balls.opacity) } }),
+        of: flatIndicesPerKind(of),
+        ...(tints && { tints: flatIndices(tints) }),
+        ...(seen && { seen: flatIndicesPerKind(seen) }),
+        ...(balls && { balls: { scale: flatFloats(balls.scale), opacity: flatFloats(balls.opacity) } }),
         ...(fill && {
             fill: {
-                points: floats(fill.points),
-                triangles: indices(fill.triangles),
-                tints: indices(fill.tints),
-                ...(fill.seen && { seen: indices(fill.seen) }),
+                points: flatFloats(fill.points),
+                triangles: flatIndices(fill.triangles),
+                tints: flatIndices(fill.tints),
+                ...(fill.seen && { seen: flatIndices(fill.seen) }),
             },
         }),
     };
@@ -404,36 +404,36 @@ function sliceFromJson({ surface, fog, ...slice }: JsonSlice): Slice {
     return {
         ...elementsFromJson(slice),
         ...(surface && { surface: surfaceFromJson(surface) }),
-        ...(fog && { fog: { ...fog, walls: floats(fog.walls), values: Uint8Array.from(fog.values.flat()) } }),
+        ...(fog && { fog: { ...fog, walls: flatFloats(fog.walls), values: Uint8Array.from(fog.values.flat()) } }),
     };
 }
 
 function surfaceFromJson({ colors, cap_colors, ...surface }: NonNullable<JsonSlice["surface"]>): Surface {
     return {
         ...surface,
-        points: floats(surface.points),
-        normals: floats(surface.normals),
-        triangles: indices(surface.triangles),
+        points: flatFloats(surface.points),
+        normals: flatFloats(surface.normals),
+        triangles: flatIndices(surface.triangles),
         level: Uint8Array.from(surface.level),
         cap: Uint8Array.from(surface.cap),
-        ...(colors && { colors: indices(colors) }),
-        ...(cap_colors && { cap_colors: indices(cap_colors) }),
+        ...(colors && { colors: flatIndices(colors) }),
+        ...(cap_colors && { cap_colors: flatIndices(cap_colors) }),
     };
 }
 
-function indicesPerKind(lists: JsonSlice["of"]): Slice["of"] {
-    return { vertices: indices(lists.vertices), edges: indices(lists.edges), faces: indices(lists.faces) };
+function flatIndicesPerKind(lists: JsonSlice["of"]): Slice["of"] {
+    return { vertices: flatIndices(lists.vertices), edges: flatIndices(lists.edges), faces: flatIndices(lists.faces) };
 }
 
 function allocateIntegers(count: number): Uint32Array {
     return arena?.allocate(count, Uint32Array) ?? new Uint32Array(count);
 }
 
-function floats(values: FlatOrNested<Float32Array>): Float32Array {
+function flatFloats(values: FlatOrNested<Float32Array>): Float32Array {
     return values instanceof Float32Array ? values : Float32Array.from((values as number[]).flat());
 }
 
-function indices(values: FlatOrNested<Integers>): Uint32Array {
+function flatIndices(values: FlatOrNested<Integers>): Uint32Array {
     if (values instanceof Uint32Array) return values;
     if (!ArrayBuffer.isView(values)) return Uint32Array.from((values as number[]).flat());
     const wide = allocateIntegers(values.length);

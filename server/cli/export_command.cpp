@@ -16,7 +16,7 @@ namespace oval4d {
 
 namespace {
 
-const exports::Format& formatOf(const ExportOutputOptions& options) {
+const exports::Format& outputFormatOf(const ExportOutputOptions& options) {
     std::string name = options.format;
     if (name.empty()) name = std::filesystem::path(options.output).extension().string();
     if (name.starts_with('.')) name.erase(0, 1);
@@ -67,10 +67,12 @@ void addExportOptions(CLI::App& app, ExportOutputOptions& options) {
 }
 
 void exportFile(const CLI::App& app, const ExportOutputOptions& options) {
-    session::QueryParameters query = queryOf(app.remaining());
-    const auto request = valueOrThrow(wire::extractExportRequest(query, formatOf(options), commandLineLimits().slices));
+    session::QueryParameters query = queryFromArguments(app.remaining());
+    const auto request =
+        valueOrThrow(wire::extractExportRequest(query, outputFormatOf(options), commandLineLimits().slices));
     const auto state = loadState(query, session::kFileParameters);
-    const auto file = valueOrThrow(pipeline::exportFile(session::pictureOf(state), request, commandLineLimits()));
+    const auto file =
+        valueOrThrow(pipeline::exportFile(session::pictureRequestOf(state), request, commandLineLimits()));
     for (const std::string& warning : file.warnings) std::cerr << "oval4d: " << warning << '\n';
     writeOutput(options.output, file.bytes);
 }

@@ -23,11 +23,11 @@ void addRenderOptions(CLI::App& app, RenderOptions& options) {
 
 void renderPicture(const CLI::App& app, const RenderOptions& options, parallel::ForkJoin& forkJoin) {
     const auto viewport = valueOrThrow(pipeline::checkViewport({options.width, options.height}, {}));
-    const auto state = loadState(queryOf(app.remaining()), session::kPictureParameters);
+    const auto state = loadState(queryFromArguments(app.remaining()), session::kPictureParameters);
     pipeline::Pipeline pipeline(std::make_unique<raster::LocalRasterizer>(&forkJoin), &forkJoin,
                                 {.sliceEdges = std::numeric_limits<std::size_t>::max()});
     std::vector<std::uint8_t> png;
-    const scene::PictureRequest picture = session::pictureOf(state, viewport);
+    const scene::PictureRequest picture = session::pictureRequestOf(state, viewport);
     pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture).names), png);
     writeOutput(options.output, {reinterpret_cast<const char*>(png.data()), png.size()});
 }

@@ -21,7 +21,7 @@
 
 namespace oval4d {
 
-session::QueryParameters queryOf(const std::vector<std::string>& words) {
+session::QueryParameters queryFromArguments(const std::vector<std::string>& words) {
     session::QueryParameters query;
     for (auto word = words.begin(); word != words.end(); ++word) {
         if (!word->starts_with("--"))
@@ -43,7 +43,7 @@ namespace {
 
 /// Removes the parameter `name` from the query and returns its value. Returns an empty optional if the query lacks the
 /// parameter. Throws std::runtime_error if the query contains it more than once.
-std::optional<std::string> take(session::QueryParameters& query, std::string_view name) {
+std::optional<std::string> takeParameter(session::QueryParameters& query, std::string_view name) {
     const auto found = std::ranges::find(query, name, &session::QueryParameters::value_type::first);
     if (found == query.end()) return {};
     std::string value = std::move(found->second);
@@ -74,11 +74,13 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     const bool isFolder = std::filesystem::is_directory(path);
     const auto mapped = fields::FileContents::map(std::filesystem::path(path));
     if (isFolder || (mapped && isArray(*mapped))) {
-        fields::FieldReadOptions options{take(query, "axes").value_or(""), {}, take(query, "variable").value_or("")};
-        if (const auto text = take(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
-        if (const auto text = take(query, "region")) options.region = valueOrThrow(session::parseBox(*text, "region"));
-        const session::SecondFunctionSource second{take(query, "values").value_or(""),
-                                                   take(query, "values_variable").value_or("")};
+        fields::FieldReadOptions options{
+            takeParameter(query, "axes").value_or(""), {}, takeParameter(query, "variable").value_or("")};
+        if (const auto text = takeParameter(query, "box")) options.box = valueOrThrow(session::parseBox(*text));
+        if (const auto text = takeParameter(query, "region"))
+            options.region = valueOrThrow(session::parseBox(*text, "region"));
+        const session::SecondFunctionSource second{takeParameter(query, "values").value_or(""),
+                                                   takeParameter(query, "values_variable").value_or("")};
         if (!second.formula.empty() && !second.variable.empty())
             throw std::runtime_error("give either --values or --values_variable, not both");
         if (!isFolder) return session::readArray(*mapped, name, options, second);
@@ -101,7 +103,7 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
             if (!std::filesystem::exists(path + '/' + inside)) return std::optional<fields::FileContents>();
             const auto file = fields::FileContents::map(std::filesystem::path(path) / inside);
             if (!file) return file.error();
-            return std::optional(file->cutTo(part));
+            return std::optional(file->partialContents(part));
         };
         return session::readZarr(open, name, options, second);
     }
@@ -109,7 +111,8 @@ Result<session::ObjectWithWarnings> readFile(const std::string& path, session::Q
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     if (!file) throw std::runtime_error("cannot read " + path);
     session::LoadObject load{name, std::string(session::detectTextFormat(text)), text};
-    if (const auto center = take(query, "center")) load.center = valueOrThrow(session::parseCenter(*center));
+    if (const auto center = takeParameter(query, "center"))
+        load.center = valueOrThrow(session::parseCentering(*center));
     return session::readObject(load, session::Limits{});
 }
 
@@ -145,11 +148,11 @@ session::State stateFromFile(const std::string& path, session::QueryParameters& 
 
 /// An option that says how to read files of one kind; `files` is the name of this kind in error messages. The options
 /// "box" and "values" are not in the list, because they also apply to formulas.
-struct ReadingOption {
+struct FileKindOption {
     std::string_view name;
     std::string_view files;
 };
-constexpr auto kReadingOptions = std::to_array<ReadingOption>({
+constexpr auto kReadingOptions = std::to_array<FileKindOption>({
     {"axes", "arrays"},
     {"region", "arrays"},
     {"variable", "arrays"},
@@ -160,7 +163,7 @@ constexpr auto kReadingOptions = std::to_array<ReadingOption>({
 /// Throws std::runtime_error if the query still contains an option that says how to read a file. readFile() has removed
 /// the options for the kind of file that was read, so the option is for another kind.
 void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
-    for (const ReadingOption& option : kReadingOptions) {
+    for (const FileKindOption& option : kReadingOptions) {
         if (std::ranges::find(query, option.name, &session::QueryParameters::value_type::first) == query.end())
             continue;
         throw std::runtime_error("--" + std::string(option.name) + " is only for " + std::string(option.files) +
@@ -173,11 +176,11 @@ void checkNoReadingOptionIsLeft(const session::QueryParameters& query) {
 session::State loadState(session::QueryParameters query, std::span<const std::string_view> others) {
     std::vector<std::string_view> known(others.begin(), others.end());
     known.emplace_back("load");
-    for (const ReadingOption& option : kReadingOptions) known.push_back(option.name);
+    for (const FileKindOption& option : kReadingOptions) known.push_back(option.name);
     polytopes::PolytopeCache cache;
     session::ObjectLoader loader(session::Limits{}, cache);
     session::State state = session::initialState();
-    if (const auto path = take(query, "load")) state = stateFromFile(*path, query, loader);
+    if (const auto path = takeParameter(query, "load")) state = stateFromFile(*path, query, loader);
     checkNoReadingOptionIsLeft(query);
     return valueOrThrow(session::stateFromQuery(query, session::Limits{}, loader, std::move(state), known));
 }

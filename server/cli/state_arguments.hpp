@@ -15,7 +15,7 @@ namespace oval4d {
 
 /// Converts arguments of the forms "--name value" and "--name=value" to a query: pairs of a name and a value, in the
 /// order of the arguments. Throws std::runtime_error if an argument does not begin with "--" or has no value.
-session::QueryParameters queryOf(const std::vector<std::string>& words);
+session::QueryParameters queryFromArguments(const std::vector<std::string>& words);
 
 /// Returns the state that a query describes. The parameter "load" is the path of what to show: a file with an object, a
 /// Zarr folder, a folder with a series of files (see fields::readSeries()), a file with a `state` message, or a picture

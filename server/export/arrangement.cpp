@@ -11,7 +11,7 @@ namespace oval4d::exports {
 
 namespace {
 
-double gapFor(double size) { return std::max(size / 12, 2.0); }
+double gapBetweenBodies(double size) { return std::max(size / 12, 2.0); }
 
 BoundingBox boxOf(const SliceBodies& group) {
     BoundingBox box;
@@ -23,7 +23,7 @@ BoundingBox boxOf(const SliceBodies& group) {
     return box;
 }
 
-void move(SliceBodies& group, const glm::dvec3& by, const RoundingGrid& grid) {
+void translateBodies(SliceBodies& group, const glm::dvec3& by, const RoundingGrid& grid) {
     for (PlacedMesh& solid : group.bodies) solid.at += grid.snap(by);
 }
 
@@ -31,14 +31,14 @@ void move(SliceBodies& group, const glm::dvec3& by, const RoundingGrid& grid) {
 
 void arrangeOnPlate(std::vector<SliceBodies>& groups, double size, const RoundingGrid& grid) {
     const auto perRow = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(groups.size()))));
-    const double gap = gapFor(size);
+    const double gap = gapBetweenBodies(size);
     double y = 0;
     for (std::size_t row = 0; row < groups.size(); row += perRow) {
         double x = 0;
         double depth = 0;
         for (std::size_t i = row; i < std::min(row + perRow, groups.size()); ++i) {
             const BoundingBox box = boxOf(groups[i]);
-            move(groups[i], glm::dvec3(x, y, 0) - box.min, grid);
+            translateBodies(groups[i], glm::dvec3(x, y, 0) - box.min, grid);
             x += box.size().x + gap;
             depth = std::max(depth, box.size().y);
         }
@@ -61,11 +61,11 @@ void arrangeInOval(std::vector<SliceBodies>& groups, const scene::Scene& scene, 
             grow = std::max(grow, (radii[i] + radii[j]) / glm::distance(places[i], places[j]));
         }
     }
-    for (std::size_t i = 0; i < groups.size(); ++i) move(groups[i], places[i] * grow, grid);
+    for (std::size_t i = 0; i < groups.size(); ++i) translateBodies(groups[i], places[i] * grow, grid);
 }
 
 double coordinateBound(int slices, double size) {
-    const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapFor(size)) * 1.5;
+    const double onPlate = std::ceil(std::sqrt(slices)) * (size + gapBetweenBodies(size)) * 1.5;
     // Neighboring slices are at least about `size` apart, so the size of the oval is proportional to a large number of
     // slices. With few slices, the oval is as large as in the picture.
     const double inOval = 60.0 * size * std::max(1.0, slices / 21.0);

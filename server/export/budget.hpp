@@ -18,7 +18,7 @@ namespace oval4d::exports {
 struct ExportLimits {
     std::size_t triangles = 5'000'000;       ///< maximum number of triangles in all bodies together
     std::size_t bytes = 512U << 20U;         ///< maximum size of the file in bytes
-    std::chrono::duration<double> time{20};  ///< maximum time of the export, from the construction of its Budget
+    std::chrono::duration<double> time{20};  ///< maximum time of the export, from the construction of its ExportBudget
     /// A function that grants memory. The exporting thread calls it whenever there is a new estimate of the total
     /// number of bytes that the export needs. The function returns false to refuse the memory. If null, memory is not
     /// limited.
@@ -55,9 +55,9 @@ struct ExportRefused {
 };
 
 /// A check of one export against its limits. The time of the export begins with the construction of this object.
-class Budget {
+class ExportBudget {
   public:
-    Budget(const ExportLimits& limits, std::stop_token stop)
+    ExportBudget(const ExportLimits& limits, std::stop_token stop)
         : limits_(limits), stop_(std::move(stop)), start_(limits_.now()) {}
 
     /// Returns whether the time limit is exceeded, or a stop was requested.

@@ -42,14 +42,14 @@ constexpr double kTargetTriangles = 600'000;
 // Returns an upper bound of the absolute coordinates in the file, in millimeters, for RoundingGrid. Without an oval,
 // the file shows one object or slice with a diameter of about `size`. The bound 2 · size leaves room for balls, bars, a
 // separate label, and the place of the body on the plate of a printer.
-double extentOf(const ExportRequest& request, int slices) {
+double coordinateBoundOf(const ExportRequest& request, int slices) {
     return request.contents == ExportContentsKind::oval ? coordinateBound(slices, request.size) : 2 * request.size;
 }
 
 class Exporter {
   public:
     Exporter(const scene::Scene& scene, const slicing::Object& object, const geometry::Rotation& orientation,
-             const ExportRequest& request, const Budget& budget)
+             const ExportRequest& request, const ExportBudget& budget)
         : scene_(scene),
           slices_(*scene.slices),
           object_(object),
@@ -57,31 +57,32 @@ class Exporter {
           request_(request),
           budget_(budget),
           scale_(request.size / 2 / scene.circumradius),
-          grid_(request.size, extentOf(request, slices_.planes.count)),
-          surfaceGrid_(request.exact && request.format->keepsDoubles
-                           ? RoundingGrid::forDoubles(request.size, extentOf(request, slices_.planes.count))
-                           : grid_) {
+          grid_(request.size, coordinateBoundOf(request, slices_.planes.count)),
+          surfaceGrid_(
+              request.exact && request.format->keepsDoubles
+                  ? RoundingGrid::forDoublePrecision(request.size, coordinateBoundOf(request, slices_.planes.count))
+                  : grid_) {
         if (request.contents == ExportContentsKind::projection) request_.body = BodyKind::skeleton;
         if (request.contents == ExportContentsKind::highlight) element_ = scene.look.highlight;
         hasSurfaces_ = slicing::fieldIn(object) != nullptr && request_.body == BodyKind::solid && !element_;
     }
 
-    ExportedFile run() {
-        std::string bytes = write();
+    ExportedFile exportFile() {
+        std::string bytes = writeBytes();
         budget_.checkFileSize(bytes.size());
         return {std::move(bytes), std::move(warnings_)};
     }
 
   private:
-    std::string write() {
+    std::string writeBytes() {
         const Format& format = *request_.format;
-        refuseOtherContents();
+        refuseUnsupportedContents();
         if (format.writeDrawing != nullptr) return format.writeDrawing(drawing());
-        refuseOtherObjects();
+        refuseUnsupportedObjects();
         if (format.writeScene != nullptr)
             return format.writeScene(
                 {scene_, object_, orientation_, request_.contents, budget_, warnings_, request_.exact});
-        const std::vector<PlacedMesh> solids = bodies();
+        const std::vector<PlacedMesh> solids = makeBodies();
         const bool hasDoubles = hasSurfaces_ && request_.exact && format.keepsDoubles;
         return format.writeBodies({solids, scene_.cellColors, scene_.title, budget_, hasDoubles});
     }
@@ -91,7 +92,7 @@ class Exporter {
             case ExportContentsKind::projection:
                 return drawProjection(scene_);
             case ExportContentsKind::matrix:
-                return drawMatrix(scene_, origin());
+                return drawMatrix(scene_, originInFile());
             case ExportContentsKind::oval:
             case ExportContentsKind::focus:
                 return drawSlices(scene_, object_, budget_);
@@ -106,7 +107,7 @@ class Exporter {
         return drawn;
     }
 
-    std::vector<PlacedMesh> bodies() {
+    std::vector<PlacedMesh> makeBodies() {
         std::vector<SliceBodies> groups;
         std::vector<int> empty, thin;  // slices that the file lacks, because they are empty or too thin for a body
         const scene::Color color = request_.body == BodyKind::skeleton ? scene::style().bar : colorOfSolids();
@@ -122,7 +123,7 @@ class Exporter {
                 Mesh mesh = request_.body == BodyKind::skeleton
                                 ? skeletonOf(slices_, i, scale_, radii_, cube_, grid_, budget_)
                                 : solidOf(slices_, i, scale_, grid_, budget_);
-                if (!mesh.triangles.empty()) solids.push_back({nameOf(i), std::move(mesh), color, glm::dvec3(0)});
+                if (!mesh.triangles.empty()) solids.push_back({sliceNameOf(i), std::move(mesh), color, glm::dvec3(0)});
             }
             if (solids.empty()) {
                 (isEmpty(i) ? empty : thin).push_back(i);
@@ -133,11 +134,12 @@ class Exporter {
             groups.push_back({i, std::move(solids)});
         }
         if (groups.empty() && element_) refuseFlatElement();
-        if (groups.empty()) refuseEmpty();
-        if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty", origin().w));
-        if (!thin.empty()) warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin", origin().w));
-        if (request_.label != LabelPlacement::none) label(groups);
-        if (request_.format->arrangement == Format::Arrangement::plate) {
+        if (groups.empty()) throwEmptyExport();
+        if (!empty.empty()) warnings_.push_back(warningOfOmission(slices_.planes, empty, "empty", originInFile().w));
+        if (!thin.empty())
+            warnings_.push_back(warningOfOmission(slices_.planes, thin, "flat or too thin", originInFile().w));
+        if (request_.label != LabelPlacement::none) addLabels(groups);
+        if (request_.format->arrangement == Format::BodyArrangement::plate) {
             arrangeOnPlate(groups, request_.size, grid_);
         } else if (request_.contents == ExportContentsKind::oval) {
             arrangeInOval(groups, scene_, request_.size, grid_);
@@ -161,7 +163,7 @@ class Exporter {
     }
 
     /// Returns whether the file has only the body of the outermost level of a field, as files for printers do.
-    bool hasOneLevel() const { return request_.format->arrangement == Format::Arrangement::plate; }
+    bool hasOneLevel() const { return request_.format->arrangement == Format::BodyArrangement::plate; }
 
     void prepareSurfaces() {
         const fields::Field& field = *slicing::fieldIn(object_);
@@ -177,11 +179,11 @@ class Exporter {
     /// only the body of the outermost level, which contains the others. Leaves out levels without a body.
     std::vector<PlacedMesh> surfaceBodies(int i) {
         const auto& levels = scene_.surfaces.levels;
-        const FieldSliceSurface slice = surfaces_->ofSlice(i);
+        const FieldSliceSurface slice = surfaces_->surfaceOfSlice(i);
         lastSurfaceIsEmpty_ = slice.surface.triangles.empty();
         std::vector<PlacedMesh> solids;
         for (std::size_t level = levels.size(); level-- > 0;) {
-            std::string name = nameOf(i);
+            std::string name = sliceNameOf(i);
             if (levels.size() > 1) appendDecimal(name += ", level ", scene_.look.field.levels[levels[level].index]);
             Mesh mesh = fieldBodyOf(scene_, slice, i, level, scale_, surfaceGrid_, budget_);
             if (!mesh.triangles.empty())
@@ -191,7 +193,7 @@ class Exporter {
         return solids;
     }
 
-    void label(std::vector<SliceBodies>& groups) {
+    void addLabels(std::vector<SliceBodies>& groups) {
         if (hasSurfaces_ && request_.label == LabelPlacement::engraved) {
             throw ExportRefused{{ExportRefusal::Cause::no_body,
                                  "the surface of a field has no face to engrave; choose a separate label"}};
@@ -199,14 +201,14 @@ class Exporter {
         std::size_t done = 0;
         for (SliceBodies& group : groups) {
             budget_.checkTimeAndStop();
-            const LabelText text(scene_.title, wOf(group.slice));
+            const LabelText text(scene_.title, wLabelOf(group.slice));
             if (request_.label == LabelPlacement::engraved) {
                 done += text.engrave(group.bodies.front().mesh, request_.size, grid_, budget_) ? 1 : 0;
                 continue;
             }
             const BoundingBox box = boxOf(group.bodies.front().mesh);
             const glm::dvec3 front{(box.min.x + box.max.x) / 2, box.min.y - request_.size / 12, box.min.z};
-            group.bodies.push_back({group.bodies.front().name + " (label)", text.labelBody(request_.size, grid_),
+            group.bodies.push_back({group.bodies.front().name + " (label)", text.makeLabelPlate(request_.size, grid_),
                                     scene::style().bar, grid_.snap(front)});
             ++done;
         }
@@ -239,21 +241,21 @@ class Exporter {
         cube_ = std::max(cube * radii_.bar, std::min(largest, kGoodFieldStep * grid_.step()));
     }
 
-    std::string nameOf(int i) const { return scene_.title + ", " + wOf(i); }
-    std::string wOf(int i) const {
+    std::string sliceNameOf(int i) const { return scene_.title + ", " + wLabelOf(i); }
+    std::string wLabelOf(int i) const {
         if (element_) return nameOfElement();
         return request_.contents == ExportContentsKind::projection ? "projection"
-                                                                   : labelOfW(slices_.planes, i, origin().w);
+                                                                   : labelOfW(slices_.planes, i, originInFile().w);
     }
     std::string nameOfElement() const {
         return std::string(text::nameOf(slicing::kElementKinds, element_->kind)) + ' ' +
                std::to_string(element_->index);
     }
-    slicing::ObjectKindProperties kind() const { return slicing::propertiesOf(object_); }
+    slicing::ObjectKindProperties objectProperties() const { return slicing::propertiesOf(object_); }
     bool hasCells() const { return slicing::elementCount(object_, slicing::ElementKind::cell) > 0; }
-    const glm::dvec4& origin() const { return slicing::infoOf(object_).originInFile; }
+    const glm::dvec4& originInFile() const { return slicing::infoOf(object_).originInFile; }
 
-    void refuseOtherContents() const {
+    void refuseUnsupportedContents() const {
         if (request_.format->canContain(request_.contents)) return;
         std::vector<std::string_view> own, formatsWithIt;
         for (const ExportContentsKind contents : request_.format->contents)
@@ -263,19 +265,19 @@ class Exporter {
         }
         const std::string asked(text::nameOf(kExportContents, request_.contents));
         throw ExportRefused{{ExportRefusal::Cause::no_body, request_.format->name + " files contain " +
-                                                                text::alternatives(own) + ", not " + asked + "; " +
-                                                                text::alternatives(formatsWithIt) + " files do"}};
+                                                                text::joinedWithOr(own) + ", not " + asked + "; " +
+                                                                text::joinedWithOr(formatsWithIt) + " files do"}};
     }
 
-    void refuseOtherObjects() const {
+    void refuseUnsupportedObjects() const {
         const Format& format = *request_.format;
         const bool isField = slicing::fieldIn(object_) != nullptr;
-        if (isField && format.objects == Format::Objects::polytopes_and_points) {
+        if (isField && format.objects == Format::ObjectKinds::polytopes_and_points) {
             throw ExportRefused{
                 {ExportRefusal::Cause::no_body, format.name + " files contain polytopes or points, and a field has "
                                                               "none; choose another format, such as stl or vtp"}};
         }
-        if (!isField && format.objects == Format::Objects::fields) {
+        if (!isField && format.objects == Format::ObjectKinds::fields) {
             throw ExportRefused{
                 {ExportRefusal::Cause::no_body, format.name + " files contain the values of a field; choose another "
                                                               "format, such as stl or vtp"}};
@@ -291,13 +293,13 @@ class Exporter {
     /// Throws ExportRefused, with `message` and the reason, if the whole polytope is at most a few grid steps large.
     /// This happens if the polytope is far from the origin, because ExportRequest::size is the diameter of a sphere
     /// around the origin.
-    void refuseTiny(const std::string& message) const {
+    void refuseIfTiny(const std::string& message) const {
         constexpr double kFewSteps = 8;
         BoundingBox box;
         for (const glm::dvec4& v : slices_.rotatedVertices) box.include(scale_ * glm::dvec3(v));
         const glm::dvec3 size = box.size();
         const double largest = std::max({size.x, size.y, size.z});
-        if (kind().slices == slicing::SliceContent::points || slices_.vertices.empty() ||
+        if (objectProperties().slices == slicing::SliceContent::points || slices_.vertices.empty() ||
             largest > kFewSteps * grid_.step())
             return;
         throw ExportRefused{{ExportRefusal::Cause::no_body,
@@ -307,7 +309,7 @@ class Exporter {
 
     /// Throws ExportRefused if slices of objects of this kind have no volume.
     void refuseSlicesWithoutVolume() const {
-        switch (kind().slices) {
+        switch (objectProperties().slices) {
             case slicing::SliceContent::points:
                 throw ExportRefused{{ExportRefusal::Cause::no_body,
                                      "points have no volume; choose body=skeleton, whose balls are the points"}};
@@ -321,7 +323,7 @@ class Exporter {
         }
     }
 
-    [[noreturn]] void refuseEmpty() const {
+    [[noreturn]] void throwEmptyExport() const {
         double least = 1e300;
         double most = -1e300;
         for (const glm::dvec4& v : slices_.rotatedVertices) {
@@ -330,20 +332,20 @@ class Exporter {
         }
         if (request_.body == BodyKind::solid) refuseSlicesWithoutVolume();
         const std::string reach =
-            text::roundedDecimal(origin().w + least) + " to " + text::roundedDecimal(origin().w + most);
+            text::roundedDecimal(originInFile().w + least) + " to " + text::roundedDecimal(originInFile().w + most);
         const bool many = slices_.planes.count > 1;
         const bool isField = slicing::fieldIn(object_) != nullptr;
-        const std::string noun(kind().noun);
+        const std::string noun(objectProperties().noun);
         std::string message = many ? "no slice has a volume" : "the slice at ";
         if (!many) {
-            message += wOf(0);
+            message += wLabelOf(0);
             message += slices_.vertices.empty() ? " is empty" : " has no volume";
         }
-        refuseTiny(message);
+        refuseIfTiny(message);
         const std::string advice = request_.choosesSlices() ? "choose other slices" : "move the focus";
         throw ExportRefused{{ExportRefusal::Cause::no_body,
                              message + ": the " + (isField ? "box of the field" : noun) +
-                                 (kind().isPlural ? " extend" : " extends") + " from w = " + reach + "; " +
+                                 (objectProperties().isPlural ? " extend" : " extends") + " from w = " + reach + "; " +
                                  (isField ? "change the levels, " : "") + advice + " or turn the " + noun}};
     }
 
@@ -352,12 +354,11 @@ class Exporter {
     const slicing::Object& object_;
     const geometry::Rotation& orientation_;
     ExportRequest request_;
-    const Budget& budget_;
+    const ExportBudget& budget_;
     const double scale_;  // millimeters per unit of the object
     const RoundingGrid grid_;
-    const RoundingGrid surfaceGrid_;  // grid for the surfaces of a field: grid_ or a finer grid
-    std::optional<slicing::Element>
-        element_;  // for ExportContentsKind::highlight: the element to export; else empty
+    const RoundingGrid surfaceGrid_;           // grid for the surfaces of a field: grid_ or a finer grid
+    std::optional<slicing::Element> element_;  // for ExportContentsKind::highlight: the element to export; else empty
     SkeletonRadii radii_;
     double cube_ = 0;
     bool hasSurfaces_ = false;  // whether the surfaces of a field enclose the bodies
@@ -372,10 +373,10 @@ std::variant<ExportedFile, ExportRefusal> exportScene(const scene::Scene& scene,
                                                       const geometry::Rotation& orientation,
                                                       const ExportRequest& request, const ExportLimits& limits,
                                                       std::stop_token stop) {
-    const Budget budget(limits, std::move(stop));
+    const ExportBudget budget(limits, std::move(stop));
     std::variant<ExportedFile, ExportRefusal> made;
     try {
-        made = Exporter(scene, object, orientation, request, budget).run();
+        made = Exporter(scene, object, orientation, request, budget).exportFile();
     } catch (ExportRefused& refused) {
         made = std::move(refused.error);
     }

@@ -33,9 +33,9 @@ constexpr const auto& choicesOf(LabelPlacement /*type*/) { return kLabels; }
 inline constexpr double kMinSize = 1, kMaxSize = 10'000;
 inline constexpr double kMinDrawingSize = 10, kMaxDrawingSize = 5000;
 /// Returns the bounds of ExportRequest::size, in millimeters, for the files of a format.
-inline geometry::Range sizeRangeOf(const Format& format) {
-    return format.writeDrawing != nullptr ? geometry::Range{kMinDrawingSize, kMaxDrawingSize}
-                                          : geometry::Range{kMinSize, kMaxSize};
+inline geometry::NumberRange sizeRangeOf(const Format& format) {
+    return format.writeDrawing != nullptr ? geometry::NumberRange{kMinDrawingSize, kMaxDrawingSize}
+                                          : geometry::NumberRange{kMinSize, kMaxSize};
 }
 
 /// The options of an export. `body` and `label` apply only to formats with bodies. `size` applies to formats with

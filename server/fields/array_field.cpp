@@ -36,12 +36,12 @@ Result<Field> fieldFromArray(std::string name, const FieldArray& array) {
     try {
         Field field = makeField(std::move(name), *function, box, scale);
         field.array = *function;
-        std::ranges::transform(array.units, field.units.begin(), quantityText);
-        field.quantity = {quantityText(array.quantity.name), quantityText(array.quantity.unit)};
+        std::ranges::transform(array.units, field.units.begin(), sanitizeQuantityText);
+        field.quantity = {sanitizeQuantityText(array.quantity.name), sanitizeQuantityText(array.quantity.unit)};
         field.isPart = array.isPart;
         field.imageLevel = array.imageLevel;
         field.initialLevel = 0.5 * (static_cast<double>(samples.min) + samples.max);
-        field.initialInside = Inside::above;
+        field.initialInside = BodySide::above;
         return field;
     } catch (const std::invalid_argument& fault) {
         return Error{ErrorCode::bad_field, fault.what()};
@@ -78,7 +78,7 @@ std::optional<Error> setSecondArray(Field& field, const FieldArray& array, std::
                               {},
                               *function,
                               std::move(variable),
-                              {quantityText(array.quantity.name), quantityText(array.quantity.unit)}});
+                              {sanitizeQuantityText(array.quantity.name), sanitizeQuantityText(array.quantity.unit)}});
     return {};
 }
 

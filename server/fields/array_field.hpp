@@ -12,9 +12,9 @@ namespace oval4d::fields {
 /// Makes a field from an array. The initial level is the mean of the least and the greatest sample (see
 /// ArrayFunction::statistics()); points where the value is above the level are inside. Let L be the length of the
 /// longest of the axes x, y and z. The 4-D object has the length L along w, too, because a unit of time and a unit of
-/// length cannot be compared. Along an axis with one sample, the object has the length L / 2. quantityText() shortens
-/// the texts of the units and of the quantity. Error: `bad_field` if the box is not valid, or if all samples are
-/// missing.
+/// length cannot be compared. Along an axis with one sample, the object has the length L / 2. sanitizeQuantityText()
+/// shortens the texts of the units and of the quantity. Error: `bad_field` if the box is not valid, or if all samples
+/// are missing.
 Result<Field> fieldFromArray(std::string name, const FieldArray& array);
 
 /// Adds a second array to `field`. The values of the second array can color the surfaces of the field. `field` must be

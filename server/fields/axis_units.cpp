@@ -18,13 +18,13 @@ namespace {
 constexpr double kTolerance = 1e-9;  // allows for the rounding errors of rotation matrices
 
 // Returns the linear map from coordinates in the box, relative to its center, to coordinates in the picture.
-glm::dmat4 toPicture(const Field& field, const geometry::Rotation& orientation) {
+glm::dmat4 boxToPicture(const Field& field, const geometry::Rotation& orientation) {
     return orientation.matrix() * glm::inverse(field.toFunction);
 }
 
 // Returns the factors of the coordinates in the box: their sum with these factors is the coordinate along the axis of
 // the picture.
-glm::dvec4 factorsOf(const glm::dmat4& toPicture, int axis) {
+glm::dvec4 coordinateCoefficients(const glm::dmat4& toPicture, int axis) {
     return {toPicture[0][axis], toPicture[1][axis], toPicture[2][axis], toPicture[3][axis]};
 }
 
@@ -33,9 +33,9 @@ glm::dvec4 factorsOf(const glm::dmat4& toPicture, int axis) {
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation) {
     PictureUnits units;
     if (std::ranges::all_of(field.units, &std::string::empty)) return units;
-    const glm::dmat4 fromFunction = toPicture(field, orientation);
+    const glm::dmat4 fromFunction = boxToPicture(field, orientation);
     for (int axis = 0; axis < 4; ++axis) {
-        const glm::dvec4 factors = factorsOf(fromFunction, axis);
+        const glm::dvec4 factors = coordinateCoefficients(fromFunction, axis);
         const double size = glm::length(factors);
         const std::string* unit = nullptr;
         bool differ = false;
@@ -51,12 +51,13 @@ PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientat
     return units;
 }
 
-bool CommonCoordinate::isW() const { return axis == 3 && center == 0 && std::abs(scale - 1) <= kTolerance; }
+bool ConstantSliceCoordinate::isW() const { return axis == 3 && center == 0 && std::abs(scale - 1) <= kTolerance; }
 
-std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation) {
-    const glm::dvec4 factors = factorsOf(toPicture(field, orientation), 3);
+std::optional<ConstantSliceCoordinate> constantSliceCoordinate(const Field& field,
+                                                               const geometry::Rotation& orientation) {
+    const glm::dvec4 factors = coordinateCoefficients(boxToPicture(field, orientation), 3);
     const double size = glm::length(factors);
-    std::optional<CommonCoordinate> found;
+    std::optional<ConstantSliceCoordinate> found;
     for (int axis = 0; axis < 4; ++axis) {
         if (std::abs(factors[axis]) <= kTolerance * size) continue;
         if (found) return {};
@@ -66,12 +67,12 @@ std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geome
 }
 
 std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing) {
-    const auto coordinate = commonCoordinate(field, orientation);
+    const auto coordinate = constantSliceCoordinate(field, orientation);
     if (!coordinate) return {};
     const std::string& unit = field.units.at(static_cast<std::size_t>(coordinate->axis));
     if (unit.empty() && coordinate->isW()) return {};
     // Two digits of the distance between neighboring slices; 15 digits are what a double holds.
-    const double step = std::abs(coordinate->scale) * spacing, value = coordinate->at(w);
+    const double step = std::abs(coordinate->scale) * spacing, value = coordinate->coordinateAt(w);
     const double decimals = step > 0 ? std::clamp(1 - std::floor(std::log10(step)), 0.0, 15.0) : 3;
     const double unitOfLastDigit = std::pow(10, -decimals);
     std::string text = text::roundedDecimal(std::round(value / unitOfLastDigit) * unitOfLastDigit);

@@ -28,24 +28,25 @@ using PictureUnits = std::array<PictureAxisUnit, 4>;
 PictureUnits pictureUnits(const Field& field, const geometry::Rotation& orientation);
 
 /// A coordinate in the box of a field that is constant in each slice w = const of a picture.
-struct CommonCoordinate {
+struct ConstantSliceCoordinate {
     int axis = 3;       ///< the axis of the box: 0 … 3 for x … w
     double center = 0;  ///< the coordinate in the slice w = 0
     double scale = 1;   ///< the increase of the coordinate if w increases by 1
 
-    double at(double w) const { return center + scale * w; }
-    /// Returns whether the coordinate is w itself: whether `axis` is the axis w of the box, and at(w) = w.
+    double coordinateAt(double w) const { return center + scale * w; }
+    /// Returns whether the coordinate is w itself: whether `axis` is the axis w of the box, and coordinateAt(w) = w.
     bool isW() const;
 };
 /// Returns the coordinate in the box that is constant in each slice after a rotation of the field by `orientation`.
 /// Returns an empty optional if the slices are not perpendicular to an axis of the box. For example, all points of a
 /// slice have the same w in the box if there is no rotation, and the same x after a quarter turn in xw.
-std::optional<CommonCoordinate> commonCoordinate(const Field& field, const geometry::Rotation& orientation);
+std::optional<ConstantSliceCoordinate> constantSliceCoordinate(const Field& field,
+                                                               const geometry::Rotation& orientation);
 
-/// Returns the coordinate in the box of a field that all points of the slice `w` have in common as a text: "130 s" for a
-/// coordinate along the axis w whose unit is known, else "box x = 0.5 m" or "box w = 130". Returns an empty text if
-/// there is no such coordinate, or if it is w itself, without a unit. `spacing` is the distance between slices; the text
-/// has as many decimals as are needed to distinguish neighboring slices.
+/// Returns the coordinate in the box of a field that all points of the slice `w` have in common as a text: "130 s" for
+/// a coordinate along the axis w whose unit is known, else "box x = 0.5 m" or "box w = 130". Returns an empty text if
+/// there is no such coordinate, or if it is w itself, without a unit. `spacing` is the distance between slices; the
+/// text has as many decimals as are needed to distinguish neighboring slices.
 std::string placeInBox(const Field& field, const geometry::Rotation& orientation, double w, double spacing);
 
 /// Returns the unit of lengths in a slice w = const of the picture: the common unit of the axes x, y and z if all three

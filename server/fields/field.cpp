@@ -15,7 +15,7 @@ namespace oval4d::fields {
 namespace {
 
 /// Builds the box from −half to +half as a polytope. Bit a of a vertex's index is set if its coordinate a is positive.
-polytopes::Polytope makeDomain(const std::string& name, const glm::dvec4& half) {
+polytopes::Polytope makeBoxPolytope(const std::string& name, const glm::dvec4& half) {
     std::vector<glm::dvec4> vertices;
     for (unsigned v = 0; v < 16; ++v) {
         glm::dvec4 vertex = half;
@@ -66,7 +66,7 @@ Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function
     field.box = box;
     field.center = box.center();
     for (int axis = 0; axis < 4; ++axis) field.toFunction[axis][axis] = 1 / scale[axis];
-    field.domain = std::make_shared<const polytopes::Polytope>(makeDomain(name, half));
+    field.domain = std::make_shared<const polytopes::Polytope>(makeBoxPolytope(name, half));
     static_cast<geometry::ObjectInfo&>(field) = *field.domain;
     field.name = std::move(name);
     field.serial = geometry::nextSerial();

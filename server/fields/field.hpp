@@ -36,13 +36,13 @@ struct SecondFunction {
     Quantity quantity = {};                           ///< what the values of the array measure
 };
 
-/// A file in the server's data folder, and the options for reading it. A field has a FileSource if its samples are too
-/// large for memory or a part of a larger array. session::LoadObject describes the members with the same names.
-struct FileSource {
+/// A file in the server's data folder, and the options for reading it. A field has a FieldFileSource if its samples are
+/// too large for memory or a part of a larger array. session::LoadObject describes the members with the same names.
+struct FieldFileSource {
     std::string dataName, format, axes, variable, secondFormula, secondVariable;
     std::optional<Box> box, region;
 };
-void visitStoredMembers(serialization::ReadOrWritten<FileSource> auto& source, auto& visit) {
+void visitStoredMembers(serialization::ReadOrWritten<FieldFileSource> auto& source, auto& visit) {
     auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
     visit.member(0, dataName);
     visit.member(1, format);
@@ -51,7 +51,7 @@ void visitStoredMembers(serialization::ReadOrWritten<FileSource> auto& source, a
     visit.member(4, secondFormula);
     visit.member(5, secondVariable);
     visit.member(6, box);
-    visit.addedMember(7, region);
+    visit.memberAddedLater(7, region);
 }
 
 /// A 4-D scalar field: a function on a box. The box is shown as a 4-D object centered at the origin: the point p of the
@@ -67,21 +67,21 @@ struct Field : geometry::ObjectInfo {
     bool isTransformed = false;                         ///< whether transformedTo() made this field, which shares its
                                                         ///< functions with the original
     double initialLevel = 0;                            ///< the level (value) that is shown at first
-    Inside initialInside = Inside::below;               ///< which side of the levels is inside the body at first
+    BodySide initialInside = BodySide::below;           ///< which side of the levels is inside the body at first
     std::string formula;                                ///< the text of the formula; empty if there is none
     std::shared_ptr<const ArrayFunction> array;  ///< the same as `function` if the function is an array; else null
     AxisUnits units;                             ///< the units of `box` and `center`; only for arrays (see
-                                                 ///< quantityText())
-    Quantity quantity;                           ///< what the values measure; only for arrays (see quantityText())
-    bool isPart = false;                         ///< whether the file of the array has more samples (see FieldArray)
-    ImageLevel imageLevel;                       ///< the level of a multiscale image that the array is (see FieldArray)
+                                                 ///< sanitizeQuantityText())
+    Quantity quantity;                ///< what the values measure; only for arrays (see sanitizeQuantityText())
+    bool isPart = false;              ///< whether the file of the array has more samples (see FieldArray)
+    MultiscaleImageLevel imageLevel;  ///< the level of a multiscale image that the array is (see FieldArray)
     std::shared_ptr<const SecondFunction> second;  ///< the second function; null if there is none
     /// The range, without outliers, of the values of coloringFunction() on the box.
     std::shared_ptr<const TypicalRangeOnBox> coloringRange;
-    bool shared = false;                       ///< whether several sessions share this field, so that the limits on the
-                                               ///< memory of sessions do not count it
-    std::shared_ptr<const FileSource> source;  ///< the file in the data folder if the samples are too large for memory
-                                               ///< or a part of a larger array; else null
+    bool shared = false;  ///< whether several sessions share this field, so that the limits on the
+                          ///< memory of sessions do not count it
+    std::shared_ptr<const FieldFileSource> source;  ///< the file in the data folder if the samples are too large for
+                                                    ///< memory or a part of a larger array; else null
 
     /// Returns whether samples are lost: whether the array or the second array is in a mapped file that could not be
     /// read in part, or that has changed (see MappedFile::isLost()).
@@ -89,8 +89,8 @@ struct Field : geometry::ObjectInfo {
     /// Throws std::runtime_error if isLost(), because values that were read may be wrong.
     void requireReadable() const;
 
-    /// Returns the function whose values color the surfaces with scene::Coloring::value. This is the second function
-    /// or, if there is none, the function itself.
+    /// Returns the function whose values color the surfaces with scene::Coloring::value. The result is the second
+    /// function or, if there is none, the first function.
     const std::shared_ptr<const ScalarFunction>& coloringFunction() const {
         return second == nullptr ? function : second->function;
     }
@@ -102,7 +102,7 @@ struct Field : geometry::ObjectInfo {
 Field makeField(std::string name, std::shared_ptr<const ScalarFunction> function, const Box& box,
                 const glm::dvec4& scale = glm::dvec4(1));
 
-/// Sets the second function of the field. It must use the same coordinates as the first function.
+/// Sets the second function of the field to `second`, which must use the same coordinates as the first function.
 void setSecondFunction(Field& field, SecondFunction second);
 
 /// Returns a copy of a field, with a new serial number, to which `change` has been applied. The copy has the same

@@ -34,15 +34,15 @@ SecondFunctionDefinition definitionOf(const SecondFunction& second) {
     return definition;
 }
 
-std::optional<Error> faultOf(const FieldArray& array) {
+std::optional<Error> validationErrorOf(const FieldArray& array) {
     const std::size_t count = sampleCount(array.shape);
-    if (count == 0 || array.samples.values().size() != count) return badField("samples of an array are missing");
+    if (count == 0 || array.samples.values().size() != count) return badFieldError("samples of an array are missing");
     if (!std::ranges::all_of(array.units, isQuantityText) || !isQuantityText(array.quantity.name) ||
         !isQuantityText(array.quantity.unit))
-        return badField("a unit or the name of a quantity is too long or is not printable UTF-8");
+        return badFieldError("a unit or the name of a quantity is too long or is not printable UTF-8");
     const auto& [level, levels, finer] = array.imageLevel;
     if (level >= std::max(levels, 1U) || finer > level)
-        return badField("an image does not have the level of the array");
+        return badFieldError("an image does not have the level of the array");
     return {};
 }
 
@@ -78,17 +78,17 @@ FieldDefinition definitionByFunctions(const Field& field) {
 
 Result<Field> fieldFromDefinition(const FieldDefinition& definition) {
     const auto& [info, source, formula, box, array, second] = definition;
-    if (source) return badField("the samples are in a file");
+    if (source) return badFieldError("the samples are in a file");
     if (second && second->array.has_value() != second->formula.empty())
-        return badField("the second function is neither a formula nor an array, or both");
+        return badFieldError("the second function is neither a formula nor an array, or both");
     if (!array) {
-        if (second && second->array) return badField("a formula has an array");
+        if (second && second->array) return badFieldError("a formula has an array");
         return fieldFromFormula(info.name, formula, box, second ? second->formula : std::string());
     }
-    if (!formula.empty()) return badField("it is both a formula and an array");
-    if (auto fault = faultOf(*array)) return std::move(*fault);
+    if (!formula.empty()) return badFieldError("it is both a formula and an array");
+    if (auto fault = validationErrorOf(*array)) return std::move(*fault);
     if (second && second->array) {
-        if (auto fault = faultOf(*second->array)) return std::move(*fault);
+        if (auto fault = validationErrorOf(*second->array)) return std::move(*fault);
     }
     Result<Field> field = fieldFromArray(info.name, *array);
     if (!field || !second) return field;

@@ -28,8 +28,8 @@ void visitStoredMembers(serialization::ReadOrWritten<SecondFunctionDefinition> a
 /// The definition of a field: a file in the server's data folder, a formula, or an array. The members for the other two
 /// are empty.
 struct FieldDefinition {
-    geometry::ObjectInfo info;         ///< the stored members of the field's ObjectInfo; `originInFile` is 0
-    std::optional<FileSource> source;  ///< the file; if it is set, the definition has no second function
+    geometry::ObjectInfo info;              ///< the stored members of the field's ObjectInfo; `originInFile` is 0
+    std::optional<FieldFileSource> source;  ///< the file; if it is set, the definition has no second function
     std::string formula;
     Box box;  ///< the domain of the formula
     std::optional<FieldArray> array;
@@ -54,8 +54,8 @@ FieldDefinition definitionByFunctions(const Field& field);
 
 /// Makes the field of a formula or an array from its definition. Errors: those of fieldFromFormula(), fieldFromArray(),
 /// setSecondFormula() and setSecondArray(). Also `bad_field` if the definition refers to a file, if members contradict
-/// each other (such as a formula and an array), if the number of samples does not match the shape, or if quantityText()
-/// would change a unit or a quantity.
+/// each other (such as a formula and an array), if the number of samples does not match the shape, or if
+/// sanitizeQuantityText() would change a unit or a quantity.
 Result<Field> fieldFromDefinition(const FieldDefinition& definition);
 
 }  // namespace oval4d::fields

@@ -10,7 +10,7 @@ namespace oval4d::fields {
 
 namespace {
 
-std::optional<Error> setSecond(Field& field, std::string_view text, const Formula* shared) {
+std::optional<Error> parseAndSetSecondFormula(Field& field, std::string_view text, const Formula* shared) {
     auto formula = parseFormula(text, nullptr, {}, shared);
     if (!formula) return Error{formula.error().code, "values: " + formula.error().message};
     std::string normalized = formula->text();
@@ -28,13 +28,15 @@ Result<Field> fieldFromFormula(std::string name, std::string_view text, const Bo
         Field field = makeField(std::move(name), std::make_shared<const FormulaFunction>(std::move(*formula)), box);
         field.formula = shared.text();
         if (second.empty()) return field;
-        if (auto error = setSecond(field, second, &shared)) return std::move(*error);
+        if (auto error = parseAndSetSecondFormula(field, second, &shared)) return std::move(*error);
         return field;
     } catch (const std::invalid_argument& fault) {
         return Error{ErrorCode::out_of_range, fault.what()};
     }
 }
 
-std::optional<Error> setSecondFormula(Field& field, std::string_view text) { return setSecond(field, text, nullptr); }
+std::optional<Error> setSecondFormula(Field& field, std::string_view text) {
+    return parseAndSetSecondFormula(field, text, nullptr);
+}
 
 }  // namespace oval4d::fields

@@ -9,9 +9,9 @@ namespace oval4d::fields {
 
 /// The side of a level on which the body lies that the level bounds: where the function is below the level, or above
 /// it. Stored sessions contain the numbers of the enumerators, so these numbers must not change.
-enum class Inside : std::uint8_t { below = 0, above = 1 };
+enum class BodySide : std::uint8_t { below = 0, above = 1 };
 inline constexpr auto kInsides =
-    text::completeTable<text::NamedValue<Inside>>({{"below", Inside::below}, {"above", Inside::above}});
-constexpr const auto& choicesOf(Inside /*type*/) { return kInsides; }
+    text::completeTable<text::NamedValue<BodySide>>({{"below", BodySide::below}, {"above", BodySide::above}});
+constexpr const auto& choicesOf(BodySide /*type*/) { return kInsides; }
 
 }  // namespace oval4d::fields

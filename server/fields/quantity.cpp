@@ -8,7 +8,7 @@
 
 namespace oval4d::fields {
 
-std::string quantityText(std::string_view text) {
+std::string sanitizeQuantityText(std::string_view text) {
     if (text.find_first_not_of(' ') == std::string_view::npos) return {};
     if (text.size() <= kMaxQuantityText) return text::printable(text, kMaxQuantityText);
     // printable() keeps the characters that begin within the first kBegins bytes, and may append an ellipsis. The last
@@ -17,7 +17,7 @@ std::string quantityText(std::string_view text) {
     return text::printable(text, kBegins);
 }
 
-bool isQuantityText(std::string_view text) { return quantityText(text) == text; }
+bool isQuantityText(std::string_view text) { return sanitizeQuantityText(text) == text; }
 
 std::string unitOfProduct(std::span<const std::string> units) {
     static constexpr std::array<std::string_view, 5> kPowers{"", "", "²", "³", "⁴"};

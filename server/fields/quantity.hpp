@@ -32,9 +32,9 @@ inline constexpr std::size_t kMaxQuantityText = 64;
 /// Returns `text` as a valid name of a quantity or a unit: UTF-8 of at most kMaxQuantityText bytes. Replaces control
 /// characters and bytes that are not UTF-8 by "?" (see text::printable()), and the end of a text that is too long by
 /// "…". Returns an empty string for a text of blanks only.
-std::string quantityText(std::string_view text);
+std::string sanitizeQuantityText(std::string_view text);
 
-/// Returns whether quantityText() leaves `text` as it is.
+/// Returns whether sanitizeQuantityText() leaves `text` as it is.
 bool isQuantityText(std::string_view text);
 
 /// Returns the unit of a product of numbers with these units: "m²" for m and m, "m s" for m and s, "(m/s)²" for m/s and

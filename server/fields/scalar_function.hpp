@@ -22,8 +22,8 @@ struct Box {
 };
 void visitStoredMembers(serialization::ReadOrWritten<Box> auto& box, auto& visit) {
     auto& [min, max] = box;
-    visit.member(0, min, geometry::Range::finite());
-    visit.member(1, max, geometry::Range::finite());
+    visit.member(0, min, geometry::NumberRange::ofFiniteNumbers());
+    visit.member(1, max, geometry::NumberRange::ofFiniteNumbers());
 }
 
 /// Bounds of the values of a function in a region. min > max means that the function has no value at any point of the
@@ -83,7 +83,7 @@ class ScalarFunction {
     /// function. A coarser version is faster, but may lack details that are smaller than the steps. The result lives as
     /// long as this object. `steps` are the vectors between neighboring points of the lattices, in the function's
     /// coordinates.
-    virtual const ScalarFunction& versionForSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
+    virtual const ScalarFunction& downsampledForSteps(std::span<const glm::dvec4> /*steps*/) const { return *this; }
 
     /// Releases memory that the next evaluations can restore quickly, such as pages of a mapped file that are also in
     /// the system's cache.

@@ -25,7 +25,7 @@ namespace {
 
 // Returns the full and the typical range of the values. The typical range contains the middle 98 % of the values, and
 // is extended at both ends by `margin` times its length, but not beyond the full range.
-FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
+FullAndTypicalRange fullAndTypicalRangeWith(std::span<const float> values, double margin) {
     std::vector<float> found;
     found.reserve(values.size());
     for (const float value : values)
@@ -45,7 +45,7 @@ FullAndTypicalRange rangesWith(std::span<const float> values, double margin) {
 
 }  // namespace
 
-FullAndTypicalRange rangesOf(std::span<const float> values) { return rangesWith(values, 0.1); }
+FullAndTypicalRange fullAndTypicalRange(std::span<const float> values) { return fullAndTypicalRangeWith(values, 0.1); }
 
 const ValueRange& TypicalRangeOnBox::typicalRange() const {
     std::call_once(measured_, [&] {
@@ -57,7 +57,7 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
         std::vector<float> values((count + 1) * kQuasirandomPoints);
         // The step 0 asks for the function itself. However, an array that is too large for memory returns a selection
         // of its samples that is in memory.
-        const ScalarFunction& function = function_->versionForSteps(std::array{glm::dvec4(0)});
+        const ScalarFunction& function = function_->downsampledForSteps(std::array{glm::dvec4(0)});
         UnitCubePoints points;
         for (std::size_t batch = 0; batch <= count; ++batch) {
             writeQuasirandomPoints(batch * kQuasirandomPoints, points);
@@ -75,7 +75,7 @@ const ValueRange& TypicalRangeOnBox::typicalRange() const {
                               std::span(values).subspan(batch * kQuasirandomPoints, kQuasirandomPoints));
         }
         constexpr double kMargin = 0.5;  // large, so that a color scale includes the extreme values if possible
-        range_ = rangesWith(values, kMargin).typical;
+        range_ = fullAndTypicalRangeWith(values, kMargin).typical;
     });
     return range_;
 }

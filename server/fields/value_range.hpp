@@ -37,7 +37,7 @@ struct FullAndTypicalRange {
 
 /// Returns the full and the typical range of the finite numbers in `values`. If no number is finite, both ranges are 0
 /// … 1.
-FullAndTypicalRange rangesOf(std::span<const float> values);
+FullAndTypicalRange fullAndTypicalRange(std::span<const float> values);
 
 /// The range of the values of a function on a box, without outliers. The range is like FullAndTypicalRange::typical,
 /// but extended at both ends by half of its length instead of a tenth. The first call of typicalRange() computes the

@@ -11,7 +11,7 @@ LETTER_COLOUR = (230, 236, 245)
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf"
 
 
-def compose(panels, columns):
+def compose_panels(panels, columns):
     """All panels have the size of the first; they are lettered (a), (b), ... in their upper right corners."""
     width, height = panels[0].size
     rows = math.ceil(len(panels) / columns)
@@ -34,7 +34,7 @@ def main():
     if len(sys.argv) < 4:
         sys.exit(__doc__)
     out, columns, *files = sys.argv[1:]
-    compose([Image.open(file) for file in files], int(columns)).save(out, optimize=True)
+    compose_panels([Image.open(file) for file in files], int(columns)).save(out, optimize=True)
 
 
 if __name__ == "__main__":

@@ -17,7 +17,7 @@ ITERATIONS = 12
 ESCAPED = 1e3
 
 
-def distances(s, x, n):
+def distance_bounds(s, x, n):
     """Returns the bounds for q = s + x i + n j."""
     derivative = numpy.ones(numpy.broadcast(s, x, n).shape, numpy.float32)
     s, x, n = (part.astype(numpy.float32) for part in numpy.broadcast_arrays(s, x, n))
@@ -34,7 +34,7 @@ def distances(s, x, n):
 def main():
     axis = numpy.linspace(-REACH, REACH, SAMPLES)
     squares, place = numpy.unique(numpy.add.outer(axis ** 2, axis ** 2).round(9), return_inverse=True)
-    values = distances(axis[:, None, None], axis[None, :, None], numpy.sqrt(squares)[None, None, :])
+    values = distance_bounds(axis[:, None, None], axis[None, :, None], numpy.sqrt(squares)[None, None, :])
     # The array has the axes t, z, y, x; they are the real part and the factors of i, j and k.
     numpy.save(sys.argv[1], values[:, :, place.reshape(SAMPLES, SAMPLES)].astype(numpy.float32))
 

@@ -25,7 +25,7 @@ namespace {
 constexpr std::size_t kMaxText = 2000;  // the maximum size in bytes of an error or warning
 constexpr std::size_t kMaxWarnings = 100;
 
-enum class OutcomeKind : std::uint8_t {
+enum class ReadOutcomeKind : std::uint8_t {
     object,
     bad_polytope,
     bad_field,
@@ -35,18 +35,20 @@ enum class OutcomeKind : std::uint8_t {
     not_found,
     bad_expression
 };
-constexpr auto kErrors =
-    std::to_array<std::pair<OutcomeKind, ErrorCode>>({{OutcomeKind::bad_polytope, ErrorCode::bad_polytope},
-                                                      {OutcomeKind::bad_field, ErrorCode::bad_field},
-                                                      {OutcomeKind::unsupported_format, ErrorCode::unsupported_format},
-                                                      {OutcomeKind::too_large, ErrorCode::too_large},
-                                                      {OutcomeKind::out_of_range, ErrorCode::out_of_range},
-                                                      {OutcomeKind::not_found, ErrorCode::not_found},
-                                                      {OutcomeKind::bad_expression, ErrorCode::bad_expression}});
+constexpr auto kErrors = std::to_array<std::pair<ReadOutcomeKind, ErrorCode>>(
+    {{ReadOutcomeKind::bad_polytope, ErrorCode::bad_polytope},
+     {ReadOutcomeKind::bad_field, ErrorCode::bad_field},
+     {ReadOutcomeKind::unsupported_format, ErrorCode::unsupported_format},
+     {ReadOutcomeKind::too_large, ErrorCode::too_large},
+     {ReadOutcomeKind::out_of_range, ErrorCode::out_of_range},
+     {ReadOutcomeKind::not_found, ErrorCode::not_found},
+     {ReadOutcomeKind::bad_expression, ErrorCode::bad_expression}});
 
-[[noreturn]] void reject(const std::string& what) { throw std::runtime_error("a reader process sent " + what); }
+[[noreturn]] void throwBadReaderMessage(const std::string& what) {
+    throw std::runtime_error("a reader process sent " + what);
+}
 
-std::string textFrom(ByteReader& archive) {
+std::string readPrintableText(ByteReader& archive) {
     std::string text;
     archive(text);
     return text::printable(text, kMaxText);
@@ -67,7 +69,7 @@ std::size_t sampleBytes(const slicing::Object& object, std::size_t maxInMemory) 
 // Encodes or decodes most members of a request. encodeReadRequest() and decodeReadRequest() share this code, so that
 // they agree on these members.
 template <typename Archive, typename Load, typename Limits>
-void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
+void serializeReadRequest(Archive& archive, Load& load, Limits& limits) {
     archive(load.format), archive(load.name), archive(load.axes), archive(load.variable), archive(load.data);
     archive(load.secondFormula), archive(load.secondVariable), archive(load.center.choice), archive(load.center.place);
     archive(limits.maxVertices), archive(limits.maxHullCells), archive(limits.maxFieldBytes);
@@ -79,15 +81,15 @@ void visitReadRequest(Archive& archive, Load& load, Limits& limits) {
 void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out) {
     out.clear();
     ByteWriter archive(out);
-    visitReadRequest(archive, load, limits);
+    serializeReadRequest(archive, load, limits);
     for (const auto& box : {load.box, load.region}) archive(box.has_value()), archive(box.value_or(fields::Box{}));
-    archive(load.finer.has_value()), archive(load.finer.value_or(session::FinerLevel{}).level);
+    archive(load.finer.has_value()), archive(load.finer.value_or(session::FinerImageLevel{}).level);
     archive(load.series.size()), archive(load.folder != nullptr), archive(mayMap);
 }
 
-void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
+void decodeReadRequest(std::string_view bytes, FileReadRequest& out) {
     ByteReader archive(bytes);
-    visitReadRequest(archive, out.load, out.limits);
+    serializeReadRequest(archive, out.load, out.limits);
     for (std::optional<fields::Box>* const to : {&out.load.box, &out.load.region}) {
         bool hasBox = false;
         fields::Box box;
@@ -97,19 +99,19 @@ void decodeReadRequest(std::string_view bytes, ReadRequest& out) {
     bool isFiner = false;
     std::uint32_t level = 0;
     archive(isFiner), archive(level);
-    if (isFiner) out.load.finer = session::FinerLevel{level, 0};
+    if (isFiner) out.load.finer = session::FinerImageLevel{level, 0};
     archive(out.seriesLength), archive(out.isFolder), archive(out.mayMap);
 }
 
-void encodeFindRequest(const FindRequest& request, std::string& out) {
+void encodeFindRequest(const FolderFileRequest& request, std::string& out) {
     out.clear();
     ByteWriter archive(out);
     archive(request.path), archive(request.part.offset), archive(request.part.size), archive(request.part.fromEnd);
 }
 
-FindRequest decodeFindRequest(std::string_view bytes) {
+FolderFileRequest decodeFindRequest(std::string_view bytes) {
     ByteReader archive(bytes);
-    FindRequest request;
+    FolderFileRequest request;
     archive(request.path), archive(request.part.offset), archive(request.part.size), archive(request.part.fromEnd);
     return request;
 }
@@ -120,13 +122,13 @@ void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::stri
     ByteWriter archive(out);
     if (!outcome) {
         const auto& [code, message] = outcome.error();
-        const auto error = std::ranges::find(kErrors, code, &std::pair<OutcomeKind, ErrorCode>::second);
-        archive(error == kErrors.end() ? OutcomeKind::bad_polytope : error->first), archive(message);
+        const auto error = std::ranges::find(kErrors, code, &std::pair<ReadOutcomeKind, ErrorCode>::second);
+        archive(error == kErrors.end() ? ReadOutcomeKind::bad_polytope : error->first), archive(message);
         return;
     }
     out.reserve(
         sampleBytes(outcome->object, maxInMemory));  // otherwise, a large array would be copied while the string grows
-    archive(OutcomeKind::object);
+    archive(ReadOutcomeKind::object);
     archive(outcome->warnings.size());
     for (const std::string& warning : outcome->warnings) archive(warning);
     slicing::writeObjectContent(outcome->object, archive, files, maxInMemory);
@@ -135,22 +137,22 @@ void encodeOutcome(const Result<session::ObjectWithWarnings>& outcome, std::stri
 Result<session::ObjectWithWarnings> decodeOutcome(std::string_view bytes, const std::string& name,
                                                   const session::Limits& limits, const slicing::MappedFiles& files) {
     ByteReader archive(bytes);
-    OutcomeKind kind{};
+    ReadOutcomeKind kind{};
     archive(kind);
-    const auto error = std::ranges::find(kErrors, kind, &std::pair<OutcomeKind, ErrorCode>::first);
-    if (error != kErrors.end()) return Error{error->second, textFrom(archive)};
-    if (kind != OutcomeKind::object) reject("neither an object nor an error");
+    const auto error = std::ranges::find(kErrors, kind, &std::pair<ReadOutcomeKind, ErrorCode>::first);
+    if (error != kErrors.end()) return Error{error->second, readPrintableText(archive)};
+    if (kind != ReadOutcomeKind::object) throwBadReaderMessage("neither an object nor an error");
 
     std::size_t count = 0;
     archive(count);
-    if (count > kMaxWarnings) reject("too many warnings");
+    if (count > kMaxWarnings) throwBadReaderMessage("too many warnings");
     std::vector<std::string> warnings;
-    while (warnings.size() < count) warnings.push_back(textFrom(archive));
+    while (warnings.size() < count) warnings.push_back(readPrintableText(archive));
     try {
         return session::ObjectWithWarnings{slicing::readObjectContent(archive, name, limits.maxVertices, files),
                                            std::move(warnings)};
     } catch (const std::runtime_error& fault) {
-        reject(fault.what());
+        throwBadReaderMessage(fault.what());
     }
 }
 

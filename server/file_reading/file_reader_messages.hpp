@@ -14,9 +14,9 @@
 namespace oval4d::file_reading {
 
 /// A request to a file reader process to read a file, a series of files, or a folder.
-struct ReadRequest {
+struct FileReadRequest {
     session::LoadObject load;  ///< sent without its open files and folder, `dataName`, `continues` and `append`, and
-                               ///< without FinerLevel::initialLevel
+                               ///< without FinerImageLevel::initialLevel
     std::size_t seriesLength = 0;  ///< the number of files of a series; each descriptor follows in its own
                                    ///< message
     bool isFolder = false;         ///< whether to read a Zarr folder, whose files the process requests from the server
@@ -25,22 +25,22 @@ struct ReadRequest {
     session::Limits limits;        ///< only maxVertices, maxHullCells, maxFieldBytes and maxFirstLevelBytes are sent
 };
 
-/// Encodes a ReadRequest for the file of `load` within `limits`, and writes it to `out`. For `mayMap`, see
-/// ReadRequest::mayMap.
+/// Encodes a FileReadRequest for the file of `load` within `limits`, and writes it to `out`. For `mayMap`, see
+/// FileReadRequest::mayMap.
 void encodeReadRequest(const session::LoadObject& load, const session::Limits& limits, bool mayMap, std::string& out);
 /// Decodes the result of encodeReadRequest() into `out`. Throws std::runtime_error if bytes are missing.
-void decodeReadRequest(std::string_view bytes, ReadRequest& out);
+void decodeReadRequest(std::string_view bytes, FileReadRequest& out);
 
 /// A request of a file reader process for a file of the folder that it reads.
-struct FindRequest {
+struct FolderFileRequest {
     std::string path;       ///< the path of the file, relative to the folder
     fields::FilePart part;  ///< the part of the file that the process needs
 };
-/// Encodes a FindRequest, and writes it to `out`.
-void encodeFindRequest(const FindRequest& request, std::string& out);
+/// Encodes a FolderFileRequest, and writes it to `out`.
+void encodeFindRequest(const FolderFileRequest& request, std::string& out);
 /// Decodes the result of encodeFindRequest(). The bytes need not be trusted: throws std::runtime_error if they are
 /// invalid.
-FindRequest decodeFindRequest(std::string_view bytes);
+FolderFileRequest decodeFindRequest(std::string_view bytes);
 
 /// Encodes the outcome of reading a file: an error, or the warnings and the data from which the object can be rebuilt.
 /// Overwrites `out`. `files` are mapped files, in the order in which the receiver maps them. An array with more than

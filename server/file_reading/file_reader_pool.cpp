@@ -28,7 +28,7 @@ constexpr int kNiceness = 5;
 }  // namespace
 
 FileReaderPool::FileReaderPool(FileReaderOptions options)
-    : options_(std::move(options)), replacing_([this](const std::stop_token& stop) { replaceUsed(stop); }) {}
+    : options_(std::move(options)), replacing_([this](const std::stop_token& stop) { replaceUsedProcesses(stop); }) {}
 
 FileReaderPool::~FileReaderPool() {
     replacing_.request_stop();
@@ -49,7 +49,7 @@ FileReaderPool::ChildProcessPtr FileReaderPool::acquire() {
                                                                 options_.timeout, false, options_.onLoss, kNiceness});
 }
 
-void FileReaderPool::retire(ChildProcessPtr used) {
+void FileReaderPool::retireProcess(ChildProcessPtr used) {
     const std::lock_guard lock(mutex_);
     used_.push_back(std::move(used));
     lastUsed_ = Clock::now();
@@ -59,7 +59,7 @@ void FileReaderPool::retire(ChildProcessPtr used) {
 /// Kills processes that have read a file, and starts a new process in place of each. If no file is read for
 /// FileReaderOptions::idle, kills the waiting processes. Runs on a thread of its own, so that clients do not wait for
 /// new processes.
-void FileReaderPool::replaceUsed(const std::stop_token& stop) {
+void FileReaderPool::replaceUsedProcesses(const std::stop_token& stop) {
     const auto idle = std::chrono::duration_cast<Clock::duration>(options_.idle);
     std::unique_lock lock(mutex_);
     while (!stop.stop_requested()) {
@@ -117,7 +117,7 @@ class FileReadConversation {
             }
             if (answer != MessageType::new_file)
                 throw std::runtime_error("a reader process sent an unexpected message");
-            const int descriptor = makeFile(limit);
+            const int descriptor = createRequestedFile(limit);
             if (refused) break;  // the process will not be used again
             transfer = channel.send(MessageType::file_descriptor, {}, descriptor, limit);
         }
@@ -126,7 +126,7 @@ class FileReadConversation {
 
     // Maps the loaded file and the new files that the process was given, because the samples of large arrays stay in
     // these files. Maps no files if there is no allocate_.
-    Result<slicing::MappedFiles> map() const {
+    Result<slicing::MappedFiles> mapFiles() const {
         slicing::MappedFiles mapped;
         if (!allocate_) return mapped;
         std::vector<std::shared_ptr<const fields::FileHandle>> all = made_;
@@ -139,8 +139,8 @@ class FileReadConversation {
         return mapped;
     }
 
-    // The body of the last message that run() received. It is the body of the `outcome` message if run() has returned
-    // TransferResult::complete and `refused` is empty.
+    // The body of the last message that run() received. `outcome` is the body of the `outcome` message if run() has
+    // returned TransferResult::complete and `refused` is empty.
     std::string outcome;
     std::optional<Error> refused;  // why a new file or a file of the folder could not be given to the process; empty if
                                    // no request failed
@@ -164,7 +164,7 @@ class FileReadConversation {
         return channel.send(MessageType::file_descriptor, {}, descriptor, limit);
     }
 
-    int makeFile(WaitLimit& limit) {
+    int createRequestedFile(WaitLimit& limit) {
         constexpr std::size_t kMaxFiles = 4;  // for each of two arrays, a decompressed and a converted file
         std::size_t bytes = 0;
         if (!allocate_ || outcome.size() != sizeof bytes || made_.size() == kMaxFiles)
@@ -197,7 +197,7 @@ Result<session::ObjectWithWarnings> FileReaderPool::read(const session::LoadObje
         struct Lease {
             FileReaderPool& readers;
             ChildProcessPtr process;
-            ~Lease() { readers.retire(std::move(process)); }
+            ~Lease() { readers.retireProcess(std::move(process)); }
         } const lease{*this, acquire()};
         try {
             lease.process->converseWithRetry(
@@ -206,14 +206,14 @@ Result<session::ObjectWithWarnings> FileReaderPool::read(const session::LoadObje
                 },
                 stop);
         } catch (const process::ProcessLostError& lost) {
-            if (!lost.hung()) throw;
+            if (!lost.hasHung()) throw;
             return Error{ErrorCode::too_large, "reading this file takes longer than " +
                                                    text::shortestDecimal(options_.timeout.count()) +
                                                    " s, the time allowed"};
         }
     }
     if (conversation->refused) return *conversation->refused;
-    const auto mapped = conversation->map();
+    const auto mapped = conversation->mapFiles();
     if (!mapped) return mapped.error();
     return decodeOutcome(conversation->outcome, load.name, limits, *mapped);
 }

@@ -65,17 +65,18 @@ class FileReaderPool {
     using ChildProcessPtr = std::unique_ptr<process::ChildProcess>;
 
     ChildProcessPtr acquire();
-    void retire(ChildProcessPtr used);  // gives a process that has read a file to the thread of replaceUsed()
-    void replaceUsed(const std::stop_token& stop);
+    void retireProcess(
+        ChildProcessPtr used);  // gives a process that has read a file to the thread of replaceUsedProcesses()
+    void replaceUsedProcesses(const std::stop_token& stop);
 
     const FileReaderOptions options_;
     std::mutex mutex_;
     std::condition_variable_any wake_;
     // mutex_ guards the next three members.
     std::vector<ChildProcessPtr> waiting_, used_;  // the processes that wait for a file; the processes that
-                                                   // replaceUsed() must replace
+                                                   // replaceUsedProcesses() must replace
     Clock::time_point lastUsed_;                   // when a process last finished reading a file
-    std::jthread replacing_;  // the thread of replaceUsed(); declared last, because it uses the other members
+    std::jthread replacing_;  // the thread of replaceUsedProcesses(); declared last, because it uses the other members
 };
 
 }  // namespace oval4d::file_reading

@@ -53,12 +53,12 @@ const Error kLost{ErrorCode::bad_field, "the file was shortened, or cannot be re
 // Reads the file, the series or the folder of one request. Requests further files from the server.
 class RequestedObjectReader {
   public:
-    RequestedObjectReader(const Channel& channel, ReadRequest request)
+    RequestedObjectReader(const Channel& channel, FileReadRequest request)
         : channel_(channel), request_(std::move(request)) {}
 
     // Reads the requested object, and writes the encoded outcome to `body`.
-    void run(std::string& body) {
-        auto outcome = object();
+    void readAndEncode(std::string& body) {
+        auto outcome = readRequestedObject();
         if (outcome && std::ranges::any_of(sources_, [](const auto& each) { return each.file && each.file->isLost(); }))
             outcome = kLost;
         encodeOutcome(outcome, body, mapped_,
@@ -66,7 +66,7 @@ class RequestedObjectReader {
     }
 
   private:
-    Result<session::ObjectWithWarnings> object() {
+    Result<session::ObjectWithWarnings> readRequestedObject() {
         const session::LoadObject& load = request_.load;
         if (request_.seriesLength == 0 && !load.file && !request_.isFolder)
             return session::readObject(load, request_.limits);
@@ -97,7 +97,7 @@ class RequestedObjectReader {
     Result<std::shared_ptr<fields::MappedFile>> requestFile(std::size_t bytes) {
         channel_.send(MessageType::new_file, {reinterpret_cast<const char*>(&bytes), sizeof bytes});
         auto file =
-            fields::MappedFile::mapToWrite(std::make_shared<const fields::FileHandle>(receiveDescriptor(channel_)));
+            fields::MappedFile::mapForWriting(std::make_shared<const fields::FileHandle>(receiveDescriptor(channel_)));
         if (file) mapped_.push_back(*file);
         return file;
     }
@@ -106,7 +106,7 @@ class RequestedObjectReader {
     // is no such file. Keeps the last opened file mapped, so that a shard (a file with many chunks) is opened only
     // once.
     Result<std::optional<fields::FileContents>> findFile(const std::string& path, const fields::FilePart& part) {
-        if (lastFile_ && lastPath_ == path) return std::optional(lastFile_->cutTo(part));
+        if (lastFile_ && lastPath_ == path) return std::optional(lastFile_->partialContents(part));
         std::string body;
         encodeFindRequest({path, part}, body);
         channel_.send(MessageType::find_file, body);
@@ -120,11 +120,11 @@ class RequestedObjectReader {
         if (!contents) return Error{contents.error().code, path + ": " + contents.error().message};
         lastPath_ = path;
         lastFile_ = std::move(*contents);
-        return std::optional(lastFile_->cutTo(part));
+        return std::optional(lastFile_->partialContents(part));
     }
 
     const Channel& channel_;
-    const ReadRequest request_;
+    const FileReadRequest request_;
     std::vector<fields::FileContents> sources_;
     slicing::MappedFiles mapped_;  // the mapped files, in the order in which FileReaderPool::read() maps the same files
     std::string lastPath_;         // the path of the file in the folder that was opened last
@@ -135,11 +135,11 @@ class RequestedObjectReader {
 // message. `descriptor` is the open file that came with the message, or kNoFile.
 void replaceByOutcome(const Channel& channel, std::string& body, int descriptor) {
     try {
-        ReadRequest request;
+        FileReadRequest request;
         decodeReadRequest(body, request);
         body = {};
         if (descriptor != Channel::kNoFile) request.load.file = std::make_shared<const fields::FileHandle>(descriptor);
-        RequestedObjectReader(channel, std::move(request)).run(body);
+        RequestedObjectReader(channel, std::move(request)).readAndEncode(body);
         return;
     } catch (const std::bad_alloc&) {
     } catch (const std::length_error&) {

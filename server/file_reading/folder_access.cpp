@@ -8,7 +8,7 @@
 
 namespace oval4d::file_reading {
 
-int openBelow(int folder, const std::string& path) {
+int openFileWithin(int folder, const std::string& path) {
     constexpr int kFlags = O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     int within = dup(folder);
     for (std::size_t begin = 0; within >= 0;) {

@@ -8,6 +8,6 @@ namespace oval4d::file_reading {
 /// folder; `path` is relative to the folder. Returns the descriptor of the file, which the caller must close. Returns
 /// −1 if there is no such file, if a name in `path` is empty, `.` or `..`, or if a file or folder on the path is a
 /// symbolic link.
-int openBelow(int folder, const std::string& path);
+int openFileWithin(int folder, const std::string& path);
 
 }  // namespace oval4d::file_reading

@@ -18,16 +18,16 @@ namespace oval4d::geometry {
 /// Every kind of object with edges is derived from CellComplex, so that slicing, projecting and measuring have one
 /// implementation for all kinds. Indices are 0-based and have 32 bits.
 struct CellComplex : ObjectInfo {
-    std::vector<glm::dvec4> vertices;                 ///< the positions of the vertices, in arbitrary units
-    std::vector<std::array<std::uint32_t, 2>> edges;  ///< pairs of vertices, the smaller index first
-    JaggedArray faces;                                ///< the vertex loop of each 2-face
-    JaggedArray faceEdges;                            ///< the edges of each 2-face: entry i of a row is the edge
-                                                      ///< from corner i to corner i + 1 of the vertex loop
-    JaggedArray cells;                                ///< the 2-faces of each cell; empty if there are no cells
-    std::vector<std::int8_t> cellSigns;               ///< the sign of each entry of cells.items: +1 if the vertex
-                                                      ///< loop of the 2-face is counterclockwise seen from outside
-                                                      ///< the cell, else −1; a 2-face has opposite signs in its two
-                                                      ///< cells
+    std::vector<glm::dvec4> vertices;                     ///< the positions of the vertices, in arbitrary units
+    std::vector<std::array<std::uint32_t, 2>> edges;      ///< pairs of vertices, the smaller index first
+    JaggedArray faces;                                    ///< the vertex loop of each 2-face
+    JaggedArray faceEdges;                                ///< the edges of each 2-face: entry i of a row is the edge
+                                                          ///< from corner i to corner i + 1 of the vertex loop
+    JaggedArray cells;                                    ///< the 2-faces of each cell; empty if there are no cells
+    std::vector<std::int8_t> cellSigns;                   ///< the sign of each entry of cells.items: +1 if the vertex
+                                                          ///< loop of the 2-face is counterclockwise seen from outside
+                                                          ///< the cell, else −1; a 2-face has opposite signs in its two
+                                                          ///< cells
     std::vector<std::array<std::uint32_t, 2>> faceCells;  ///< the two cells of each 2-face: first the cell in which the
                                                           ///< sign of the 2-face is −1; empty if there are no cells
     std::vector<std::uint32_t> typeOfCell;                ///< the type of each cell, an index into `cellTypes`
@@ -40,11 +40,11 @@ void visitStoredMembers(serialization::ReadOrWritten<CellComplex> auto& complex,
     visit.member(2, complex.faces);
     visit.member(3, complex.cells);
     visit.member(4, complex.typeOfCell);
-    visit.computedMember(complex.edges);
-    visit.computedMember(complex.faceEdges);
-    visit.computedMember(complex.cellSigns);
-    visit.computedMember(complex.faceCells);
-    visit.computedMember(complex.convexFaces);
+    visit.recomputableMember(complex.edges);
+    visit.recomputableMember(complex.faceEdges);
+    visit.recomputableMember(complex.cellSigns);
+    visit.recomputableMember(complex.faceCells);
+    visit.recomputableMember(complex.convexFaces);
 }
 
 /// Sets `edges` and `faceEdges`, which must be empty, from the vertex loops of the 2-faces. In each loop, successive

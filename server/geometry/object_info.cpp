@@ -9,7 +9,7 @@ namespace {
 
 // Returns a random integer of 52 bits. A process that counts up from there stays below 2^53, so JSON readers with
 // 64-bit floats read its serial numbers exactly.
-std::uint64_t randomStart() {
+std::uint64_t randomFirstSerial() {
     std::random_device random;
     const std::uint64_t high = random(), low = random();
     return high << 20U | low >> 12U;
@@ -18,7 +18,7 @@ std::uint64_t randomStart() {
 }  // namespace
 
 std::uint64_t nextSerial() {
-    static std::atomic<std::uint64_t> serial{randomStart()};
+    static std::atomic<std::uint64_t> serial{randomFirstSerial()};
     return ++serial;
 }
 

@@ -22,7 +22,7 @@ struct CellType {
 /// The properties that 4-D objects of all kinds (see slicing::Object) have.
 struct ObjectInfo {
     /// The range of the coordinates of vertices, points and origins in stored objects.
-    static constexpr Range kStoredCoordinates = Range::absoluteUpTo(1e15);
+    static constexpr NumberRange kStoredCoordinates = NumberRange::ofAbsoluteValuesUpTo(1e15);
 
     std::string name;
     std::uint64_t serial = 0;    ///< unique among the objects of all processes; the key of an object in caches
@@ -40,13 +40,13 @@ void visitStoredMembers(serialization::ReadOrWritten<ObjectInfo> auto& info, aut
     auto& [name, serial, circumradius, originInFile, convex, rebuildableFromName, cellTypes] = info;
     visit.member(0, name);
     visit.member(1, originInFile, ObjectInfo::kStoredCoordinates);
-    visit.computedMember(serial);
-    visit.computedMember(circumradius);
-    visit.computedMember(convex);
+    visit.recomputableMember(serial);
+    visit.recomputableMember(circumradius);
+    visit.recomputableMember(convex);
     // This member is not stored. It is false if the other members are stored: an object that is rebuildable from its
     // name is stored as its name alone.
-    visit.computedMember(rebuildableFromName);
-    visit.computedMember(cellTypes);
+    visit.recomputableMember(rebuildableFromName);
+    visit.recomputableMember(cellTypes);
 }
 
 /// Returns a new value for ObjectInfo::serial, from 1 to 2^53 − 1. A process starts at a random integer and counts

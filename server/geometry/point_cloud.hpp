@@ -25,7 +25,7 @@ static_assert(serialization::HasOwnMembers<PointCloud, ObjectInfo, 2>, "visitSto
 void visitStoredMembers(serialization::ReadOrWritten<PointCloud> auto& cloud, auto& visit) {
     visit.member(0, serialization::asBase<ObjectInfo>(cloud));
     visit.member(1, cloud.points, ObjectInfo::kStoredCoordinates);
-    visit.member(2, cloud.radii, Range{0, ObjectInfo::kStoredCoordinates.most});
+    visit.member(2, cloud.radii, NumberRange{0, ObjectInfo::kStoredCoordinates.most});
 }
 
 /// Makes a cloud from points and the radius of each point's ball (see PointCloud::radii). Throws std::invalid_argument

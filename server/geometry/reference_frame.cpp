@@ -9,7 +9,7 @@ namespace oval4d::geometry {
 
 namespace {
 
-glm::dmat4 scalingOfTime(double factor) {
+glm::dmat4 timeScalingMatrix(double factor) {
     glm::dmat4 matrix(1);
     matrix[3][3] = factor;
     return matrix;
@@ -36,11 +36,11 @@ glm::dmat4 lorentzBoost(const glm::dvec3& velocity) {
 }
 
 glm::dmat4 ReferenceFrame::matrix() const {
-    return lorentzBoost(boost) * scalingOfTime(pace) * galileanTransformation(follow);
+    return lorentzBoost(boost) * timeScalingMatrix(pace) * galileanTransformation(follow);
 }
 
 glm::dmat4 ReferenceFrame::inverse() const {
-    return galileanTransformation(-follow) * scalingOfTime(1 / pace) * lorentzBoost(-boost);
+    return galileanTransformation(-follow) * timeScalingMatrix(1 / pace) * lorentzBoost(-boost);
 }
 
 double mapPoints(const glm::dmat4& map, std::vector<glm::dvec4>& points) {

@@ -27,9 +27,9 @@ glm::dmat4 lorentzBoost(const glm::dvec3& velocity);
 /// time into `pace` units of length; and the Lorentz boost with the velocity `boost`. The default frame maps every
 /// point to itself.
 struct ReferenceFrame {
-    static constexpr Range kPaceRange{1e-3, 1e3};
-    static constexpr Range kFollowRange{-1000, 1000};  ///< the range of each component of `follow`
-    static constexpr double kMaxBoost = 0.999;         ///< the greatest length of `boost`
+    static constexpr NumberRange kPaceRange{1e-3, 1e3};
+    static constexpr NumberRange kFollowRange{-1000, 1000};  ///< the range of each component of `follow`
+    static constexpr double kMaxBoost = 0.999;               ///< the greatest length of `boost`
 
     double pace = 1;
     glm::dvec3 follow{0};  ///< the velocity of objects that this frame shows at rest, in units of x, y and z per unit
@@ -47,7 +47,7 @@ void visitStoredMembers(serialization::ReadOrWritten<ReferenceFrame> auto& frame
     auto& [pace, follow, boost] = frame;
     visit.member(0, pace, ReferenceFrame::kPaceRange);
     visit.member(1, follow, ReferenceFrame::kFollowRange);
-    visit.member(2, boost, Range::absoluteUpTo(ReferenceFrame::kMaxBoost));
+    visit.member(2, boost, NumberRange::ofAbsoluteValuesUpTo(ReferenceFrame::kMaxBoost));
 }
 
 /// Replaces each point p by map · p. Returns the largest distance of a new point from the origin.

@@ -15,8 +15,8 @@ glm::dquat asQuaternion(const glm::dvec4& v) { return {v.w, v.x, v.y, v.z}; }
 glm::dvec4 asVector(const glm::dquat& q) { return {q.x, q.y, q.z, q.w}; }
 
 // A pair of perpendicular planes: one without the w axis, and one with it. kPairs has one pair for each of the
-// imaginary units i, j and k, in this order; Rotation(Turn) shows which. The `sign` of the pair xz, yw is −1: a
-// rotation in xz turns x toward z, but multiplication by j turns z (k) toward x (i), by the cycle i → j → k → i.
+// imaginary units i, j and k, in this order; Rotation(RotationAngles) shows which. The `sign` of the pair xz, yw is −1:
+// a rotation in xz turns x toward z, but multiplication by j turns z (k) toward x (i), by the cycle i → j → k → i.
 struct PlanePair {
     Plane spatial, withW;
     double sign;
@@ -60,12 +60,12 @@ std::optional<Plane> planeNamed(std::string_view text) {
     return std::nullopt;
 }
 
-Turn::Turn(Plane plane, double alpha, std::optional<double> beta) {
+RotationAngles::RotationAngles(Plane plane, double alpha, std::optional<double> beta) {
     (*this)[plane] = alpha;
-    (*this)[perpendicular(plane)] = beta;
+    (*this)[orthogonalComplement(plane)] = beta;
 }
 
-std::vector<Plane> Turn::planes() const {
+std::vector<Plane> RotationAngles::planes() const {
     std::vector<Plane> named;
     for (const Plane plane : kPlanes) {
         if ((*this)[plane]) named.push_back(plane);
@@ -73,18 +73,18 @@ std::vector<Plane> Turn::planes() const {
     return named;
 }
 
-Turn Turn::inverse() const { return scaled(-1); }
+RotationAngles RotationAngles::inverse() const { return scaled(-1); }
 
-Turn Turn::scaled(double factor) const {
-    Turn result = *this;
+RotationAngles RotationAngles::scaled(double factor) const {
+    RotationAngles result = *this;
     for (auto& angle : result.angles_) {
         if (angle) *angle *= factor;
     }
     return result;
 }
 
-Turn operator+(const Turn& a, const Turn& b) {
-    Turn sum = a;
+RotationAngles operator+(const RotationAngles& a, const RotationAngles& b) {
+    RotationAngles sum = a;
     for (const Plane plane : b.planes()) sum[plane] = a[plane].value_or(0) + *b[plane];
     return sum;
 }
@@ -97,11 +97,11 @@ Rotation::Rotation(const glm::dquat& left, const glm::dquat& right)
 // rotates the plane of the other two units by −θ, and the plane (w, u) by θ.
 //
 // A rotation by A in the plane of the other two units (from i toward j, from j toward k, or from k toward i) and by B
-// from u toward w is the product of both. It has θ = (A − B) / 2 on the left and θ = −(A + B) / 2 on the right.
-// Multiplications from the left commute with those from the right. Therefore the rotation of the whole turn is v ↦
-// l·v·r. The logarithm of l is the sum of u θ over the three units u, with the θ on the left; the logarithm of r is
+// from u toward w is the product of both multiplications, with θ = (A − B) / 2 on the left and θ = −(A + B) / 2 on the
+// right. Multiplications from the left commute with those from the right. Therefore the rotation of the whole turn is v
+// ↦ l·v·r. The logarithm of l is the sum of u θ over the three units u, with the θ on the left; the logarithm of r is
 // this sum with the θ on the right.
-Rotation::Rotation(const Turn& turn) {
+Rotation::Rotation(const RotationAngles& turn) {
     glm::dvec3 left(0), right(0);
     for (int u = 0; u < 3; ++u) {
         const PlanePair& pair = kPairs.at(static_cast<std::size_t>(u));
@@ -113,12 +113,12 @@ Rotation::Rotation(const Turn& turn) {
     right_ = exponential(right);
 }
 
-Turn Rotation::turn() const {
+RotationAngles Rotation::turn() const {
     // The pair (−l, −r) is the same rotation as (l, r); `sign` is −1 if it gives smaller angles.
     const double sign = left_.w + right_.w < 0 ? -1 : 1;
     const glm::dvec3 left = logarithm(sign * left_), right = logarithm(sign * right_);
     constexpr double kRounding = 1e-12;
-    Turn result;
+    RotationAngles result;
     const auto set = [&](Plane plane, double angle) {
         if (std::abs(angle) > kRounding) result[plane] = angle;
     };

@@ -21,7 +21,7 @@ enum class Plane : std::uint8_t { xy = 0, xz = 1, xw = 2, yz = 3, yw = 4, zw = 5
 inline constexpr std::array<Plane, 6> kPlanes{Plane::xy, Plane::xz, Plane::xw, Plane::yz, Plane::yw, Plane::zw};
 
 /// Returns the plane of the two axes that are not in `plane`. The pairs are xy and zw, xz and yw, xw and yz.
-constexpr Plane perpendicular(Plane plane) { return static_cast<Plane>(5 - static_cast<int>(plane)); }
+constexpr Plane orthogonalComplement(Plane plane) { return static_cast<Plane>(5 - static_cast<int>(plane)); }
 
 /// Returns the name of a plane, from "xy" to "zw".
 std::string_view name(Plane plane);
@@ -33,13 +33,13 @@ std::optional<Plane> planeNamed(std::string_view text);
 /// the same time. It is exp(Σ θ_ab G_ab), where θ_ab is the angle in the plane ab, and G_ab is the matrix for which
 /// exp(θ G_ab) is the simple rotation R_ab(θ). Angles in two perpendicular planes give a double rotation. Angles in
 /// planes that share an axis give a rotation in oblique planes.
-class Turn {
+class RotationAngles {
   public:
     /// Makes a turn without a rotation: no plane has an angle.
-    Turn() = default;
+    RotationAngles() = default;
     /// Makes the simple rotation in `plane` by alpha or, if beta is given, the double rotation that also turns by beta
     /// in the perpendicular plane. The angles are in radians.
-    Turn(Plane plane, double alpha, std::optional<double> beta = {});
+    RotationAngles(Plane plane, double alpha, std::optional<double> beta = {});
 
     /// Returns the angle in a plane, in radians. Returns an empty optional if the turn has no angle in this plane.
     const std::optional<double>& operator[](Plane plane) const { return angles_[static_cast<std::size_t>(plane)]; }
@@ -48,13 +48,13 @@ class Turn {
     /// Returns the planes that have an angle, in the order of kPlanes.
     std::vector<Plane> planes() const;
     /// Returns the turn that undoes this one.
-    Turn inverse() const;
+    RotationAngles inverse() const;
     /// Returns the turn with all angles multiplied by `factor`.
-    Turn scaled(double factor) const;
+    RotationAngles scaled(double factor) const;
     /// Returns the turn whose angle in each plane is the sum of the angles of a and b. In general, the sum is not the
     /// composition of the rotations a and b.
-    friend Turn operator+(const Turn& a, const Turn& b);
-    bool operator==(const Turn&) const = default;
+    friend RotationAngles operator+(const RotationAngles& a, const RotationAngles& b);
+    bool operator==(const RotationAngles&) const = default;
 
   private:
     std::array<std::optional<double>, kPlanes.size()> angles_;
@@ -70,7 +70,7 @@ class Rotation {
     /// Makes the rotation v ↦ left·v·right. Normalizes both quaternions, which must not be 0.
     Rotation(const glm::dquat& left, const glm::dquat& right);
     /// Makes the rotation exp(Σ θ_ab G_ab) of a turn.
-    explicit Rotation(const Turn& turn);
+    explicit Rotation(const RotationAngles& turn);
 
     /// Returns the rotation with the matrix M (v' = M v), or an empty optional if M is not a rotation matrix. M counts
     /// as a rotation matrix if each of its entries differs by at most `tolerance` from the corresponding entry of the
@@ -98,14 +98,14 @@ class Rotation {
     /// Returns the turn with the smallest angles that gives this rotation. The turn has no angle in planes where the
     /// angle is 0 except for rounding errors, so the turn of the identity has no angles. For the rotation v ↦ −v,
     /// returns one of several turns.
-    Turn turn() const;
+    RotationAngles turn() const;
     /// Returns the image of v.
     glm::dvec4 operator()(const glm::dvec4& v) const;
     /// Returns the matrix M of this rotation, with v' = M v.
     glm::dmat4 matrix() const;
 
-    const glm::dquat& left() const { return left_; }
-    const glm::dquat& right() const { return right_; }
+    const glm::dquat& leftQuaternion() const { return left_; }
+    const glm::dquat& rightQuaternion() const { return right_; }
     bool operator==(const Rotation& other) const = default;
 
     /// Returns the composition: rotates by `first`, then by `second`. Normalizes the quaternions of the result, so that

@@ -26,7 +26,7 @@ constexpr std::uint32_t kLevelBuffer = ISAL_DEF_LVL1_DEFAULT;
 // In bytes before compression; for less data, two cores are not faster than one.
 constexpr std::size_t kLarge = 1'000'000;
 
-void store32(std::uint8_t* at, std::uint32_t value) {
+void writeBigEndian32(std::uint8_t* at, std::uint32_t value) {
     for (int i = 0; i < 4; ++i) at[i] = static_cast<std::uint8_t>(value >> (24 - 8 * i));
 }
 
@@ -47,10 +47,10 @@ std::size_t beginChunk(Bytes& out, const char* type) {
 
 void endChunk(Bytes& out, std::size_t start) {
     const std::size_t length = out.size() - start - 8;
-    store32(out.data() + start, static_cast<std::uint32_t>(length));
+    writeBigEndian32(out.data() + start, static_cast<std::uint32_t>(length));
     const std::uint32_t crc = crc32_gzip_refl(0, out.data() + start + 4, length + 4);
     out.resize(out.size() + 4);
-    store32(out.data() + out.size() - 4, crc);
+    writeBigEndian32(out.data() + out.size() - 4, crc);
 }
 
 /// Compresses `in` as one piece of a deflate stream, and appends the piece to `out`. `last` says whether this piece is
@@ -91,7 +91,7 @@ std::uint32_t combinedAdler32(std::uint32_t first, std::uint32_t second, std::si
 
 }  // namespace
 
-void PngEncoder::encode(const ImageView& image, int from, int to, Band& band) {
+void PngEncoder::encode(const ImageView& image, int from, int to, ImageBand& band) {
     makeFilteredRows(image, from, to, band.filtered);
     band.checksum = isal_adler32(1, band.filtered.data(), band.filtered.size());
     band.chunk.clear();
@@ -125,8 +125,8 @@ void PngEncoder::encode(const ImageView& image, std::string_view state, std::vec
     std::size_t chunk = beginChunk(out, "IHDR");
     const std::uint8_t colorType = image.hasAlpha ? 6 : 2;  // the PNG color type: RGBA (6) or RGB (2)
     std::uint8_t header[13] = {0, 0, 0, 0, 0, 0, 0, 0, 8, colorType, 0, 0, 0};  // 8 bits per channel, not interlaced
-    store32(header, static_cast<std::uint32_t>(image.width));
-    store32(header + 4, static_cast<std::uint32_t>(image.height));
+    writeBigEndian32(header, static_cast<std::uint32_t>(image.width));
+    writeBigEndian32(header + 4, static_cast<std::uint32_t>(image.height));
     append(out, header, sizeof header);
     endChunk(out, chunk);
 
@@ -143,7 +143,7 @@ void PngEncoder::encode(const ImageView& image, std::string_view state, std::vec
     }
     chunk = beginChunk(out, "IDAT");
     out.resize(out.size() + 4);
-    store32(out.data() + out.size() - 4, checksum);
+    writeBigEndian32(out.data() + out.size() - 4, checksum);
     endChunk(out, chunk);
 
     chunk = beginChunk(out, "IEND");

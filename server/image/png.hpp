@@ -30,15 +30,15 @@ class PngEncoder {
   private:
     // The upper or the lower part of an image, or a whole small image. `filtered` has its filtered rows, `levelBuffer`
     // is a work buffer of the compressor, and `chunk` is the IDAT chunk that encodes the rows.
-    struct Band {
+    struct ImageBand {
         std::vector<std::uint8_t> filtered, levelBuffer, chunk;
         std::uint32_t checksum = 0;  // the Adler-32 checksum of `filtered`
     };
     // Encodes the rows `from` … `to` − 1 of `image` in `band`. Rows are counted from the top of the image.
-    static void encode(const ImageView& image, int from, int to, Band& band);
+    static void encode(const ImageView& image, int from, int to, ImageBand& band);
 
     parallel::ForkJoin* forkJoin_;
-    std::array<Band, 2> bands_;
+    std::array<ImageBand, 2> bands_;
 };
 
 }  // namespace oval4d::image

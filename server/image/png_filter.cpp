@@ -84,7 +84,7 @@ void subtractPaeth(const std::uint8_t* row, const std::uint8_t* above, std::uint
 #endif
 
 /// Returns the RGBA pixels of row y of an image, where row 0 is the top of the image.
-const std::uint8_t* rowOf(const image::ImageView& image, int y) {
+const std::uint8_t* pixelRow(const image::ImageView& image, int y) {
     return image.pixels.data() +
            static_cast<std::size_t>(image.height - 1 - y) * static_cast<std::size_t>(image.width) * 4;
 }
@@ -107,10 +107,10 @@ void makeFilteredAlphaRows(const image::ImageView& image, int from, int to, std:
     const std::size_t bytes = 4 * static_cast<std::size_t>(image.width);
     out.resize((bytes + 1) * static_cast<std::size_t>(to - from));
     std::vector<std::uint8_t> row(bytes), above(bytes);
-    if (from > 0) divideByAlpha(rowOf(image, from - 1), above);
+    if (from > 0) divideByAlpha(pixelRow(image, from - 1), above);
     std::uint8_t* at = out.data();
     for (int y = from; y < to; ++y) {
-        divideByAlpha(rowOf(image, y), row);
+        divideByAlpha(pixelRow(image, y), row);
         *at++ = y == 0 ? kSub : kPaeth;
         for (std::size_t i = 0; i < bytes; ++i) {
             // In row 0, the row above counts as zeros. Then the filter Paeth predicts the left neighbor, as the filter
@@ -133,7 +133,7 @@ void makeFilteredRows(const image::ImageView& image, int from, int to, std::vect
     out.resize((3 * width + 1) * static_cast<std::size_t>(to - from));
     std::uint8_t* at = out.data();
     for (int y = from; y < to; ++y, at += 3 * width + 1) {
-        const std::uint8_t* row = rowOf(image, y);
+        const std::uint8_t* row = pixelRow(image, y);
         const std::uint8_t* above = row + width * 4;
         at[0] = y == 0 ? kSub : kPaeth;
         // The first pixel has no left neighbor, so Paeth predicts the upper neighbor.

@@ -12,7 +12,7 @@ constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n", 8);
 // "not compressed". The compression method, a language tag and a translated keyword follow.
 constexpr std::string_view kKeyword("oval4d\0\0", 8);
 
-std::uint32_t load32(std::string_view bytes) {
+std::uint32_t readBigEndian32(std::string_view bytes) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes[i]);
     return value;
@@ -28,7 +28,7 @@ std::optional<std::string_view> stateTextIn(std::string_view file) {
     // The number of bytes of a chunk that are not data: its length, type and checksum.
     constexpr std::size_t kAround = 12;
     while (file.size() >= kAround) {
-        const std::size_t length = load32(file);
+        const std::size_t length = readBigEndian32(file);
         if (length > file.size() - kAround) return {};
         std::string_view data = file.substr(8, length);
         if (file.substr(4, 4) == "iTXt" && data.starts_with(kKeyword)) {

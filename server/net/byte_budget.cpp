@@ -16,7 +16,7 @@ ByteBudget::Reservation& ByteBudget::Reservation::operator=(Reservation&& other)
 ByteBudget::Reservation::~Reservation() { forceResize(0); }
 
 void ByteBudget::Reservation::forceResize(std::size_t bytes) {
-    if (account_) account_->change(std::exchange(size_, bytes), bytes);
+    if (account_) account_->adjustHeld(std::exchange(size_, bytes), bytes);
 }
 
 bool ByteBudget::Reservation::growTo(std::size_t bytes) {
@@ -39,22 +39,22 @@ std::optional<ByteBudget::Reservation> ByteBudget::Account::reserve(std::size_t 
 }
 
 ByteBudget::Reservation ByteBudget::Account::forceReserve(std::size_t bytes) {
-    change(0, bytes);
+    adjustHeld(0, bytes);
     return {shared_from_this(), bytes};
 }
 
-std::size_t ByteBudget::Account::held() const {
+std::size_t ByteBudget::Account::heldBytes() const {
     const std::lock_guard lock(budget_.mutex_);
     return held_;
 }
 
-void ByteBudget::Account::change(std::size_t from, std::size_t to) {
+void ByteBudget::Account::adjustHeld(std::size_t from, std::size_t to) {
     const std::lock_guard lock(budget_.mutex_);
     held_ += to - from;
     budget_.held_ += to - from;
 }
 
-std::size_t ByteBudget::held() const {
+std::size_t ByteBudget::heldBytes() const {
     const std::lock_guard lock(mutex_);
     return held_;
 }

@@ -56,11 +56,11 @@ class ByteBudget {
         /// Reserves `bytes` bytes without checking the limits. Meant for data that the server cannot refuse.
         Reservation forceReserve(std::size_t bytes);
         /// Returns the number of bytes now reserved on this account.
-        std::size_t held() const;
+        std::size_t heldBytes() const;
 
       private:
         friend Reservation;
-        void change(std::size_t from, std::size_t to);
+        void adjustHeld(std::size_t from, std::size_t to);
 
         ByteBudget& budget_;
         const std::size_t limit_;
@@ -71,7 +71,7 @@ class ByteBudget {
     explicit ByteBudget(std::size_t total) : total_(total) {}
 
     /// Returns the number of bytes now reserved on all accounts.
-    std::size_t held() const;
+    std::size_t heldBytes() const;
 
   private:
     const std::size_t total_;

@@ -19,7 +19,7 @@ using asio::ip::address_v6;
 namespace {
 
 constexpr double kMinute = 60;
-constexpr std::size_t kFirstSweep = 256;     // forgetIdle() is first called at this number of clients
+constexpr std::size_t kFirstSweep = 256;     // forgetIdleClients() is first called at this number of clients
 constexpr std::size_t kMaxClients = 65'536;  // clients with an account of their own; further clients share one account
 constexpr unsigned kBits = 128, kMappedBits = 96;
 
@@ -29,7 +29,7 @@ address_v6 asIPv6(const address& any) {
 
 /// Returns the name of the client at an address. The name is the address for IPv4 and IPv4-mapped IPv6 addresses and
 /// for ::1. For any other IPv6 address, the name is the /64 network of the address.
-std::string nameOf(const address& any) {
+std::string clientNameOf(const address& any) {
     if (any.is_v4()) return any.to_string();
     address_v6 whole = any.to_v6();
     if (whole.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, whole).to_string();
@@ -41,7 +41,7 @@ std::string nameOf(const address& any) {
 
 }  // namespace
 
-AddressAccount::AddressAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now)
+ClientAccount::ClientAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now)
     : name_(std::move(name)),
       bytes_(std::make_shared<ByteBudget::Account>(budget, limits.bytes)),
       newSessions_(limits.newSessionsPerMinute / kMinute, limits.newSessionsPerMinute, now),
@@ -50,39 +50,39 @@ AddressAccount::AddressAccount(std::string name, const ClientLimits& limits, Byt
       messageBytes_(static_cast<double>(limits.messageBytesPerSecond),
                     static_cast<double>(limits.messageBytesPerSecond), now) {}
 
-bool AddressAccount::admitNewSession(Clock::time_point now) {
+bool ClientAccount::admitNewSession(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
-    if (newSessions_.level(now) < 1) return false;
+    if (newSessions_.tokensAt(now) < 1) return false;
     newSessions_.take(1, now);
     return true;
 }
 
-void AddressAccount::countWrongToken(Clock::time_point now) {
+void ClientAccount::countWrongToken(Clock::time_point now) {
     const std::lock_guard lock(mutex_);
-    if (wrongTokens_.level(now) > 0) wrongTokens_.take(1, now);
+    if (wrongTokens_.tokensAt(now) > 0) wrongTokens_.take(1, now);
 }
 
-bool AddressAccount::mayTryToken(Clock::time_point now) const {
+bool ClientAccount::mayTryToken(Clock::time_point now) const {
     const std::lock_guard lock(mutex_);
-    return wrongTokens_.level(now) >= 1;
+    return wrongTokens_.tokensAt(now) >= 1;
 }
 
-std::chrono::duration<double> AddressAccount::countMessage(std::size_t bytes, Clock::time_point now) {
+std::chrono::duration<double> ClientAccount::countMessage(std::size_t bytes, Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     requests_.take(1, now);
     messageBytes_.take(static_cast<double>(bytes), now);
     return std::max(requests_.timeUntilRepaid(now), messageBytes_.timeUntilRepaid(now));
 }
 
-std::chrono::duration<double> AddressAccount::countBytes(std::size_t bytes, Clock::time_point now) {
+std::chrono::duration<double> ClientAccount::countBytes(std::size_t bytes, Clock::time_point now) {
     const std::lock_guard lock(mutex_);
     messageBytes_.take(static_cast<double>(bytes), now);
     return messageBytes_.timeUntilRepaid(now);
 }
 
-bool AddressAccount::hasRecoveredRateLimits(Clock::time_point now) const {
+bool ClientAccount::hasRecoveredRateLimits(Clock::time_point now) const {
     const std::lock_guard lock(mutex_);
-    return newSessions_.full(now) && wrongTokens_.full(now) && requests_.full(now) && messageBytes_.full(now);
+    return newSessions_.isFull(now) && wrongTokens_.isFull(now) && requests_.isFull(now) && messageBytes_.isFull(now);
 }
 
 IpNetwork::IpNetwork(const std::string& text) {
@@ -112,31 +112,32 @@ bool IpNetwork::contains(const address& any) const {
     return true;
 }
 
-Clients::Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes)
+ClientAccounts::ClientAccounts(const ClientLimits& limits, const std::vector<std::string>& trustedProxies,
+                               std::size_t bytes)
     : limits_(limits), trusted_(trustedProxies.begin(), trustedProxies.end()), budget_(bytes), sweepAt_(kFirstSweep) {}
 
-AddressAccountPtr Clients::findOrCreate(const address& any, TokenBucket::Clock::time_point now) {
+ClientAccountPtr ClientAccounts::findOrCreate(const address& any, TokenBucket::Clock::time_point now) {
     const std::lock_guard lock(mutex_);
-    std::string name = nameOf(any);
-    if (clients_.size() >= sweepAt_ && !clients_.contains(name)) forgetIdle(now);
+    std::string name = clientNameOf(any);
+    if (clients_.size() >= sweepAt_ && !clients_.contains(name)) forgetIdleClients(now);
     if (clients_.size() >= kMaxClients && !clients_.contains(name)) name = "others";
-    AddressAccountPtr& client = clients_[name];
-    if (!client) client = std::make_shared<AddressAccount>(name, limits_, budget_, now);
+    ClientAccountPtr& client = clients_[name];
+    if (!client) client = std::make_shared<ClientAccount>(name, limits_, budget_, now);
     return client;
 }
 
-void Clients::forgetIdle(TokenBucket::Clock::time_point now) {
+void ClientAccounts::forgetIdleClients(TokenBucket::Clock::time_point now) {
     std::erase_if(clients_, [now](const auto& entry) {
         return entry.second.use_count() == 1 && entry.second->hasRecoveredRateLimits(now);
     });
     sweepAt_ = std::min(std::max(kFirstSweep, 2 * clients_.size()), kMaxClients);
 }
 
-bool Clients::isTrustedProxy(const address& any) const {
+bool ClientAccounts::isTrustedProxy(const address& any) const {
     return std::ranges::any_of(trusted_, [&](const IpNetwork& network) { return network.contains(any); });
 }
 
-address Clients::clientAddress(std::string_view forwardedFor, const address& proxy) const {
+address ClientAccounts::clientAddress(std::string_view forwardedFor, const address& proxy) const {
     address nearest = proxy;
     while (!forwardedFor.empty() && isTrustedProxy(nearest)) {
         const std::size_t comma = forwardedFor.rfind(',');
@@ -156,7 +157,7 @@ address Clients::clientAddress(std::string_view forwardedFor, const address& pro
     return nearest;
 }
 
-std::size_t Clients::size() const {
+std::size_t ClientAccounts::size() const {
     const std::lock_guard lock(mutex_);
     return clients_.size();
 }

@@ -34,11 +34,11 @@ struct ClientLimits {
 /// client (ByteBudget::Account), and the client's job queues in the worker pools (see parallel::FairQueue). A client is
 /// everybody at one IPv4 address or in one IPv6 /64 network, the size that providers assign to one customer. Every
 /// function may be called from any thread.
-class AddressAccount {
+class ClientAccount {
   public:
     using Clock = TokenBucket::Clock;
 
-    AddressAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now);
+    ClientAccount(std::string name, const ClientLimits& limits, ByteBudget& budget, Clock::time_point now);
 
     /// Returns the client's address or network, such as "192.0.2.7" or "2001:db8:1:2::/64".
     const std::string& name() const { return name_; }
@@ -95,7 +95,7 @@ class AddressAccount {
     mutable std::mutex mutex_;
     TokenBucket newSessions_, wrongTokens_, requests_, messageBytes_;  // guarded by mutex_
 };
-using AddressAccountPtr = std::shared_ptr<AddressAccount>;
+using ClientAccountPtr = std::shared_ptr<ClientAccount>;
 
 /// An IP network in CIDR notation such as "10.0.0.0/8", or a single address such as "::1".
 class IpNetwork {
@@ -111,16 +111,16 @@ class IpNetwork {
 };
 
 /// The accounts of all known clients, by address. Every function may be called from any thread.
-class Clients {
+class ClientAccounts {
   public:
     /// `trustedProxies` are the networks (see IpNetwork) of proxies whose header X-Forwarded-For is trusted. `bytes` is
     /// the maximum number of bytes held for all clients together (ByteBudget).
-    Clients(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
+    ClientAccounts(const ClientLimits& limits, const std::vector<std::string>& trustedProxies, std::size_t bytes);
 
     /// Returns the account of the client at this address. Creates an account for an unknown client. Once 65,536 clients
     /// are known, all unknown clients share one account, "others". A new account counts its rate limits from the time
     /// `now`.
-    AddressAccountPtr findOrCreate(const boost::asio::ip::address& any, TokenBucket::Clock::time_point now);
+    ClientAccountPtr findOrCreate(const boost::asio::ip::address& any, TokenBucket::Clock::time_point now);
 
     bool isTrustedProxy(const boost::asio::ip::address& any) const;
 
@@ -132,21 +132,21 @@ class Clients {
     boost::asio::ip::address clientAddress(std::string_view forwardedFor, const boost::asio::ip::address& proxy) const;
 
     /// Returns the number of bytes held for all clients together.
-    std::size_t bytesHeld() const { return budget_.held(); }
-    /// Returns the number of known clients. A client is known until forgetIdle() deletes its account.
+    std::size_t bytesHeld() const { return budget_.heldBytes(); }
+    /// Returns the number of known clients. A client is known until forgetIdleClients() deletes its account.
     std::size_t size() const;
 
   private:
     /// Deletes the accounts to which nothing else refers and whose rate limits have fully recovered.
-    void forgetIdle(TokenBucket::Clock::time_point now);
+    void forgetIdleClients(TokenBucket::Clock::time_point now);
 
     const ClientLimits limits_;
     std::vector<IpNetwork> trusted_;
     mutable std::atomic<bool> warnedOfForwarded_ = false;
     ByteBudget budget_;
     mutable std::mutex mutex_;
-    std::map<std::string, AddressAccountPtr, std::less<>> clients_;  // guarded by mutex_
-    std::size_t sweepAt_;  // forgetIdle() is called at this number of clients; guarded by mutex_
+    std::map<std::string, ClientAccountPtr, std::less<>> clients_;  // guarded by mutex_
+    std::size_t sweepAt_;  // forgetIdleClients() is called at this number of clients; guarded by mutex_
 };
 
 }  // namespace oval4d::net

@@ -13,7 +13,7 @@ constexpr std::size_t kOwnFiles = 16;
 /// Returns the memory limit of a rasterizer process (draws pictures outside the server), in bytes. If
 /// `options.drawMemory` is 0, the limit is an upper bound of what pictures within the other limits need. Most of that
 /// memory is never touched.
-std::size_t drawMemory(const ServerOptions& options) {
+std::size_t rasterizerMemoryLimit(const ServerOptions& options) {
     if (options.drawMemory > 0) return options.drawMemory;
     // All are in bytes. kOwn is for llvmpipe (the software renderer) and the C library, with a heap for each thread.
     // kEachPixel covers sixteen buffers of four bytes. kEachSliceEdge covers an edge of the slices and the shapes that
@@ -36,14 +36,15 @@ std::vector<std::string> childEnvironment(const ServerOptions& options, std::siz
     if (!sandboxed && options.sandbox == SandboxMode::automatic)
         warning = "the rasterizer and file reader processes are not in a sandbox reason=\"" + why + "\"";
     return {std::string("OVAL4D_SANDBOX=") + (sandboxed ? "required" : "off"),
-            "OVAL4D_DRAW_MEMORY=" + std::to_string(drawMemory(options)),
+            "OVAL4D_DRAW_MEMORY=" + std::to_string(rasterizerMemoryLimit(options)),
             "OVAL4D_LOAD_MEMORY=" + std::to_string(options.loadMemory), "OVAL4D_WORKERS=" + std::to_string(workers)};
 }
 
 process::Confinement rasterizerConfinement(const ServerOptions& options) {
     // Besides kOwnFiles, a rasterizer process needs one descriptor for each worker: the shared memory for the worker's
     // pictures.
-    return {filtersSystemCalls(options), drawMemory(options), kOwnFiles + static_cast<std::size_t>(options.workers)};
+    return {filtersSystemCalls(options), rasterizerMemoryLimit(options),
+            kOwnFiles + static_cast<std::size_t>(options.workers)};
 }
 
 process::Confinement fileReaderConfinement(const ServerOptions& options) {

@@ -6,7 +6,7 @@
 
 namespace oval4d::net {
 
-ConnectionRegistry::Registration::Registration(ConnectionRegistry& connections, AddressAccountPtr client)
+ConnectionRegistry::Registration::Registration(ConnectionRegistry& connections, ClientAccountPtr client)
     : connections_(connections) {
     const std::lock_guard lock(connections_.mutex_);
     number_ = ++connections_.last_;
@@ -21,7 +21,7 @@ ConnectionRegistry::Registration::~Registration() {
     if (found == connections_.entries_.end()) return;  // the connection was evicted
     gone = std::move(found->second);
     connections_.entries_.erase(found);
-    connections_.uncount(gone.client.get());
+    connections_.decrementCount(gone.client.get());
 }
 
 void ConnectionRegistry::Registration::setEndHandler(EndHandler handler) {
@@ -47,44 +47,44 @@ void ConnectionRegistry::Registration::setInUse(bool inUse) {
     if (found != connections_.entries_.end()) found->second.inUse = inUse;
 }
 
-void ConnectionRegistry::Registration::setClient(const AddressAccountPtr& client) {
-    AddressAccountPtr before;
+void ConnectionRegistry::Registration::setClient(const ClientAccountPtr& client) {
+    ClientAccountPtr before;
     const std::lock_guard lock(connections_.mutex_);
     const auto found = connections_.entries_.find(number_);
     if (found == connections_.entries_.end()) return;
     before = std::exchange(found->second.client, client);
-    connections_.uncount(before.get());
+    connections_.decrementCount(before.get());
     ++connections_.counts_[client.get()];
 }
 
-void ConnectionRegistry::uncount(const AddressAccount* client) {
+void ConnectionRegistry::decrementCount(const ClientAccount* client) {
     const auto count = counts_.find(client);
     if (--count->second == 0) counts_.erase(count);
 }
 
-std::size_t ConnectionRegistry::countOf(const AddressAccount* client) const {
+std::size_t ConnectionRegistry::connectionCountOf(const ClientAccount* client) const {
     const auto count = counts_.find(client);
     return count == counts_.end() ? 0 : count->second;
 }
 
 /// Removes the oldest idle connection of this client from the registry. Returns the handler that ends the connection;
 /// an empty function if no connection of the client is idle.
-ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const AddressAccount* client) {
+ConnectionRegistry::EndHandler ConnectionRegistry::evictIdle(const ClientAccount* client) {
     const auto idle = std::ranges::find_if(entries_, [client](const auto& entry) {
         return entry.second.client.get() == client && !entry.second.inUse && entry.second.end;
     });
     if (idle == entries_.end()) return {};
     EndHandler end = std::move(idle->second.end);
     entries_.erase(idle);
-    uncount(client);
+    decrementCount(client);
     return end;
 }
 
-ConnectionRegistry::AdmissionDecision ConnectionRegistry::makeRoomFor(const AddressAccount& client,
+ConnectionRegistry::AdmissionDecision ConnectionRegistry::makeRoomFor(const ClientAccount& client,
                                                                       std::size_t registered, bool isProxy) {
     AdmissionDecision admission = AdmissionDecision::admitted;
     std::vector<EndHandler> ends;
-    const auto evict = [&](const AddressAccount* from, AdmissionDecision otherwise) {
+    const auto evict = [&](const ClientAccount* from, AdmissionDecision otherwise) {
         if (EndHandler end = evictIdle(from)) {
             ends.push_back(std::move(end));
         } else {
@@ -96,7 +96,7 @@ ConnectionRegistry::AdmissionDecision ConnectionRegistry::makeRoomFor(const Addr
         // Refused connections stay registered until they end. The number of connections may therefore exceed a limit by
         // more than one, and several idle connections may have to be evicted.
         while (admission == AdmissionDecision::admitted) {
-            if (!isProxy && countOf(&client) - registered >= maxPerClient_) {
+            if (!isProxy && connectionCountOf(&client) - registered >= maxPerClient_) {
                 evict(&client, AdmissionDecision::client_full);
             } else if (entries_.size() - registered >= maxConnections_) {
                 const auto most = std::ranges::max_element(counts_, {}, &decltype(counts_)::value_type::second);

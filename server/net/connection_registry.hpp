@@ -27,7 +27,7 @@ class ConnectionRegistry {
     /// removes it.
     class Registration {
       public:
-        Registration(ConnectionRegistry& connections, AddressAccountPtr client);
+        Registration(ConnectionRegistry& connections, ClientAccountPtr client);
         Registration(const Registration&) = delete;
         Registration& operator=(const Registration&) = delete;
         ~Registration();
@@ -40,7 +40,7 @@ class ConnectionRegistry {
         void setInUse(bool inUse);
 
         /// Assigns the connection to another client. A trusted proxy has named this client in X-Forwarded-For.
-        void setClient(const AddressAccountPtr& client);
+        void setClient(const ClientAccountPtr& client);
 
       private:
         ConnectionRegistry& connections_;
@@ -54,7 +54,7 @@ class ConnectionRegistry {
     /// connections of the client that has the most. Returns the reached limit if no such idle connection is left.
     /// `registered` is the number of registrations that the new connection already has (0 or 1); they are not counted.
     /// `isProxy` tells whether the client is a trusted proxy, to which the limit per client does not apply.
-    AdmissionDecision makeRoomFor(const AddressAccount& client, std::size_t registered = 0, bool isProxy = false);
+    AdmissionDecision makeRoomFor(const ClientAccount& client, std::size_t registered = 0, bool isProxy = false);
 
     /// Returns the number of connections in the registry.
     std::size_t size() const;
@@ -65,23 +65,23 @@ class ConnectionRegistry {
   private:
     // An entry of the registry: a connection, its client and how to end it.
     struct RegisteredConnection {
-        AddressAccountPtr client;
+        ClientAccountPtr client;
         EndHandler end;
         bool inUse = false;
     };
     using ConnectionsByNumber = std::map<std::uint64_t, RegisteredConnection>;
 
     // The caller of these three functions must hold mutex_.
-    std::size_t countOf(const AddressAccount* client) const;
-    EndHandler evictIdle(const AddressAccount* client);
-    void uncount(const AddressAccount* client);
+    std::size_t connectionCountOf(const ClientAccount* client) const;
+    EndHandler evictIdle(const ClientAccount* client);
+    void decrementCount(const ClientAccount* client);
 
     const std::size_t maxConnections_, maxPerClient_;
     mutable std::mutex mutex_;
-    ConnectionsByNumber entries_;  // by registration number, the oldest first; guarded by mutex_
-    std::map<const AddressAccount*, std::size_t> counts_;  // number of connections of each client; guarded by mutex_
-    std::uint64_t last_ = 0;                               // number of the newest registration; guarded by mutex_
-    bool stopping_ = false;                                // guarded by mutex_
+    ConnectionsByNumber entries_;                         // by registration number, the oldest first; guarded by mutex_
+    std::map<const ClientAccount*, std::size_t> counts_;  // number of connections of each client; guarded by mutex_
+    std::uint64_t last_ = 0;                              // number of the newest registration; guarded by mutex_
+    bool stopping_ = false;                               // guarded by mutex_
 };
 
 }  // namespace oval4d::net

@@ -30,21 +30,21 @@ namespace {
 
 /// Opens a file or folder for reading, without following symbolic links. `folder` is the descriptor of the folder that
 /// contains it; `flags` are further flags for openat(). Returns the new descriptor, or -1 on failure.
-int openName(int folder, const std::string& name, int flags) {
+int openWithoutFollowing(int folder, const std::string& name, int flags) {
     return openat(folder, name.c_str(), flags | O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
 }
 
 /// Returns a text that identifies the version of a file. The text changes when the file with this status changes.
-std::string versionOf(const struct stat& status) {
+std::string fileVersionOf(const struct stat& status) {
     return std::to_string(status.st_ino) + ':' + std::to_string(status.st_size) + ':' +
            std::to_string(status.st_mtim.tv_sec) + '.' + std::to_string(status.st_mtim.tv_nsec) + ';';
 }
 
 /// Returns a text that identifies the version of an open file; an empty string if `file` is not a regular file.
-std::string versionOf(int file) {
+std::string fileVersionOf(int file) {
     struct stat status{};
     if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode)) return {};
-    return versionOf(status);
+    return fileVersionOf(status);
 }
 
 /// Returns a text that identifies the version of a Zarr folder; an empty string if `folder` is not a Zarr folder. The
@@ -52,13 +52,13 @@ std::string versionOf(int file) {
 std::string versionOfZarr(int folder) {
     std::string version;
     for (const std::string_view name : fields::kZarrFiles) {
-        const fields::FileHandle file(openName(folder, std::string(name), 0));
-        version += versionOf(file.descriptor());
+        const fields::FileHandle file(openWithoutFollowing(folder, std::string(name), 0));
+        version += fileVersionOf(file.descriptor());
     }
     if (version.empty()) return version;
     for (const char* const name : {".zattrs", ".zmetadata"}) {
-        const fields::FileHandle file(openName(folder, name, 0));
-        version += versionOf(file.descriptor());
+        const fields::FileHandle file(openWithoutFollowing(folder, name, 0));
+        version += fileVersionOf(file.descriptor());
     }
     struct stat status{};
     if (fstat(folder, &status) == 0)
@@ -77,20 +77,20 @@ std::string versionOfFilesIn(const fs::path& folder) {
         struct stat status{};
         if (lstat(entry->path().c_str(), &status) != 0 || !S_ISREG(status.st_mode)) continue;
         ++count;
-        sum += std::hash<std::string>()(entry->path().string() + ':' + versionOf(status));
+        sum += std::hash<std::string>()(entry->path().string() + ':' + fileVersionOf(status));
     }
     return std::to_string(count) + ':' + std::to_string(sum) + ';';
 }
 
 /// A Zarr folder on a disk.
-class ZarrFolderOnDisk final : public fields::FolderFiles {
+class ZarrFolderOnDisk final : public fields::FolderFileProvider {
   public:
     explicit ZarrFolderOnDisk(std::shared_ptr<const fields::FileHandle> folder) : folder_(std::move(folder)) {}
 
     Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& /*part*/,
                                                   std::chrono::steady_clock::time_point /*until*/,
                                                   const std::stop_token& /*stop*/) const override {
-        const int file = file_reading::openBelow(folder_->descriptor(), path);
+        const int file = file_reading::openFileWithin(folder_->descriptor(), path);
         if (file < 0) return std::optional<fields::FoundFile>();
         return std::optional(fields::FoundFile{std::make_shared<const fields::FileHandle>(file), {}});
     }
@@ -101,7 +101,7 @@ class ZarrFolderOnDisk final : public fields::FolderFiles {
 };
 
 bool isZarr(const fs::path& folder) {
-    const fields::FileHandle handle(openName(AT_FDCWD, folder.string(), O_DIRECTORY));
+    const fields::FileHandle handle(openWithoutFollowing(AT_FDCWD, folder.string(), O_DIRECTORY));
     return handle.descriptor() >= 0 && !versionOfZarr(handle.descriptor()).empty();
 }
 
@@ -148,9 +148,9 @@ Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings
                           (field->second && field->second->array && field->second->array->storage().file());
     if (load.finer) copy->initialLevel = load.finer->initialLevel;
     if (isMapped || field->isPart || load.finer) {
-        copy->source = std::make_shared<const fields::FileSource>(
-            fields::FileSource{load.dataName, load.format, load.axes, load.variable, load.secondFormula,
-                               load.secondVariable, load.box, load.region});
+        copy->source = std::make_shared<const fields::FieldFileSource>(
+            fields::FieldFileSource{load.dataName, load.format, load.axes, load.variable, load.secondFormula,
+                                    load.secondVariable, load.box, load.region});
     }
     loaded.object = slicing::FieldPtr(std::move(copy));
     return loaded;
@@ -160,8 +160,8 @@ Result<session::ObjectWithWarnings> copyMarkedShared(session::ObjectWithWarnings
 
 DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCacheFiles& fieldCacheFiles,
                        const ObjectStoreLimits& storeLimits)
-    : folder_(folder.empty() || ObjectStore::isAddress(folder) ? fs::path() : fs::canonical(folder)),
-      store_(ObjectStore::isAddress(folder) ? std::make_unique<const ObjectStore>(folder, storeLimits) : nullptr),
+    : folder_(folder.empty() || ObjectStore::isUrl(folder) ? fs::path() : fs::canonical(folder)),
+      store_(ObjectStore::isUrl(folder) ? std::make_unique<const ObjectStore>(folder, storeLimits) : nullptr),
       maxBytes_(bytes),
       fieldCacheFiles_(fieldCacheFiles) {
     std::error_code fault;
@@ -169,8 +169,8 @@ DataFolder::DataFolder(const std::string& folder, std::size_t bytes, FieldCacheF
         if (fault) throw std::runtime_error("the data folder cannot be read: " + fault.message());
 }
 
-std::vector<std::string> DataFolder::names() const {
-    if (auto known = knownNames()) return *std::move(known);
+std::vector<std::string> DataFolder::entryNames() const {
+    if (auto known = cachedNames()) return *std::move(known);
     const Clock::time_point began = Clock::now();
     std::vector<std::string> found = readNames();
     const std::lock_guard lock(namesMutex_);
@@ -179,14 +179,14 @@ std::vector<std::string> DataFolder::names() const {
     return found;
 }
 
-std::optional<std::vector<std::string>> DataFolder::knownNames() const {
+std::optional<std::vector<std::string>> DataFolder::cachedNames() const {
     if (folder_.empty() && !store_) return std::vector<std::string>();
     const std::lock_guard lock(namesMutex_);
     if (listed_ == Clock::time_point::min() || Clock::now() - listed_ >= kListedFor) return {};
     return names_;
 }
 
-std::vector<std::string> DataFolder::namesInStore() const {
+std::vector<std::string> DataFolder::namesInObjectStore() const {
     std::vector<std::string> found;
     const auto text = store_->get("index.json", {});  // an error is in the log
     if (!text || !*text) return found;
@@ -204,7 +204,7 @@ std::vector<std::string> DataFolder::namesInStore() const {
 }
 
 std::vector<std::string> DataFolder::readNames() const {
-    std::vector<std::string> found = store_ ? namesInStore() : std::vector<std::string>();
+    std::vector<std::string> found = store_ ? namesInObjectStore() : std::vector<std::string>();
     std::error_code fault;
     for (fs::directory_iterator entry(folder_, fault), end; !fault && entry != end; entry.increment(fault)) {
         const std::string name = entry->path().filename().string();
@@ -215,7 +215,7 @@ std::vector<std::string> DataFolder::readNames() const {
             const auto files = fields::seriesFiles(entry->path());
             if (!isZarr(entry->path()) && (!files || files->empty())) continue;
         } else {
-            const fields::FileHandle file(openName(AT_FDCWD, entry->path().string(), 0));
+            const fields::FileHandle file(openWithoutFollowing(AT_FDCWD, entry->path().string(), 0));
             if (file.descriptor() < 0 || !isArray(file.descriptor())) continue;
         }
         found.push_back(name);
@@ -230,17 +230,18 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
     const Error missing{ErrorCode::not_found, "the data folder has no " + text::inQuotes(name)};
     if (folder_.empty() && !store_) return Error{ErrorCode::not_found, "this server has no data folder (--data)"};
     if (!isAllowedName(name)) return missing;
-    if (store_) return openInStore(name);
+    if (store_) return openInObjectStore(name);
     const fields::FileHandle root(::open(folder_.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY));
-    auto file = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, 0));
+    auto file = std::make_shared<const fields::FileHandle>(openWithoutFollowing(root.descriptor(), name, 0));
     if (file->descriptor() < 0) return missing;
     OpenedEntry opened;
-    opened.version = versionOf(file->descriptor());
+    opened.version = fileVersionOf(file->descriptor());
     if (!opened.version.empty()) {
         opened.files.push_back(std::move(file));
         return opened;
     }
-    auto folder = std::make_shared<const fields::FileHandle>(openName(root.descriptor(), name, O_DIRECTORY));
+    auto folder =
+        std::make_shared<const fields::FileHandle>(openWithoutFollowing(root.descriptor(), name, O_DIRECTORY));
     if (folder->descriptor() < 0) return missing;
     if (opened.version = versionOfZarr(folder->descriptor()); !opened.version.empty()) {
         opened.folder = std::make_shared<const ZarrFolderOnDisk>(std::move(folder));
@@ -254,8 +255,9 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
         return Error{ErrorCode::too_large, "a series may have at most " + std::to_string(kMaxSeries) + " files"};
     opened.series = true;
     for (const fs::path& path : *paths) {
-        file = std::make_shared<const fields::FileHandle>(openName(series.descriptor(), path.filename().string(), 0));
-        const std::string version = versionOf(file->descriptor());
+        file = std::make_shared<const fields::FileHandle>(
+            openWithoutFollowing(series.descriptor(), path.filename().string(), 0));
+        const std::string version = fileVersionOf(file->descriptor());
         if (version.empty()) return missing;
         opened.version += version;
         opened.files.push_back(std::move(file));
@@ -263,8 +265,8 @@ Result<DataFolder::OpenedEntry> DataFolder::open(const std::string& name) const 
     return opened;
 }
 
-Result<DataFolder::OpenedEntry> DataFolder::openInStore(const std::string& name) const {
-    auto folder = StoredZarrFolder::open(*store_, name);
+Result<DataFolder::OpenedEntry> DataFolder::openInObjectStore(const std::string& name) const {
+    auto folder = ObjectStoreZarrFolder::open(*store_, name);
     if (!folder) return folder.error();
     if (!*folder)
         return Error{ErrorCode::not_found,
@@ -278,7 +280,7 @@ Result<DataFolder::OpenedEntry> DataFolder::openInStore(const std::string& name)
 std::string DataFolder::currentVersion(const OpenedEntry& opened) {
     if (opened.folder) return opened.folder->version();
     std::string version;
-    for (const auto& file : opened.files) version += net::versionOf(file->descriptor());
+    for (const auto& file : opened.files) version += net::fileVersionOf(file->descriptor());
     return version;
 }
 
@@ -308,7 +310,7 @@ std::optional<session::ObjectWithWarnings> DataFolder::find(const std::string& k
 
 /// Drops the least recently used field that no session uses. If `onDisk` is true, considers only fields with a file in
 /// the field cache. Returns false if there is no such field. The caller must hold mutex_.
-bool DataFolder::dropOneUnused(bool onDisk) {
+bool DataFolder::evictUnusedField(bool onDisk) {
     const auto isUnused = [&](const CachedField& field) {
         return std::get<slicing::FieldPtr>(field.loaded.object).use_count() == 1 && (field.onDisk || !onDisk);
     };
@@ -326,7 +328,7 @@ Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
     for (;;) {
         auto file = fieldCacheFiles_.allocateFile(bytes);
         if (!file || *file) return file;
-        if (!dropOneUnused(true)) {
+        if (!evictUnusedField(true)) {
             return Error{
                 ErrorCode::too_many,
                 "the fields that sessions use leave no room on the disk for this one (--field-cache); try again "
@@ -338,13 +340,14 @@ Result<FieldCacheFiles::FilePtr> DataFolder::makeCacheFile(std::size_t bytes) {
 /// Puts a field into the cache under `key`. Makes room by dropping the least recently used fields that no session uses.
 /// `onDisk` tells whether the field has a file in the field cache. Errors: `too_large` if the field alone exceeds the
 /// maximum memory; `too_many` if the fields in use leave no room.
-Result<session::ObjectWithWarnings> DataFolder::keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk) {
+Result<session::ObjectWithWarnings> DataFolder::putInCache(std::string key, session::ObjectWithWarnings loaded,
+                                                           bool onDisk) {
     const std::size_t size = slicing::memoryOf(loaded.object);
     const std::lock_guard lock(mutex_);
     if (size > maxBytes_)
         return Error{ErrorCode::too_large, "this field takes more memory than the fields of the data folder may (" +
                                                std::to_string(maxBytes_) + " bytes, --data-cache)"};
-    while (bytes_ + size > maxBytes_ && dropOneUnused(false)) continue;
+    while (bytes_ + size > maxBytes_ && evictUnusedField(false)) continue;
     if (bytes_ + size > maxBytes_)
         return Error{ErrorCode::too_many,
                      "the fields of the data folder that sessions use leave no room for this one "
@@ -374,12 +377,12 @@ Result<session::ObjectWithWarnings> DataFolder::read(const session::LoadObject& 
             folder.readEnded_.notify_all();
         }
     } const readGuard{*this, key};
-    return readAndKeep(load, limits, std::move(*opened), reader, key);
+    return readAndCache(load, limits, std::move(*opened), reader, key);
 }
 
-Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadObject& load,
-                                                            const session::Limits& limits, OpenedEntry opened,
-                                                            const Reader& reader, const std::string& key) {
+Result<session::ObjectWithWarnings> DataFolder::readAndCache(const session::LoadObject& load,
+                                                             const session::Limits& limits, OpenedEntry opened,
+                                                             const Reader& reader, const std::string& key) {
     session::LoadObject file = load;
     if (opened.folder) {
         file.folder = opened.folder;
@@ -404,7 +407,7 @@ Result<session::ObjectWithWarnings> DataFolder::readAndKeep(const session::LoadO
     if (onDisk && currentVersion(opened) != opened.version) return changed;
     auto marked = copyMarkedShared(std::move(*loaded), load);
     if (!marked) return marked.error();
-    return keep(key, std::move(*marked), onDisk);
+    return putInCache(key, std::move(*marked), onDisk);
 }
 
 std::size_t DataFolder::bytesInMemory() const { return bytes_; }

@@ -50,12 +50,12 @@ class DataFolder {
         const session::LoadObject& load, const session::Limits& limits, const file_reading::FileAllocator& allocate)>;
 
     /// Returns the names of the entries that can be opened, in alphabetical order; at most kMaxNames. Blocks the
-    /// calling thread while it reads the folder, unless knownNames() has the names. An object store lists its names in
+    /// calling thread while it reads the folder, unless cachedNames() has the names. An object store lists its names in
     /// its object index.json, a JSON array of strings; without this object, there are no names.
-    std::vector<std::string> names() const;
+    std::vector<std::string> entryNames() const;
     /// Returns the result of the last names(), if it began to read the folder less than kListedFor ago; otherwise an
     /// empty optional. Without a data folder, returns an empty list.
-    std::optional<std::vector<std::string>> knownNames() const;
+    std::optional<std::vector<std::string>> cachedNames() const;
 
     /// Returns the field of the entry `load.dataName`. If the field is not in memory, calls `reader` with a copy of
     /// `load` that contains the opened files. Blocks the calling thread until this or another thread has read the
@@ -74,7 +74,7 @@ class DataFolder {
 
     /// The maximum number of names that names() returns, and the maximum number of files in a series.
     static constexpr std::size_t kMaxNames = 1000, kMaxSeries = 1000;
-    /// For this time, knownNames() returns names that were read from the folder before.
+    /// For this time, cachedNames() returns names that were read from the folder before.
     static constexpr std::chrono::seconds kListedFor{2};
 
   private:
@@ -82,7 +82,7 @@ class DataFolder {
     // An entry that open() has opened: a file, a Zarr folder or a series.
     struct OpenedEntry {
         std::vector<std::shared_ptr<const fields::FileHandle>> files;
-        std::shared_ptr<const fields::FolderFiles> folder;  // the Zarr folder, instead of `files`; else null
+        std::shared_ptr<const fields::FolderFileProvider> folder;  // the Zarr folder, instead of `files`; else null
         bool series = false;
         std::string version;  // changes with `files` or the metadata of the Zarr folder
         // Changes when a chunk of the Zarr folder changes; empty without a Zarr folder. Such a change during read() is
@@ -100,15 +100,15 @@ class DataFolder {
     };
 
     std::vector<std::string> readNames() const;
-    std::vector<std::string> namesInStore() const;
-    Result<OpenedEntry> openInStore(const std::string& name) const;
+    std::vector<std::string> namesInObjectStore() const;
+    Result<OpenedEntry> openInObjectStore(const std::string& name) const;
     Result<OpenedEntry> open(const std::string& name) const;
     static std::string currentVersion(const OpenedEntry& opened);
-    Result<session::ObjectWithWarnings> readAndKeep(const session::LoadObject& load, const session::Limits& limits,
-                                                    OpenedEntry opened, const Reader& reader, const std::string& key);
+    Result<session::ObjectWithWarnings> readAndCache(const session::LoadObject& load, const session::Limits& limits,
+                                                     OpenedEntry opened, const Reader& reader, const std::string& key);
     Result<FieldCacheFiles::FilePtr> makeCacheFile(std::size_t bytes);
-    bool dropOneUnused(bool onDisk);
-    Result<session::ObjectWithWarnings> keep(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
+    bool evictUnusedField(bool onDisk);
+    Result<session::ObjectWithWarnings> putInCache(std::string key, session::ObjectWithWarnings loaded, bool onDisk);
     std::optional<session::ObjectWithWarnings> find(const std::string& key, const std::string& name);
 
     const std::filesystem::path folder_;              // empty if there is none on a disk
@@ -119,7 +119,7 @@ class DataFolder {
     mutable std::vector<std::string> names_;
     mutable Clock::time_point listed_ = Clock::time_point::min();
     // Guards the members below. A thread may hold this mutex while it allocates or frees gigabytes on the disk. The
-    // threads that serve sockets must not wait for that: they call knownNames() and bytesInMemory(), which do not lock
+    // threads that serve sockets must not wait for that: they call cachedNames() and bytesInMemory(), which do not lock
     // it.
     std::mutex mutex_;
     std::list<CachedField> recent_;      // the most recently used first

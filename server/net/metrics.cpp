@@ -16,74 +16,79 @@ const Histogram::BucketBoundaries kBuckets{1e-4, 2e-4, 5e-4, 1e-3, 2e-3, 5e-3, 0
 // The upper bounds of the histogram buckets, in seconds, for the time to make a file.
 const Histogram::BucketBoundaries kFileBuckets{1e-3, 1e-2, 0.1, 0.3, 1, 3, 10, 20, 60};
 
-prometheus::Gauge& gauge(prometheus::Registry& registry, const char* name, const char* help) {
+prometheus::Gauge& registerGauge(prometheus::Registry& registry, const char* name, const char* help) {
     return prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({});
 }
 
-prometheus::Family<prometheus::Counter>& counters(prometheus::Registry& registry, const char* name, const char* help) {
+prometheus::Family<prometheus::Counter>& registerCounters(prometheus::Registry& registry, const char* name,
+                                                          const char* help) {
     return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
 }
 
-prometheus::Family<Histogram>& histograms(prometheus::Registry& registry, const char* name, const char* help) {
+prometheus::Family<Histogram>& registerHistograms(prometheus::Registry& registry, const char* name, const char* help) {
     return prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
 }
 
-prometheus::Counter& rasterizerLosses(prometheus::Registry& registry, const char* cause) {
-    return counters(registry, "oval4d_drawing_losses_total", "Rasterizer processes that were lost and replaced")
+prometheus::Counter& rasterizerLossCounter(prometheus::Registry& registry, const char* cause) {
+    return registerCounters(registry, "oval4d_drawing_losses_total", "Rasterizer processes that were lost and replaced")
         .Add({{"cause", cause}});
 }
 
 prometheus::Counter& fileReaderLosses(prometheus::Registry& registry, const char* cause) {
-    return counters(registry, "oval4d_reading_losses_total", "File reader processes that were lost and replaced")
+    return registerCounters(registry, "oval4d_reading_losses_total",
+                            "File reader processes that were lost and replaced")
         .Add({{"cause", cause}});
 }
 
 }  // namespace
 
 Metrics::Metrics()
-    : connections(gauge(registry_, "oval4d_connections", "Open sockets")),
-      webSockets(gauge(registry_, "oval4d_websockets", "Open WebSocket connections")),
-      sessions(gauge(registry_, "oval4d_sessions", "Sessions stored, with or without a client")),
-      openSessions(gauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
-      jobsWaiting(gauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
-      rasterizerDeaths(rasterizerLosses(registry_, "died")),
-      rasterizerHangs(rasterizerLosses(registry_, "hung")),
+    : connections(registerGauge(registry_, "oval4d_connections", "Open sockets")),
+      webSockets(registerGauge(registry_, "oval4d_websockets", "Open WebSocket connections")),
+      sessions(registerGauge(registry_, "oval4d_sessions", "Sessions stored, with or without a client")),
+      openSessions(registerGauge(registry_, "oval4d_open_sessions", "Sessions with a client")),
+      jobsWaiting(registerGauge(registry_, "oval4d_jobs_waiting", "Jobs waiting for a worker")),
+      rasterizerDeaths(rasterizerLossCounter(registry_, "died")),
+      rasterizerHangs(rasterizerLossCounter(registry_, "hung")),
       fileReaderDeaths(fileReaderLosses(registry_, "died")),
       fileReaderHangs(fileReaderLosses(registry_, "hung")),
-      filesUnderWay(gauge(registry_, "oval4d_files_under_way", "Files being made")),
-      fileTime(histograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
-      memory(gauge(registry_, "process_resident_memory_bytes", "Resident memory of this process")),
-      polytopes(gauge(registry_, "oval4d_polytope_cache_bytes", "Memory used by cached polytopes")),
-      dataFields(gauge(registry_, "oval4d_data_cache_bytes", "Memory used by fields from the data folder")),
-      fieldFiles(gauge(registry_, "oval4d_field_cache_bytes", "Disk space used by fields from the data folder")),
-      critical(
-          gauge(registry_, "oval4d_critical_cache_bytes", "Memory used by cached results of searches for critical w")),
-      bytesHeld(gauge(registry_, "oval4d_client_bytes",
-                      "Bytes held for clients: unread files and messages, and their own polytopes")),
-      clients(gauge(registry_, "oval4d_clients", "Known client addresses")),
+      filesUnderWay(registerGauge(registry_, "oval4d_files_under_way", "Files being made")),
+      fileTime(registerHistograms(registry_, "oval4d_file_seconds", "Time to make a file").Add({}, kFileBuckets)),
+      memory(registerGauge(registry_, "process_resident_memory_bytes", "Resident memory of this process")),
+      polytopes(registerGauge(registry_, "oval4d_polytope_cache_bytes", "Memory used by cached polytopes")),
+      dataFields(registerGauge(registry_, "oval4d_data_cache_bytes", "Memory used by fields from the data folder")),
+      fieldFiles(
+          registerGauge(registry_, "oval4d_field_cache_bytes", "Disk space used by fields from the data folder")),
+      critical(registerGauge(registry_, "oval4d_critical_cache_bytes",
+                             "Memory used by cached results of searches for critical w")),
+      bytesHeld(registerGauge(registry_, "oval4d_client_bytes",
+                              "Bytes held for clients: unread files and messages, and their own polytopes")),
+      clients(registerGauge(registry_, "oval4d_clients", "Known client addresses")),
       messagesReceived(
-          counters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
-      bytesSent(counters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
-      droppedSlowClients(counters(registry_, "oval4d_slow_readers_total",
-                                  "Clients dropped because they read, or send a body, too slowly")
+          registerCounters(registry_, "oval4d_messages_received_total", "Messages received over WebSockets").Add({})),
+      bytesSent(
+          registerCounters(registry_, "oval4d_bytes_sent_total", "Bytes of messages sent over WebSockets").Add({})),
+      droppedSlowClients(registerCounters(registry_, "oval4d_slow_readers_total",
+                                          "Clients dropped because they read, or send a body, too slowly")
                              .Add({})),
       sessionsTaken(
-          counters(registry_, "oval4d_sessions_taken_total", "Sessions taken over by another server").Add({})),
-      storeUp(gauge(registry_, "oval4d_store_up", "1 if the session store is available, else 0")),
-      unsaved(gauge(registry_, "oval4d_unsaved_sessions", "Sessions with changes not yet written to the store")),
-      workers(gauge(registry_, "oval4d_workers", "Threads that slice and draw")),
-      workerSeconds(
-          counters(registry_, "oval4d_worker_seconds_total", "Busy time of the threads that slice and draw, summed")
-              .Add({})),
-      latency(histograms(registry_, "oval4d_change_to_picture_seconds",
-                         "Time from a session's change to its picture written to a client's socket")
+          registerCounters(registry_, "oval4d_sessions_taken_total", "Sessions taken over by another server").Add({})),
+      storeUp(registerGauge(registry_, "oval4d_store_up", "1 if the session store is available, else 0")),
+      unsaved(
+          registerGauge(registry_, "oval4d_unsaved_sessions", "Sessions with changes not yet written to the store")),
+      workers(registerGauge(registry_, "oval4d_workers", "Threads that slice and draw")),
+      workerSeconds(registerCounters(registry_, "oval4d_worker_seconds_total",
+                                     "Busy time of the threads that slice and draw, summed")
+                        .Add({})),
+      latency(registerHistograms(registry_, "oval4d_change_to_picture_seconds",
+                                 "Time from a session's change to its picture written to a client's socket")
                   .Add({}, kBuckets)),
-      errors_(counters(registry_, "oval4d_errors_total", "Errors sent to clients, by code")),
-      requests_(counters(registry_, "oval4d_http_requests_total", "HTTP requests answered, by status")),
-      pictures_(counters(registry_, "oval4d_pictures_total", "Pictures sent to clients, by stream")),
-      storeFailures_(counters(registry_, "oval4d_store_failures_total", "Store operations that failed")),
-      steps_(histograms(registry_, "oval4d_picture_step_seconds", "Time spent on a picture, by step")),
-      store_(histograms(registry_, "oval4d_store_seconds", "Time of store operations, by operation")),
+      errors_(registerCounters(registry_, "oval4d_errors_total", "Errors sent to clients, by code")),
+      requests_(registerCounters(registry_, "oval4d_http_requests_total", "HTTP requests answered, by status")),
+      pictures_(registerCounters(registry_, "oval4d_pictures_total", "Pictures sent to clients, by stream")),
+      storeFailures_(registerCounters(registry_, "oval4d_store_failures_total", "Store operations that failed")),
+      steps_(registerHistograms(registry_, "oval4d_picture_step_seconds", "Time spent on a picture, by step")),
+      store_(registerHistograms(registry_, "oval4d_store_seconds", "Time of store operations, by operation")),
       slice_(steps_.Add({{"step", "slice"}}, kBuckets)),
       compose_(steps_.Add({{"step", "compose"}}, kBuckets)),
       write_(steps_.Add({{"step", "write"}}, kBuckets)),
@@ -94,8 +99,8 @@ void Metrics::countError(ErrorCode code) { errors_.Add({{"code", std::string(pro
 
 void Metrics::countRequest(unsigned httpStatus) { requests_.Add({{"status", std::to_string(httpStatus)}}).Increment(); }
 
-void Metrics::countPicture(wire::Stream stream) {
-    pictures_.Add({{"stream", stream == wire::Stream::frames ? "frames" : "geometry"}}).Increment();
+void Metrics::countPicture(wire::StreamKind stream) {
+    pictures_.Add({{"stream", stream == wire::StreamKind::frames ? "frames" : "geometry"}}).Increment();
 }
 
 void Metrics::observe(const pipeline::PictureTimes& times) {
@@ -114,7 +119,7 @@ void Metrics::observeStore(const std::string& operation, double seconds, bool su
     if (!succeeded) storeFailures_.Add({{"operation", operation}}).Increment();
 }
 
-std::string Metrics::text() const {
+std::string Metrics::expositionText() const {
     std::ostringstream out;
     prometheus::TextSerializer().Serialize(out, registry_.Collect());
     return out.str();

@@ -38,7 +38,7 @@ class Metrics {
     prometheus::Gauge& fieldFiles;            ///< bytes on the disk of fields from the data folder
     prometheus::Gauge& critical;              ///< bytes of cached critical values of w
     prometheus::Gauge& bytesHeld;             ///< bytes held for clients (ByteBudget)
-    prometheus::Gauge& clients;               ///< known clients (Clients::size())
+    prometheus::Gauge& clients;               ///< known clients (ClientAccounts::size())
     prometheus::Counter& messagesReceived;    ///< messages received over WebSockets
     prometheus::Counter& bytesSent;           ///< bytes of messages sent over WebSockets
     prometheus::Counter& droppedSlowClients;  ///< clients dropped because they read, or send a body, too slowly
@@ -54,14 +54,14 @@ class Metrics {
     /// Counts an HTTP request that was answered with this status.
     void countRequest(unsigned httpStatus);
     /// Counts a picture that was sent to a client over this stream.
-    void countPicture(wire::Stream stream);
+    void countPicture(wire::StreamKind stream);
     /// Records how long each step of making a picture took. Ignores steps that took no time.
     void observe(const pipeline::PictureTimes& times);
     /// Records the duration of a store operation in seconds. Counts the operation as failed if `succeeded` is false.
     void observeStore(const std::string& operation, double seconds, bool succeeded);
 
     /// Returns all metrics in the Prometheus text exposition format.
-    std::string text() const;
+    std::string expositionText() const;
 
   private:
     prometheus::Family<prometheus::Counter>&errors_, &requests_, &pictures_, &storeFailures_;

@@ -25,7 +25,7 @@ constexpr std::size_t kMaxErrorPage = std::size_t{64} << 10U;
 constexpr long kOk = 200, kPartialContent = 206;
 
 // The state of a request in progress, for the functions that libcurl calls.
-struct Transfer {
+struct CurlTransfer {
     CURL* handle;
     long wantedStatus;
     std::size_t maxBytes;
@@ -43,7 +43,7 @@ long statusOf(CURL* handle) {
 
 // Receives bytes of the answer (a write function of libcurl). Returns a number other than `count` to end the transfer.
 std::size_t onAnswerBytes(char* from, std::size_t /*one*/, std::size_t count, void* context) {
-    auto& transfer = *static_cast<Transfer*>(context);
+    auto& transfer = *static_cast<CurlTransfer*>(context);
     const long status = statusOf(transfer.handle);
     if (status != transfer.wantedStatus) {
         transfer.ignored += count;
@@ -64,7 +64,7 @@ std::size_t onAnswerBytes(char* from, std::size_t /*one*/, std::size_t count, vo
 // A progress function of libcurl, called at least once a second. Returns a number other than 0 to end the transfer.
 int onProgress(void* context, curl_off_t /*total*/, curl_off_t /*now*/, curl_off_t /*uploadTotal*/,
                curl_off_t /*uploadNow*/) {
-    return static_cast<const Transfer*>(context)->stop.stop_requested() ? 1 : 0;
+    return static_cast<const CurlTransfer*>(context)->stop.stop_requested() ? 1 : 0;
 }
 
 bool isPathOfNames(std::string_view path) {
@@ -79,7 +79,7 @@ bool isPathOfNames(std::string_view path) {
 }
 
 // Returns the value of the request header Range, without its beginning "bytes=".
-std::string rangeOf(const FilePart& part) {
+std::string rangeHeaderOf(const FilePart& part) {
     if (part.fromEnd) return '-' + std::to_string(part.size);
     const bool endsWithFile = part.size > FilePart::kAll - part.offset;
     return std::to_string(part.offset) + '-' + (endsWithFile ? "" : std::to_string(part.offset + part.size - 1));
@@ -99,7 +99,7 @@ std::optional<std::uint64_t> takeNumberBefore(std::string_view& text, char after
 
 // Returns whether the answer contains the requested part, or as much of it as the object has. `header` is the answer's
 // Content-Range (RFC 9110, section 14.4), and `count` the answer's number of bytes.
-bool isRangeOf(std::string_view header, const FilePart& part, std::size_t count) {
+bool isContentRangeOf(std::string_view header, const FilePart& part, std::size_t count) {
     constexpr std::string_view kUnit = "bytes ";
     if (!header.starts_with(kUnit)) return false;
     header.remove_prefix(kUnit.size());
@@ -119,7 +119,7 @@ std::string contentRangeOf(CURL* handle) {
 }
 
 // Returns the reason why a transfer failed before its answer was complete.
-std::string reasonOf(CURLcode code) {
+std::string transferFailureReason(CURLcode code) {
     switch (code) {
         case CURLE_COULDNT_RESOLVE_HOST:
         case CURLE_COULDNT_RESOLVE_PROXY:
@@ -140,7 +140,7 @@ std::string reasonOf(CURLcode code) {
 }
 
 // Returns the reason why an answer with this status is refused.
-std::string reasonOf(long status, bool isPart) {
+std::string transferFailureReason(long status, bool isPart) {
     const std::string number = " (status " + std::to_string(status) + ")";
     if (status == kOk && isPart)
         return "it answers a request for a part of an object with the whole object; it must support ranges";
@@ -181,7 +181,7 @@ std::string checkedAddress(std::string address) {
 
 }  // namespace
 
-void ObjectStore::HandleCloser::operator()(void* handle) const { curl_easy_cleanup(handle); }
+void ObjectStore::CurlHandleCloser::operator()(void* handle) const { curl_easy_cleanup(handle); }
 
 ObjectStore::ObjectStore(const std::string& address, const ObjectStoreLimits& limits) : limits_(limits) {
     static const CURLcode initialized = curl_global_init(CURL_GLOBAL_DEFAULT);
@@ -191,18 +191,18 @@ ObjectStore::ObjectStore(const std::string& address, const ObjectStoreLimits& li
 
 ObjectStore::~ObjectStore() = default;
 
-bool ObjectStore::isAddress(const std::string& text) { return text.find("://") != std::string::npos; }
+bool ObjectStore::isUrl(const std::string& text) { return text.find("://") != std::string::npos; }
 
-ObjectStore::Handle ObjectStore::takeHandle() const {
+ObjectStore::CurlHandle ObjectStore::takeHandle() const {
     {
         const std::lock_guard lock(mutex_);
         if (!idle_.empty()) {
-            Handle handle = std::move(idle_.back());
+            CurlHandle handle = std::move(idle_.back());
             idle_.pop_back();
             return handle;
         }
     }
-    Handle handle(curl_easy_init());
+    CurlHandle handle(curl_easy_init());
     if (!handle) throw std::bad_alloc();
     return handle;
 }
@@ -222,12 +222,12 @@ Result<std::optional<std::string>> ObjectStore::get(const std::string& path, con
                              " bytes, which the server may get from the object store (--max-data-object)"};
     if (part.size != FilePart::kAll && part.size > limits_.objectBytes) return tooLarge;
     const auto left = std::chrono::duration<double>(until - Clock::now());
-    if (left.count() <= 0) return refused(reasonOf(CURLE_OPERATION_TIMEDOUT));
+    if (left.count() <= 0) return refused(transferFailureReason(CURLE_OPERATION_TIMEDOUT));
 
-    Handle owned = takeHandle();
+    CurlHandle owned = takeHandle();
     CURL* const handle = owned.get();
-    Transfer transfer{handle, isPart ? kPartialContent : kOk, limits_.objectBytes, stop};
-    const std::string range = isPart ? rangeOf(part) : "";
+    CurlTransfer transfer{handle, isPart ? kPartialContent : kOk, limits_.objectBytes, stop};
+    const std::string range = isPart ? rangeHeaderOf(part) : "";
     curl_easy_reset(handle);  // keeps the connection
     curl_easy_setopt(handle, CURLOPT_URL, url.c_str());
     curl_easy_setopt(handle, CURLOPT_PROTOCOLS_STR, "http,https");
@@ -253,12 +253,12 @@ Result<std::optional<std::string>> ObjectStore::get(const std::string& path, con
     if (transfer.isTooLarge) return tooLarge;
     // If onAnswerBytes() has ended a transfer, its status tells more than its code.
     if (code != CURLE_OK && (code != CURLE_WRITE_ERROR || status == transfer.wantedStatus))
-        return refused(reasonOf(code));
+        return refused(transferFailureReason(code));
     constexpr long kNotFound = 404, kGone = 410, kRangeNotSatisfiable = 416;
     if (status == kNotFound || status == kGone) return std::optional<std::string>();
     if (status == kRangeNotSatisfiable && isPart) return std::optional(std::string());
-    if (status != transfer.wantedStatus) return refused(reasonOf(status, isPart));
-    if (isPart && !isRangeOf(contentRange, part, transfer.bytes.size()))
+    if (status != transfer.wantedStatus) return refused(transferFailureReason(status, isPart));
+    if (isPart && !isContentRangeOf(contentRange, part, transfer.bytes.size()))
         return refused("it answers a request for a part of an object with other bytes, or with a wrong length");
     return std::optional(std::move(transfer.bytes));
 }

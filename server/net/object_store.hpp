@@ -37,7 +37,7 @@ class ObjectStore {
     ObjectStore& operator=(const ObjectStore&) = delete;
 
     /// Returns whether a value of the option --data is the address of a store rather than the path of a folder.
-    static bool isAddress(const std::string& text);
+    static bool isUrl(const std::string& text);
 
     /// Reads a part of an object; fewer bytes if the object ends before the part does. `path` is relative to the base
     /// address. It consists of names separated by slashes, without percent encoding. Returns an empty optional if there
@@ -52,17 +52,18 @@ class ObjectStore {
                                            const std::stop_token& stop = {}) const;
 
   private:
-    struct HandleCloser {
+    struct CurlHandleCloser {
         void operator()(void* handle) const;
     };
-    using Handle = std::unique_ptr<void, HandleCloser>;  // a libcurl handle (CURL*), which keeps its connection open
+    using CurlHandle =
+        std::unique_ptr<void, CurlHandleCloser>;  // a libcurl handle (CURL*), which keeps its connection open
 
-    Handle takeHandle() const;
+    CurlHandle takeHandle() const;
 
     std::string address_;  // ends with a slash
     const ObjectStoreLimits limits_;
     mutable std::mutex mutex_;
-    mutable std::vector<Handle> idle_;  // guarded by mutex_; at most as many as threads have made requests at once
+    mutable std::vector<CurlHandle> idle_;  // guarded by mutex_; at most as many as threads have made requests at once
 };
 
 }  // namespace oval4d::net

@@ -15,7 +15,7 @@ namespace {
 
 /// Returns the CPU quota of a control group as a number of processors: 2 for the cpu.max "200000 100000". Returns an
 /// empty optional if there is no quota ("max 100000") or no such file.
-std::optional<double> quotaIn(const fs::path& group) {
+std::optional<double> cpuQuotaOf(const fs::path& group) {
     double quota = 0, period = 0;
     if (std::ifstream(group / "cpu.max") >> quota >> period && period > 0) return quota / period;
     if (std::ifstream(group / "cpu.cfs_quota_us") >> quota && quota > 0 &&
@@ -37,10 +37,10 @@ std::size_t usableProcessorCount(const fs::path& root) {
         if (!controllers.empty() && controllers != "cpu" && controllers != "cpu,cpuacct") continue;
         const fs::path mount = root / "sys/fs/cgroup" / controllers;
         // In a container, the line may contain the path of the group on the host, although the container sees only its
-        // own group, at `mount`. Therefore the path and all its parents up to `mount` are tried. quotaIn() skips
+        // own group, at `mount`. Therefore the path and all its parents up to `mount` are tried. cpuQuotaOf() skips
         // missing files.
         for (fs::path path = line.substr(second + 2);; path = path.parent_path()) {
-            if (const auto quota = quotaIn(mount / path)) most = std::min(most, *quota);
+            if (const auto quota = cpuQuotaOf(mount / path)) most = std::min(most, *quota);
             if (path.empty()) break;
         }
     }

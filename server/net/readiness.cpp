@@ -11,7 +11,7 @@ void Readiness::warmUpOrMarkBroken(pipeline::Pipeline& pipeline) {
     try {
         std::vector<std::uint8_t> png;
         pipeline.warmUp();
-        pipeline.drawPng(session::pictureOf(session::initialState()), "", png);
+        pipeline.drawPng(session::pictureRequestOf(session::initialState()), "", png);
         (void)polytopes::findEntry("");  // the first call builds the tables of names
         if (--missing_ == 0) spdlog::info("ready");
     } catch (const std::exception& fault) {

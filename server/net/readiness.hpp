@@ -26,7 +26,7 @@ class Readiness {
     void markStopping() { stopping_ = true; }
     bool stopping() const { return stopping_; }
     /// Returns whether a worker failed to draw its first picture. The server then never becomes ready.
-    bool broken() const { return broken_; }
+    bool isBroken() const { return broken_; }
 
   private:
     std::atomic<std::size_t> missing_;  // number of workers that have not drawn their first picture

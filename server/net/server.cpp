@@ -129,7 +129,7 @@ class Server {
     void stopWorkers();
 
     ServerOptions options_;
-    Clients clients_;
+    ClientAccounts clients_;
     FieldCacheFiles fieldCacheFiles_;  // outlives all fields; declared before io_, whose handlers may hold fields
     ConnectionRegistry connections_;   // outlives all registrations; declared before io_, whose coroutines own them
     SystemTimerClock clock_;           // outlives all timers; declared before io_, whose handlers own timers
@@ -293,7 +293,7 @@ asio::awaitable<void> Server::stopOnSignal() {
         co_await pauseFor(clock_, executor, 2ms);
     } while (!saved.expired() && clock_.now() < limit - toSteadyDuration(options_.stopTimeout) / 2);
     connections_.stopAll();
-    while ((connections_.size() > 0 || sessions_->openCount() > 0) && clock_.now() < limit) {
+    while ((connections_.size() > 0 || sessions_->openSessionCount() > 0) && clock_.now() < limit) {
         co_await pauseFor(clock_, executor, 10ms);
     }
     if (connections_.size() > 0) spdlog::warn("clients still connected at shutdown count={}", connections_.size());

@@ -40,7 +40,7 @@ struct Services {
     pipeline::PipelinePool& pictureWorkers;  ///< threads that slice and draw pictures
     parallel::WorkerPool& exportWorkers;     ///< threads that make exported files (slower than pictures)
     Metrics& metrics;
-    Clients& clients;
+    ClientAccounts& clients;
     /// Threads for work that waits for files: reading uploads, reading and listing arrays of the data folder, and
     /// decoding stored sessions that refer to such arrays.
     parallel::WorkerPool& loadWorkers;

@@ -16,11 +16,11 @@ namespace oval4d::net {
 
 /// A Zarr folder in an object store. open() reads the metadata files of the folder once, so that all of a field is read
 /// with the same metadata.
-class StoredZarrFolder final : public fields::FolderFiles {
+class ObjectStoreZarrFolder final : public fields::FolderFileProvider {
   public:
     /// Opens the folder called `name`, and reads its metadata. Returns null if there is no such Zarr folder. Errors:
     /// those of ObjectStore::get(). `store` must outlive the folder.
-    static Result<std::shared_ptr<const StoredZarrFolder>> open(const ObjectStore& store, const std::string& name);
+    static Result<std::shared_ptr<const ObjectStoreZarrFolder>> open(const ObjectStore& store, const std::string& name);
 
     Result<std::optional<fields::FoundFile>> find(const std::string& path, const fields::FilePart& part,
                                                   std::chrono::steady_clock::time_point until,
@@ -29,7 +29,7 @@ class StoredZarrFolder final : public fields::FolderFiles {
     std::string version() const override;
 
   private:
-    StoredZarrFolder(const ObjectStore& store, const std::string& name) : store_(store), prefix_(name + '/') {}
+    ObjectStoreZarrFolder(const ObjectStore& store, const std::string& name) : store_(store), prefix_(name + '/') {}
 
     const ObjectStore& store_;
     const std::string prefix_;

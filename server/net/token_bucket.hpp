@@ -19,20 +19,20 @@ class TokenBucket {
 
     /// Takes `amount` tokens, even if the bucket holds fewer, and returns the new level.
     double take(double amount, Clock::time_point now) {
-        level_ = level(now) - amount;
+        level_ = tokensAt(now) - amount;
         last_ = now;
         return level_;
     }
 
     /// Returns the number of tokens at `now`; negative if the bucket is overdrawn.
-    double level(Clock::time_point now) const {
+    double tokensAt(Clock::time_point now) const {
         return std::min(burst_, level_ + perSecond_ * std::chrono::duration<double>(now - last_).count());
     }
 
-    bool full(Clock::time_point now) const { return level(now) >= burst_; }
+    bool isFull(Clock::time_point now) const { return tokensAt(now) >= burst_; }
 
     /// Returns the time until an overdrawn bucket reaches the level 0 again; zero if the bucket is not overdrawn.
-    Seconds timeUntilRepaid(Clock::time_point now) const { return Seconds(std::max(0.0, -level(now) / perSecond_)); }
+    Seconds timeUntilRepaid(Clock::time_point now) const { return Seconds(std::max(0.0, -tokensAt(now) / perSecond_)); }
 
   private:
     double perSecond_, burst_, level_;

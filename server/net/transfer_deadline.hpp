@@ -24,7 +24,7 @@ class TransferDeadline {
         : clock_(clock), grace_(options.writeTimeout), perSecond_(static_cast<double>(options.minReadRate)) {}
 
     /// Counts bytes that the client has accepted or sent.
-    void count(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
+    void countBytes(std::size_t bytes) { taken_ += static_cast<double>(bytes); }
 
     /// Returns the time within which the next fragment must be transferred; 1 ms if the client is already too slow.
     Clock::duration nextFragmentTimeout() const {

@@ -27,7 +27,7 @@ double FairQueue::EstimateCorrection::correctionFactor(double general) const {
                       kMaxCorrection);
 }
 
-void FairQueue::EstimateCorrection::learn(Seconds estimate, Seconds took) {
+void FairQueue::EstimateCorrection::addMeasurement(Seconds estimate, Seconds took) {
     estimated_ = kDecay * estimated_ + estimate;
     measured_ = kDecay * measured_ + took;
 }
@@ -63,11 +63,11 @@ bool FairQueue::push(Job job, const JobQueuePtr& jobQueue, Seconds estimate, Clo
 
 std::optional<FairQueue::DueJob> FairQueue::popStartableJob(Clock::time_point now) {
     if (scheduler_.empty()) return std::nullopt;
-    const JobClass jobClass = longJobsMustWait(now) ? short_job : scheduler_.next();
-    ClassScheduler& ofClass = classes_[jobClass];
+    const JobClass jobClass = longJobsMustWait(now) ? short_job : scheduler_.nextFlow();
+    JobClassScheduler& ofClass = classes_[jobClass];
     if (ofClass.clients.empty()) return std::nullopt;
-    const ClientFlowPtr client = ofClass.clients.next();
-    const JobQueuePtr jobQueue = client->jobQueues_[jobClass].next();
+    const ClientFlowPtr client = ofClass.clients.nextFlow();
+    const JobQueuePtr jobQueue = client->jobQueues_[jobClass].nextFlow();
     QueuedJob first = std::move(jobQueue->jobs_.front());
     jobQueue->jobs_.pop_front();
     --waiting_;
@@ -88,7 +88,7 @@ void FairQueue::recordJobEnd(const DueJob& started, Seconds took) {
     const JobClass jobClass = started.jobClass;
     if (jobClass == long_job) --longRunning_;
     for (EstimateCorrection* each : {&jobQueue.correction_, &client.correction_, &correction_})
-        each->learn(started.estimate, std::min(took, kMaxOverrun * started.cost));
+        each->addMeasurement(started.estimate, std::min(took, kMaxOverrun * started.cost));
     const Seconds more = took - started.cost;
     scheduler_.recordEnd(classes_[jobClass].state, costChargedToClass(jobClass, more));
     classes_[jobClass].clients.recordEnd(client.states_[jobClass], more);
@@ -100,8 +100,8 @@ void FairQueue::recordJobEnd(const DueJob& started, Seconds took) {
     }
 }
 
-Seconds FairQueue::nextCost(const ClientFlow& client, JobClass jobClass) {
-    return client.jobQueues_[jobClass].next()->jobs_.front().cost;
+Seconds FairQueue::nextJobCost(const ClientFlow& client, JobClass jobClass) {
+    return client.jobQueues_[jobClass].nextFlow()->jobs_.front().cost;
 }
 
 /// Updates the position of a job queue among the job queues of its client, for the class of its first job. Then updates
@@ -119,17 +119,17 @@ void FairQueue::updateJobQueueEntry(const JobQueuePtr& jobQueue) {
 /// in `scheduler_` in the same way. Must be called when the client's next job of this class, or the client's virtual
 /// finish time, has changed.
 void FairQueue::updateClientEntry(const ClientFlowPtr& client, JobClass jobClass) {
-    ClassScheduler& ofClass = classes_[jobClass];
+    JobClassScheduler& ofClass = classes_[jobClass];
     if (client->jobQueues_[jobClass].empty()) {
         ofClass.clients.remove(client->states_[jobClass]);
     } else {
-        ofClass.clients.enqueueOrUpdateFlow(client->states_[jobClass], client, nextCost(*client, jobClass));
+        ofClass.clients.enqueueOrUpdateFlow(client->states_[jobClass], client, nextJobCost(*client, jobClass));
     }
     if (ofClass.clients.empty()) {
         scheduler_.remove(ofClass.state);
     } else {
-        scheduler_.enqueueOrUpdateFlow(ofClass.state, jobClass,
-                                       costChargedToClass(jobClass, nextCost(*ofClass.clients.next(), jobClass)));
+        scheduler_.enqueueOrUpdateFlow(
+            ofClass.state, jobClass, costChargedToClass(jobClass, nextJobCost(*ofClass.clients.nextFlow(), jobClass)));
     }
 }
 
@@ -163,7 +163,7 @@ bool FairQueue::longJobsMustWait(Clock::time_point now) {
     pruneRecentShortJobQueues(now);
     const FairScheduler<ClientFlowPtr>& clients = classes_[long_job].clients;
     return !recentShortJobQueues_.empty() ||
-           (!clients.empty() && nextCost(*clients.next(), long_job) > kVeryLongJobThreshold);
+           (!clients.empty() && nextJobCost(*clients.nextFlow(), long_job) > kVeryLongJobThreshold);
 }
 
 bool FairQueue::hasStartableJob(Clock::time_point now) {
@@ -173,9 +173,9 @@ bool FairQueue::hasStartableJob(Clock::time_point now) {
 std::deque<FairQueue::Job> FairQueue::clear() {
     std::deque<Job> dropped;
     while (!scheduler_.empty()) {
-        const JobClass jobClass = scheduler_.next();
-        const ClientFlowPtr client = classes_[jobClass].clients.next();
-        const JobQueuePtr jobQueue = client->jobQueues_[jobClass].next();
+        const JobClass jobClass = scheduler_.nextFlow();
+        const ClientFlowPtr client = classes_[jobClass].clients.nextFlow();
+        const JobQueuePtr jobQueue = client->jobQueues_[jobClass].nextFlow();
         client->waiting_ -= jobQueue->jobs_.size();
         waiting_ -= jobQueue->jobs_.size();
         for (QueuedJob& each : jobQueue->jobs_) dropped.push_back(std::move(each.job));

@@ -54,7 +54,7 @@ class FairScheduler {
 
     bool empty() const { return queue_.empty(); }
     /// Returns the flow to serve next. The scheduler must not be empty.
-    const Flow& next() const { return queue_.begin()->second; }
+    const Flow& nextFlow() const { return queue_.begin()->second; }
     /// Returns the number of active flows: those with waiting or running jobs.
     std::size_t activeFlows() const { return activeFlows_; }
 
@@ -129,7 +129,7 @@ class FairQueue {
     /// The class of a job, which its cost determines (see kLongJobThreshold).
     enum JobClass : std::size_t { short_job, long_job };
     template <typename T>
-    using PerClass = std::array<T, 2>;  // an array with one element for each JobClass
+    using PerJobClass = std::array<T, 2>;  // an array with one element for each JobClass
     using ClientFlowPtr = std::shared_ptr<ClientFlow>;
     using JobQueuePtr = std::shared_ptr<JobQueue>;
 
@@ -178,7 +178,7 @@ class FairQueue {
     std::deque<Job> clear();
 
     /// Returns the number of waiting jobs.
-    std::size_t waiting() const { return waiting_; }
+    std::size_t waitingJobCount() const { return waiting_; }
     /// Returns whether a waiting job could start if one more thread were free.
     bool hasStartableJob(Clock::time_point now);
 
@@ -189,7 +189,7 @@ class FairQueue {
         // Returns the factor by which estimates must be multiplied. `general` is the prior: the factor learned from a
         // larger group of jobs. While few jobs have been measured, the prior dominates.
         double correctionFactor(double general) const;
-        void learn(Seconds estimate, Seconds took);
+        void addMeasurement(Seconds estimate, Seconds took);
 
       private:
         Seconds estimated_{0}, measured_{0};  // the weighted sums of the estimated times and of the measured times
@@ -203,7 +203,7 @@ class FairQueue {
 
     // The scheduling data of one class: of all short jobs, or of all long jobs. `clients` schedules the clients of the
     // class. `scheduler_` chooses between the two classes; to it, each class is a flow with the state `state`.
-    struct ClassScheduler {
+    struct JobClassScheduler {
         FairScheduler<ClientFlowPtr> clients;
         FairScheduler<JobClass>::FlowState state;
     };
@@ -212,7 +212,7 @@ class FairQueue {
 
     Seconds correctedCost(const JobQueue& jobQueue, Seconds estimate) const;
     Seconds costChargedToClass(JobClass jobClass, Seconds cost) const;
-    static Seconds nextCost(const ClientFlow& client, JobClass jobClass);
+    static Seconds nextJobCost(const ClientFlow& client, JobClass jobClass);
     void updateJobQueueEntry(const JobQueuePtr& jobQueue);
     void updateClientEntry(const ClientFlowPtr& client, JobClass jobClass);
     void updateRecentShortQueues(const JobQueuePtr& jobQueue, JobClass jobClass, Clock::time_point now);
@@ -222,7 +222,7 @@ class FairQueue {
     const std::size_t maxLongRunning_;  // the number of threads that are not reserved for short jobs
     const Limits limits_;
     std::size_t waiting_ = 0, longRunning_ = 0;  // the numbers of waiting jobs and of running long jobs
-    PerClass<ClassScheduler> classes_;
+    PerJobClass<JobClassScheduler> classes_;
     FairScheduler<JobClass> scheduler_;  // decides which of the two classes is served next
     EstimateCorrection correction_;      // learned from the jobs of all clients
     RecentJobQueues
@@ -233,9 +233,9 @@ class FairQueue {
 /// the same FairQueue.
 class FairQueue::ClientFlow {
     friend FairQueue;
-    PerClass<FairScheduler<ClientFlowPtr>::FlowState>
-        states_;  // per class: the client's state as a flow in ClassScheduler::clients
-    PerClass<FairScheduler<JobQueuePtr>> jobQueues_;  // per class: the scheduler of the client's job queues
+    PerJobClass<FairScheduler<ClientFlowPtr>::FlowState>
+        states_;  // per class: the client's state as a flow in JobClassScheduler::clients
+    PerJobClass<FairScheduler<JobQueuePtr>> jobQueues_;  // per class: the scheduler of the client's job queues
     std::size_t waiting_ = 0;
     EstimateCorrection correction_;
 };
@@ -248,7 +248,7 @@ class FairQueue::JobQueue {
   private:
     friend FairQueue;
     const ClientFlowPtr client_;
-    PerClass<FairScheduler<JobQueuePtr>::FlowState> states_;
+    PerJobClass<FairScheduler<JobQueuePtr>::FlowState> states_;
     std::deque<QueuedJob> jobs_;
     EstimateCorrection correction_;
     std::optional<RecentJobQueues::iterator>

@@ -25,7 +25,7 @@ void runJob(const WorkerPool::Job& job, std::size_t worker) {
 }  // namespace
 
 WorkerPool::WorkerPool(PoolOptions options) : options_(std::move(options)), queue_(options_.threads, options_.limits) {
-    for (std::size_t i = 0; i < options_.threads; ++i) threads_.emplace_back([this, i] { run(i); });
+    for (std::size_t i = 0; i < options_.threads; ++i) threads_.emplace_back([this, i] { runWorker(i); });
 }
 
 WorkerPool::~WorkerPool() { stop(); }
@@ -61,9 +61,9 @@ void WorkerPool::stop() {
     threads_.clear();
 }
 
-std::size_t WorkerPool::waiting() const {
+std::size_t WorkerPool::waitingJobCount() const {
     const std::lock_guard lock(mutex_);
-    return queue_.waiting();
+    return queue_.waitingJobCount();
 }
 
 bool WorkerPool::hasStartableJob() {
@@ -76,7 +76,7 @@ WorkerPool::Seconds WorkerPool::busyTime() const {
     return busyTime_;
 }
 
-void WorkerPool::run(std::size_t worker) {
+void WorkerPool::runWorker(std::size_t worker) {
     runJob(options_.onThreadStart, worker);
     std::unique_lock lock(mutex_);
     bool used = true;
@@ -99,7 +99,8 @@ void WorkerPool::run(std::size_t worker) {
         lock.lock();
         busyTime_ += took;
         queue_.recordJobEnd(*next, took);
-        if (queue_.waiting() > 0) wake_.notify_one();  // a long job that had to wait may be allowed to start now
+        if (queue_.waitingJobCount() > 0)
+            wake_.notify_one();  // a long job that had to wait may be allowed to start now
     }
 }
 
@@ -107,7 +108,7 @@ void WorkerPool::run(std::size_t worker) {
 /// `whenIdle` and sets both to false. `used` says whether the worker has run a job since it last ran `whenIdle`; it is
 /// true if the worker has never run `whenIdle`.
 void WorkerPool::waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker) {
-    if (queue_.waiting() > 0) {
+    if (queue_.waitingJobCount() > 0) {
         wake_.wait_for(lock, kRecheckInterval);
         return;
     }

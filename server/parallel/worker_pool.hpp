@@ -72,14 +72,14 @@ class WorkerPool {
     /// Returns the number of threads; 0 after stop().
     std::size_t size() const { return threads_.size(); }
     /// Returns the number of waiting jobs.
-    std::size_t waiting() const;
+    std::size_t waitingJobCount() const;
     /// Returns whether a waiting job could start if one more thread were free.
     bool hasStartableJob();
     /// Returns the total running time, in seconds, of all jobs that have ended.
     Seconds busyTime() const;
 
   private:
-    void run(std::size_t worker);
+    void runWorker(std::size_t worker);
     void waitForJobOrCleanUp(std::unique_lock<std::mutex>& lock, bool& used, std::size_t worker);
 
     const PoolOptions options_;

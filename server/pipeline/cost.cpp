@@ -15,7 +15,7 @@ namespace oval4d::pipeline {
 
 namespace {
 
-double elementTotal(const slicing::Object& object) {
+double totalElementCount(const slicing::Object& object) {
     const auto counts = slicing::elementCounts(object);
     return static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::size_t{0}));
 }
@@ -23,7 +23,7 @@ double elementTotal(const slicing::Object& object) {
 /// Returns approximately how many elements a hyperplane cuts in a polytope that has n elements (vertices, edges, faces
 /// and cells). The elements form a three-dimensional boundary, and the hyperplane cuts this boundary in a
 /// two-dimensional surface. Hence the exponent 2/3.
-double elementsCut(double n) { return std::pow(n, 2.0 / 3); }
+double estimateElementsCut(double n) { return std::pow(n, 2.0 / 3); }
 
 /// Returns the estimated time, in seconds, to extract the surfaces of a field and to draw or write them. Returns 0 for
 /// other objects, and if faces are hidden. `slices` is the number of slices, and `cubes` the number of lattice cubes
@@ -72,13 +72,13 @@ double fogSeconds(const scene::PictureRequest& picture, double slices, double cu
 /// Returns the estimated time, in seconds, to slice an object, without the surfaces of a field, and to compose the
 /// scene of the slices.
 double boxSeconds(const scene::PictureRequest& picture) {
-    const double n = elementTotal(picture.object);
-    return 1e-4 + 1e-7 * n + 1e-7 * picture.planes.count * elementsCut(n);
+    const double n = totalElementCount(picture.object);
+    return 1e-4 + 1e-7 * n + 1e-7 * picture.planes.count * estimateElementsCut(n);
 }
 
 /// Returns the estimated time, in seconds, to find the surface of a field at a pixel, or the contours of the matrix.
 /// Returns 0 for other objects, and if faces are hidden.
-double raySeconds(const scene::PictureRequest& picture) {
+double rayCastingSeconds(const scene::PictureRequest& picture) {
     const fields::Field* field = slicing::fieldIn(picture.object);
     if (field == nullptr || !picture.look.parts.faces) return 0;
     constexpr double kSlices = 3;  // the number of slices that the ray through a pixel meets
@@ -93,35 +93,35 @@ double raySeconds(const scene::PictureRequest& picture) {
 EstimatedSeconds frameCost(const scene::PictureRequest& picture) {
     const scene::Viewport& viewport = picture.viewport;
     const slicing::Quality quality = picture.quality;
-    const double n = elementTotal(picture.object);
+    const double n = totalElementCount(picture.object);
     const double pixels = static_cast<double>(viewport.width) * viewport.height;
-    const double bodies = picture.planes.count * (2e-5 + 1.2e-6 * elementsCut(n));
+    const double bodies = picture.planes.count * (2e-5 + 1.2e-6 * estimateElementsCut(n));
     const double layers = 1 + 0.4 * std::log2(1 + n / 25);  // the estimated number of faces blended at a pixel
     // The focus slice (the middle one) takes up to half the height of the picture. The other slices of the oval are
     // smaller. Together, they have a few times as many pixels as the focus slice. So all slices count as kSlices slices
     // of the size of the focus slice.
     constexpr double kSlices = 4;
     const double cubes = picture.look.orbit.zoom * viewport.height / 2 / slicing::pixelsPerCube(quality);
-    // In full quality, the lattice of each slice has at least cubesAcross() cubes across the diameter of the field,
-    // even if the slice is drawn small. Therefore the greater of two times counts: the time for the drawn size, and the
-    // time for this minimum.
+    // In full quality, the lattice of each slice has at least cubesAcrossDiameter() cubes across the diameter of the
+    // field, even if the slice is drawn small. Therefore the greater of two times counts: the time for the drawn size,
+    // and the time for this minimum.
     const double field =
         std::max(surfaceSeconds(picture, kSlices, cubes, quality),
-                 surfaceSeconds(picture, picture.planes.count, slicing::cubesAcross(quality), quality)) +
+                 surfaceSeconds(picture, picture.planes.count, slicing::cubesAcrossDiameter(quality), quality)) +
         fogSeconds(picture, kSlices, cubes, pixels / kSlices, quality);
     return EstimatedSeconds(5e-4 + bodies + 6e-9 * pixels * layers + field);
 }
 
 EstimatedSeconds geometryCost(const scene::PictureRequest& picture) {
     const slicing::Quality quality = picture.quality;
-    const double cubes = slicing::cubesAcross(quality);
+    const double cubes = slicing::cubesAcrossDiameter(quality);
     const double field = surfaceSeconds(picture, picture.planes.count, cubes, quality) +
                          fogSeconds(picture, picture.planes.count, 2 * cubes, 0, quality);
     return EstimatedSeconds(boxSeconds(picture) + field);
 }
 
-EstimatedSeconds pointCost(const scene::PictureRequest& picture) {
-    return EstimatedSeconds(boxSeconds(picture) + raySeconds(picture));
+EstimatedSeconds pointDescriptionCost(const scene::PictureRequest& picture) {
+    return EstimatedSeconds(boxSeconds(picture) + rayCastingSeconds(picture));
 }
 
 EstimatedSeconds sampleCost(const slicing::Object& object) {
@@ -130,17 +130,18 @@ EstimatedSeconds sampleCost(const slicing::Object& object) {
 }
 
 EstimatedSeconds focusSectionCost(const slicing::Object& object) {
-    const double n = elementTotal(object);
-    return EstimatedSeconds(1e-4 + 1e-8 * n + 1e-7 * elementsCut(n));
+    const double n = totalElementCount(object);
+    return EstimatedSeconds(1e-4 + 1e-8 * n + 1e-7 * estimateElementsCut(n));
 }
 
 EstimatedSeconds exportCost(const scene::PictureRequest& picture, const exports::ExportRequest& request) {
     constexpr slicing::Quality kQuality = slicing::Quality::file;
     const int chosen = request.fittedSlices.value_or(static_cast<int>(request.chosenW.size()));
     const int slices = request.choosesSlices() ? chosen : picture.planes.count;
-    const double field = request.exact ? exactSurfaceSeconds(picture, slices)
-                                       : surfaceSeconds(picture, slices, slicing::cubesAcross(kQuality), kQuality);
-    return EstimatedSeconds(0.02 + 5e-6 * slices * elementsCut(elementTotal(picture.object)) + field);
+    const double field = request.exact
+                             ? exactSurfaceSeconds(picture, slices)
+                             : surfaceSeconds(picture, slices, slicing::cubesAcrossDiameter(kQuality), kQuality);
+    return EstimatedSeconds(0.02 + 5e-6 * slices * estimateElementsCut(totalElementCount(picture.object)) + field);
 }
 
 }  // namespace oval4d::pipeline

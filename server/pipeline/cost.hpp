@@ -21,7 +21,7 @@ EstimatedSeconds frameCost(const scene::PictureRequest& picture);
 EstimatedSeconds geometryCost(const scene::PictureRequest& picture);
 
 /// Returns the estimated time of Pipeline::describePoint() for this picture.
-EstimatedSeconds pointCost(const scene::PictureRequest& picture);
+EstimatedSeconds pointDescriptionCost(const scene::PictureRequest& picture);
 
 /// Returns the estimated time of slicing::sampleField() if `object` is a field.
 EstimatedSeconds sampleCost(const slicing::Object& object);

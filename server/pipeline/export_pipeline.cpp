@@ -24,7 +24,7 @@ namespace {
 
 // Returns the hyperplanes at the values of w in `at` (ExportRequest::chosenW). These values are coordinates in the
 // object's file, as in the labels of slices.
-Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const scene::PictureRequest& picture) {
+Result<geometry::Hyperplanes> hyperplanesAtW(const std::vector<double>& at, const scene::PictureRequest& picture) {
     const double origin = slicing::infoOf(picture.object).originInFile.w;
     const double reach = geometry::kMaxOffset * slicing::infoOf(picture.object).circumradius;
     for (const double w : at) {
@@ -46,7 +46,7 @@ Result<geometry::Hyperplanes> hyperplanesAt(const std::vector<double>& at, const
 // Divides the extent of the object along w into `count` equal intervals, and returns the hyperplanes in the middles of
 // the intervals. The slices of a point cloud are thick, and do not contain the points at the upper ends of their
 // intervals. So if slices are thick, the intervals are slightly longer.
-geometry::Hyperplanes fittingHyperplanes(int count, const scene::PictureRequest& picture) {
+geometry::Hyperplanes hyperplanesDividingExtent(int count, const scene::PictureRequest& picture) {
     const double larger = slicing::propertiesOf(picture.object).slicesAreThick ? 1 + 1e-9 : 1;
     const auto [least, most] = slicing::rangeOfW(picture.object, picture.orientation);
     const double shortest = geometry::kMinSpacing * slicing::infoOf(picture.object).circumradius;
@@ -70,23 +70,23 @@ Result<geometry::Hyperplanes> hyperplanesOf(const exports::ExportRequest& reques
     }
     if (request.fittedSlices) {
         if (*request.fittedSlices < 1 || *request.fittedSlices > maxSlices)
-            return wire::wrongFit(maxSlices, text::roundedDecimal(*request.fittedSlices));
-        return fittingHyperplanes(*request.fittedSlices, picture);
+            return wire::invalidFitError(maxSlices, text::roundedDecimal(*request.fittedSlices));
+        return hyperplanesDividingExtent(*request.fittedSlices, picture);
     }
     if (request.chosenW.size() > static_cast<std::size_t>(maxSlices)) {
         return Error{ErrorCode::out_of_range, "the number of values of at must be at most " +
                                                   std::to_string(maxSlices) + ", not " +
                                                   std::to_string(request.chosenW.size())};
     }
-    return hyperplanesAt(request.chosenW, picture);
+    return hyperplanesAtW(request.chosenW, picture);
 }
 
 // Returns a set whose only slice is the projection of the whole object, to be exported instead of `slices`. The
 // projection is orthogonal if the picture shows an orthogonal projection, else perspective. Cells of hidden types hide
 // what lies behind them, because bodies contain the cells of all types. `occlusionSteps`: see
 // slicing::Projector::ProjectionOptions.
-slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slicing::SliceSet& slices,
-                               std::size_t occlusionSteps) {
+slicing::SliceSet projectionAsSlice(const scene::PictureRequest& picture, const slicing::SliceSet& slices,
+                                    std::size_t occlusionSteps) {
     const scene::ProjectionSettings& settings = picture.look.projection;
     const bool parallel = settings.kind == scene::ProjectionKind::orthogonal;
     const double radius = slicing::infoOf(picture.object).circumradius;
@@ -104,7 +104,7 @@ slicing::SliceSet projectionOf(const scene::PictureRequest& picture, const slici
 
 // Returns whether an export of a field with this request needs the surfaces in the slices. Exact surfaces do not count,
 // because exportScene() makes them.
-bool readsFieldSurfaces(const exports::ExportRequest& request) {
+bool needsFieldSurfaces(const exports::ExportRequest& request) {
     if (request.exact) return false;
     using enum exports::ExportContentsKind;
     if (request.contents == projection || request.contents == matrix || request.contents == highlight) return false;
@@ -142,7 +142,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
                                             request.contents == exports::ExportContentsKind::focus);
     slicing::SliceSet slices;
     slicing::SurfaceDetail detail;
-    if (isField && readsFieldSurfaces(request)) {
+    if (isField && needsFieldSurfaces(request)) {
         slicing::setUniformDetail(slicing::infoOf(picture.object).circumradius, planes, slicing::Quality::file, detail);
         detail.secondValues = true;
     }
@@ -157,7 +157,7 @@ Result<exports::ExportedFile> exportFile(const scene::PictureRequest& picture, c
         slicing::Slicer().slice(picture.object, picture.orientation, planes, picture.look.field, detail, slices);
     }
     if (request.contents == exports::ExportContentsKind::projection && !drawing)
-        slices = projectionOf(picture, slices, limits.occlusionSteps);
+        slices = projectionAsSlice(picture, slices, limits.occlusionSteps);
     scene::Look look;
     if (hasOwnLook) {
         look = picture.look;

@@ -27,7 +27,7 @@ slicing::NamedSection FocusSectionNamer::name(const scene::PictureRequest& pictu
         slicing::infoOf(picture.object).serial, picture.orientation, picture.focusPlane().w(0), {}};
     if (!slicing::propertiesOf(picture.object).sectionsHaveNames) return section;
     section.names = {namer_.nameOfSlice(slices, slice),
-                     namer_.nameOfObjectVertices(slices, slice, slicing::elementCounts(picture.object)[1])};
+                     namer_.nameOfHullOfObjectVertices(slices, slice, slicing::elementCounts(picture.object)[1])};
     return section;
 }
 

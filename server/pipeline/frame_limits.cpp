@@ -6,7 +6,7 @@
 
 namespace oval4d::pipeline {
 
-scene::Viewport usualViewport(const FrameLimits& limits) {
+scene::Viewport defaultViewport(const FrameLimits& limits) {
     const scene::Viewport usual;
     const int width = std::max(limits.minSide, std::min(usual.width, limits.maxWidth));
     const int height = std::max(limits.minSide, std::min(usual.height, limits.maxHeight));

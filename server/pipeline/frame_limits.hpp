@@ -18,7 +18,7 @@ struct FrameLimits {
 /// Returns the size of a picture for which the client gives no size: the size of a default scene::Viewport or, if the
 /// limits do not allow this size, an allowed size near it. If the limits contradict each other, no size is allowed, and
 /// checkViewport() refuses the result.
-scene::Viewport usualViewport(const FrameLimits& limits);
+scene::Viewport defaultViewport(const FrameLimits& limits);
 
 /// Returns `viewport` if it is within the limits. Otherwise returns the error `out_of_range`, whose message says which
 /// sizes are allowed.

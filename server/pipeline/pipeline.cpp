@@ -22,15 +22,16 @@ slicing::NamedSection Pipeline::nameFocusSection(const scene::PictureRequest& pi
     scene::Composer& composer = workspace_.composer;
     FocusSectionNamer& namer = workspace_.sectionNamer;
     const double w = picture.focusPlane().w(0);
-    if (const auto& known = composer.section(); known && known->isOf(picture.object, picture.orientation, w))
+    if (const auto& known = composer.namedSection();
+        known && known->isSectionOf(picture.object, picture.orientation, w))
         return *known;
-    composer.keepSection(slices != nullptr ? namer.name(picture, *slices) : namer.name(picture));
-    return *composer.section();
+    composer.reuseSectionNames(slices != nullptr ? namer.name(picture, *slices) : namer.name(picture));
+    return *composer.namedSection();
 }
 
-void Pipeline::keepFocusSection(const slicing::NamedSection& section) {
+void Pipeline::reuseFocusSectionNames(const slicing::NamedSection& section) {
     const parallel::ExclusiveUseAssertion::ScopedUse use(inUse_);
-    workspace_.composer.keepSection(section);
+    workspace_.composer.reuseSectionNames(section);
 }
 
 void Pipeline::slice(const scene::PictureRequest& picture, slicing::SliceSet& out) {
@@ -79,12 +80,12 @@ std::string Pipeline::describePoint(const scene::PictureRequest& picture, std::u
             at.sample = slicing::sampleField(*field, picture.orientation, at.level->point);
         }
     }
-    return wire::atMessage(at, composed, picture.object, picture.source, revision, id);
+    return wire::pickMessage(at, composed, picture.object, picture.source, revision, id);
 }
 
 const slicing::SliceSet& Pipeline::sliceToPointAt(const scene::PictureRequest& picture) {
     auto& [input, slices] = workspace_.toPointAt;
-    SlicesToPointAt::Input wanted{slicing::infoOf(picture.object).serial, picture.orientation, picture.planes};
+    SlicesForPointing::SlicingInput wanted{slicing::infoOf(picture.object).serial, picture.orientation, picture.planes};
     if (input != wanted) {
         input.reset();  // so that `slices` does not count as valid if one of the next calls throws
         slicing::checkSliceEdges(picture.object, picture.orientation, wanted.planes, limits_.sliceEdges);

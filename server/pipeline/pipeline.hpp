@@ -59,7 +59,7 @@ class Pipeline {
     slicing::NamedSection nameFocusSection(const scene::PictureRequest& picture,
                                            const slicing::SliceSet* slices = nullptr);
     /// Gives the pipeline the names of a section, so that later calls need not find them.
-    void keepFocusSection(const slicing::NamedSection& section);
+    void reuseFocusSectionNames(const slicing::NamedSection& section);
 
     /// Slices the object of the picture, and writes the slices to `out`. Overwrites `out` and reuses its memory. Throws
     /// slicing::TooManySliceEdges if the slices exceed PictureWorkLimits::sliceEdges, and std::runtime_error if the
@@ -101,14 +101,14 @@ class Pipeline {
   private:
     // The slices of the last call of describePoint(), without the surfaces and the fog of a field, and the data that
     // determine them.
-    struct SlicesToPointAt {
-        struct Input {
+    struct SlicesForPointing {
+        struct SlicingInput {
             std::uint64_t object = 0;  // the serial number of the object
             geometry::Rotation orientation;
             geometry::Hyperplanes planes;
-            bool operator==(const Input&) const = default;
+            bool operator==(const SlicingInput&) const = default;
         };
-        std::optional<Input> input;  // empty if `slices` is not valid
+        std::optional<SlicingInput> input;  // empty if `slices` is not valid
         slicing::SliceSet slices;
     };
 
@@ -117,7 +117,7 @@ class Pipeline {
         explicit Workspace(parallel::ForkJoin* forkJoin) : slicer(forkJoin), encoder(forkJoin) {}
         slicing::Slicer slicer;
         slicing::SurfaceDetail detail;
-        SlicesToPointAt toPointAt;
+        SlicesForPointing toPointAt;
         FocusSectionNamer sectionNamer;
         scene::Composer composer;
         scene::Scene scene;

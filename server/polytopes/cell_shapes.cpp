@@ -39,13 +39,13 @@ struct ElementTally {
         }
         for (const auto& [vertex, degree] : degrees) ++verticesOfDegree[degree];
     }
-    std::uint32_t facesWith(std::size_t sides) const {
+    std::uint32_t facesWithSides(std::size_t sides) const {
         const auto found = faces.find(sides);
         return found == faces.end() ? 0 : found->second;
     }
     // Returns whether the cell has exactly n vertices with `degree` edges, m vertices with `otherDegree` edges, and no
     // other vertices.
-    bool has(std::uint32_t n, std::uint32_t degree, std::uint32_t m, std::uint32_t otherDegree) const {
+    bool hasVertexDegrees(std::uint32_t n, std::uint32_t degree, std::uint32_t m, std::uint32_t otherDegree) const {
         std::map<std::uint32_t, std::uint32_t> wanted;
         wanted[degree] += n;
         wanted[otherDegree] += m;
@@ -81,7 +81,8 @@ std::string adjectiveOfBase(const Polytope& p, std::span<const std::uint32_t> lo
 
 std::string pyramidName(const Polytope& p, std::uint32_t cell, const ElementTally& tally) {
     const std::size_t n = p.cells[cell].size() - 1;
-    if (n < 4 || tally.degrees.size() != n + 1 || tally.facesWith(3) != n || tally.facesWith(n) != 1) return {};
+    if (n < 4 || tally.degrees.size() != n + 1 || tally.facesWithSides(3) != n || tally.facesWithSides(n) != 1)
+        return {};
     for (const std::uint32_t f : p.cells[cell]) {
         if (p.faces[f].size() == n) return adjectiveOfBase(p, p.faces[f]) + " pyramid";
     }
@@ -119,7 +120,7 @@ std::vector<double> radiiOf(const Polytope& p, const ElementTally& tally) {
 
 // Returns whether two 2-faces of a cell may be the bases of an antiprism: they must have no vertex in common, all their
 // edges must be equally long, and all other edges of the cell must be equally long.
-bool mayBeBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
+bool mayBeAntiprismBases(const Polytope& p, std::uint32_t cell, std::uint32_t base, std::uint32_t otherBase) {
     const std::set<std::uint32_t> corners(p.faces[base].begin(), p.faces[base].end());
     const auto isCorner = [&](std::uint32_t v) { return corners.contains(v); };
     if (std::ranges::any_of(p.faces[otherBase], isCorner)) return false;
@@ -140,7 +141,7 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     std::map<std::size_t, std::uint32_t> wanted;
     wanted[n] += 2;
     wanted[3] += 2 * n;
-    if (n < 3 || tally.faces != wanted || !tally.has(n, 4, n, 4)) return {};
+    if (n < 3 || tally.faces != wanted || !tally.hasVertexDegrees(n, 4, n, 4)) return {};
     // The vertices of a right antiprism lie on a sphere. Therefore the vertices of a base lie on a circle, and a base
     // with equally long edges is regular.
     if (!areAllEqual(radiiOf(p, tally))) return {};
@@ -150,7 +151,7 @@ std::string antiprismName(const Polytope& p, std::uint32_t cell, const ElementTa
     }
     for (const std::uint32_t base : bases) {
         for (const std::uint32_t other : bases) {
-            if (base < other && mayBeBases(p, cell, base, other))
+            if (base < other && mayBeAntiprismBases(p, cell, base, other))
                 return adjectiveOf({static_cast<int>(n), 1}) + " antiprism";
         }
     }
@@ -166,9 +167,9 @@ std::string twoApexName(std::uint32_t faces, const ElementTally& tally) {
     const std::string adjective = adjectiveOf({static_cast<int>(n), 1});
     // An irregular octahedron (n = 4) is not called a bipyramid, nor a deformed cube (n = 3) a trapezohedron,
     // because any two opposite vertices could be the apexes.
-    if (n != 4 && vertices == n + 2 && tally.facesWith(3) == 2 * n && tally.has(2, n, n, 4))
+    if (n != 4 && vertices == n + 2 && tally.facesWithSides(3) == 2 * n && tally.hasVertexDegrees(2, n, n, 4))
         return adjective + " bipyramid";
-    if (n > 3 && vertices == 2 * n + 2 && tally.facesWith(4) == 2 * n && tally.has(2, n, 2 * n, 3))
+    if (n > 3 && vertices == 2 * n + 2 && tally.facesWithSides(4) == 2 * n && tally.hasVertexDegrees(2, n, 2 * n, 3))
         return adjective + " trapezohedron";
     return {};
 }

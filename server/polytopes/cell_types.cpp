@@ -35,7 +35,7 @@ struct LengthStatistics {
     bool areEqual() const { return most - least <= kRegularityTolerance * most; }
 };
 
-// Measurements of a cell that do not depend on its position. They are equal for congruent cells.
+// Measurements of a cell that do not depend on its position. The measurements are equal for congruent cells.
 struct CellInvariants {
     std::uint32_t vertices = 0;
     LengthStatistics edges, radii;  // edges: their lengths; radii: the distances of the vertices from their mean
@@ -82,7 +82,7 @@ class CellMeasurer {
 
 // Returns the regular polygon {n/d} for a loop of n vertices that makes d full turns. The caller must ensure that
 // the loop is regular.
-RegularPolygon polygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
+RegularPolygon regularPolygonOf(const Polytope& p, std::span<const std::uint32_t> loop) {
     const auto n = loop.size();
     if (p.convexFaces || n < 5) return {static_cast<int>(n), 1};
     double turning = 0;
@@ -196,7 +196,7 @@ std::string nameOfCell(const Polytope& p, std::uint32_t cell) {
         PolyhedronSignature shape;
         shape.vertices = measures.vertices;
         shape.circumradius = 2 * measures.radii.rootMeanSquare() / measures.edges.rootMeanSquare();
-        for (const std::uint32_t f : faces) ++shape.faces[polygonOf(p, p.faces[f])];
+        for (const std::uint32_t f : faces) ++shape.faces[regularPolygonOf(p, p.faces[f])];
         if (std::string name = nameOf(shape, kRegularityTolerance); !name.empty()) return name;
     }
     if (std::string name = nameOfIrregularCell(p, cell); !name.empty()) return name;

@@ -32,9 +32,9 @@ class ConvexityTest {
         center_ /= static_cast<double>(p_.vertices.size());
     }
 
-    bool run() {
+    bool isConvex() {
         return p_.convexFaces && isConnected() && findHyperplanes() && isLocallyConvex() && cellsAreConvex() &&
-               coversOnce();
+               surroundsEdgesOnce();
     }
 
   private:
@@ -66,7 +66,7 @@ class ConvexityTest {
                 for (const std::uint32_t v : p_.faces[f]) points_.push_back(p_.vertices[v] - center_);
             }
             centers_.push_back(mean(points_));
-            const auto foot = footOf(3);
+            const auto foot = footOfPerpendicular(3);
             if (!foot) return false;
             feet_.push_back(*foot);
         }
@@ -76,7 +76,7 @@ class ConvexityTest {
     // Returns the foot: the point nearest to the origin in the flat (affine subspace) through points_. `dimension`
     // is the dimension of this flat. Returns an empty optional if the points span only a flat of lower dimension,
     // or if the flat contains the origin. Overwrites points_.
-    std::optional<glm::dvec4> footOf(int dimension) {
+    std::optional<glm::dvec4> footOfPerpendicular(int dimension) {
         glm::dvec4 foot = points_.front();
         for (glm::dvec4& point : points_) point -= foot;
         for (; dimension > 0; --dimension) {
@@ -107,12 +107,13 @@ class ConvexityTest {
                 points_.clear();
                 for (const std::uint32_t v : p_.faces[f]) points_.push_back(p_.vertices[v] - middle);
                 centers[f] = mean(points_);
-                const auto foot = footOf(2);
+                const auto foot = footOfPerpendicular(2);
                 if (!foot) return false;
                 feet[f] = *foot;
-                addTurns(p_.faces[f], middle, turn);
+                addVertexAngles(p_.faces[f], middle, turn);
                 for (const std::uint32_t e : p_.faceEdges[f]) {
-                    if (begun[e] && (isBeyond(feet[f], centers[first[e]]) || isBeyond(feet[first[e]], centers[f])))
+                    if (begun[e] &&
+                        (isBeyondFlat(feet[f], centers[first[e]]) || isBeyondFlat(feet[first[e]], centers[f])))
                         return false;
                     first[e] = f;
                     begun[e] = !begun[e];
@@ -130,7 +131,8 @@ class ConvexityTest {
 
     // Adds to `turn`, for each vertex of a 2-face, the angle in radians that the 2-face spans around the axis from
     // `middle` to the vertex.
-    void addTurns(std::span<const std::uint32_t> loop, const glm::dvec4& middle, std::vector<double>& turn) const {
+    void addVertexAngles(std::span<const std::uint32_t> loop, const glm::dvec4& middle,
+                         std::vector<double>& turn) const {
         for (std::size_t i = 0; i < loop.size(); ++i) {
             const glm::dvec4& at = p_.vertices[loop[i]];
             const glm::dvec4 axis = glm::normalize(at - middle);
@@ -142,7 +144,7 @@ class ConvexityTest {
 
     // Returns whether a flat separates `point` from the origin. `foot` is the point of the flat that is nearest to
     // the origin.
-    bool isBeyond(const glm::dvec4& foot, const glm::dvec4& point) const {
+    bool isBeyondFlat(const glm::dvec4& foot, const glm::dvec4& point) const {
         return glm::dot(point - foot, foot) > kTolerance * extent_ * glm::length(foot);
     }
 
@@ -150,14 +152,14 @@ class ConvexityTest {
     // side of the hyperplane of the other cell, or in this hyperplane.
     bool isLocallyConvex() const {
         return std::none_of(p_.faceCells.begin(), p_.faceCells.end(), [&](const auto& pair) {
-            return isBeyond(feet_[pair[0]], centers_[pair[1]]) || isBeyond(feet_[pair[1]], centers_[pair[0]]);
+            return isBeyondFlat(feet_[pair[0]], centers_[pair[1]]) || isBeyondFlat(feet_[pair[1]], centers_[pair[0]]);
         });
     }
 
     // Returns whether the cells around every edge make one full turn. The test projects these cells onto the plane that
     // is perpendicular to the vectors from center_ to the ends of the edge. The projection of a cell fills a sector
     // between the projections of its two 2-faces at the edge. The angles of the sectors must add up to 2π.
-    bool coversOnce() const {
+    bool surroundsEdgesOnce() const {
         const std::size_t edges = p_.edges.size();
         std::vector<double> turn(edges, 0.0), first(edges);
         std::vector<bool> begun(edges, false);
@@ -223,6 +225,6 @@ class ConvexityTest {
 
 }  // namespace
 
-bool isConvex(const Polytope& polytope) { return ConvexityTest(polytope).run(); }
+bool isConvex(const Polytope& polytope) { return ConvexityTest(polytope).isConvex(); }
 
 }  // namespace oval4d::polytopes

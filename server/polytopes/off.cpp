@@ -9,7 +9,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-void append(std::string& out, const geometry::JaggedArray& rows) {
+void appendRows(std::string& out, const geometry::JaggedArray& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         out += std::to_string(rows[i].size());
         for (const std::uint32_t item : rows[i]) out += ' ' + std::to_string(item);
@@ -31,8 +31,8 @@ std::string write4Off(const geometry::CellComplex& complex, std::span<const glm:
             out += axis < 3 ? ' ' : '\n';
         }
     }
-    append(out, complex.faces);
-    append(out, complex.cells);
+    appendRows(out, complex.faces);
+    appendRows(out, complex.cells);
     return out;
 }
 

@@ -68,7 +68,7 @@ std::string nameOfPolygon(std::span<const glm::dvec4> corners) {
         return lengths.hasEqualDiagonals() ? "rectangle" : "quadrilateral";
     }
     const int density = sides > 4 ? lengths.densityIfRegular() : 0;
-    return nounOf({sides, std::max(density, 1)});
+    return polygonNoun({sides, std::max(density, 1)});
 }
 
 }  // namespace oval4d::polytopes

@@ -21,7 +21,9 @@ using geometry::kNone;
 
 using FaultLocation = InvalidPolytope::FaultLocation;
 
-[[noreturn]] void refuse(const std::string& what) { throw InvalidPolytope(FaultLocation::whole, 0, what); }
+[[noreturn]] void throwInvalidPolytope(const std::string& what) {
+    throw InvalidPolytope(FaultLocation::whole, 0, what);
+}
 
 std::string nameOf(FaultLocation part, std::size_t index) {
     if (part == FaultLocation::whole) return {};
@@ -41,16 +43,17 @@ void checkLoops(const geometry::JaggedArray& faces) {
 
 // Returns +1 if the vertex loop of the 2-face traverses its i-th edge from the smaller to the larger vertex index, else
 // −1.
-int directionOf(const Polytope& p, std::uint32_t face, std::size_t i) {
+int edgeSignInLoop(const Polytope& p, std::uint32_t face, std::size_t i) {
     return p.edges[p.faceEdges[face][i]][0] == p.faces[face][i] ? 1 : -1;
 }
 
 // Orients the boundary coherently: assigns a sign to every incidence (pair of a cell and one of its 2-faces,
 // identified by its index in cells.items). If the vertex loops with negative signs are reversed, the 2-faces of a
 // cell traverse each edge of the cell once in each direction. A 2-face has opposite signs in its two cells.
-class Orienter {
+class BoundaryOrienter {
   public:
-    explicit Orienter(Polytope& p) : p_(p), incidencesOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
+    explicit BoundaryOrienter(Polytope& p)
+        : p_(p), incidencesOfFace_(p.faces.size(), {kNone, kNone}), done_(p.cells.size()) {
         p_.cellSigns.assign(p_.cells.items.size(), 0);
         cellOfIncidence_.resize(p_.cells.items.size());
         for (std::uint32_t c = 0; c < p_.cells.size(); ++c) {
@@ -72,7 +75,7 @@ class Orienter {
 
   private:
     // An edge of a 2-face of the current cell. `direction` is +1 if the loop of the 2-face goes from the edge's
-    // smaller vertex index to the larger, else −1 (see directionOf()).
+    // smaller vertex index to the larger, else −1 (see edgeSignInLoop()).
     struct DirectedEdge {
         std::uint32_t edge, incidence;
         int direction;
@@ -134,7 +137,7 @@ class Orienter {
         for (std::uint32_t incidence = begin; incidence < end; ++incidence) {
             const std::uint32_t face = p_.cells.items[incidence];
             for (std::size_t i = 0; i < p_.faces[face].size(); ++i) {
-                directedEdges.push_back({p_.faceEdges[face][i], incidence, directionOf(p_, face, i)});
+                directedEdges.push_back({p_.faceEdges[face][i], incidence, edgeSignInLoop(p_, face, i)});
             }
         }
         std::sort(directedEdges.begin(), directedEdges.end(),
@@ -237,7 +240,7 @@ void findFacesAtEdges(Polytope& p) {
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
         for (std::size_t i = 0; i < p.faces[f].size(); ++i) {
-            items[next[p.faceEdges[f][i]]++] = 2 * f + (directionOf(p, f, i) > 0 ? 1 : 0);
+            items[next[p.faceEdges[f][i]]++] = 2 * f + (edgeSignInLoop(p, f, i) > 0 ? 1 : 0);
         }
     }
     std::vector<std::uint32_t> sideAfterCell(
@@ -278,19 +281,19 @@ Polytope makePolytope(std::string name, std::vector<glm::dvec4> vertices, geomet
     p.vertices = std::move(vertices);
     p.faces = std::move(faces);
     p.cells = std::move(cells);
-    if (p.cells.size() == 0) refuse("there are no cells");
+    if (p.cells.size() == 0) throwInvalidPolytope("there are no cells");
     for (const auto& v : p.vertices) {
         const double r = glm::length(v);
-        if (!std::isfinite(r)) refuse("a vertex is not finite");
+        if (!std::isfinite(r)) throwInvalidPolytope("a vertex is not finite");
         p.circumradius = std::max(p.circumradius, r);
     }
-    if (!(p.circumradius > 0)) refuse("all vertices are at the origin");
+    if (!(p.circumradius > 0)) throwInvalidPolytope("all vertices are at the origin");
     checkIndices(p.faces, p.vertices.size(), FaultLocation::face, "vertices", 3);
     checkIndices(p.cells, p.faces.size(), FaultLocation::cell, "2-faces", 4);
     checkLoops(p.faces);
     findEdges(p);
     p.convexFaces = hasConvexFaces(p);
-    Orienter orient(p);
+    BoundaryOrienter orient(p);
     findFacesAtEdges(p);
     numberCellTypes(p, typeOfCell.empty() ? cellTypesByShape(p) : std::move(typeOfCell));
     p.convex = isConvex(p);

@@ -35,7 +35,7 @@ static_assert(serialization::HasOwnMembers<Polytope, geometry::CellComplex, 1>,
               "visitStoredMembers() considers each member");
 void visitStoredMembers(serialization::ReadOrWritten<Polytope> auto& polytope, auto& visit) {
     visit.member(0, serialization::asBase<geometry::CellComplex>(polytope));
-    visit.computedMember(polytope.edgeFaces);
+    visit.recomputableMember(polytope.edgeFaces);
 }
 
 /// Returns the largest distance of a vertex from the mean of the vertices. Unlike the circumradius, it is independent

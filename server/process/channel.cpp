@@ -15,7 +15,7 @@ namespace oval4d::process {
 
 namespace {
 
-struct Header {
+struct MessageHeader {
     MessageType type;
     std::uint64_t size;
 };
@@ -44,7 +44,7 @@ bool waitFor(int socket, short event, const WaitLimit& limit) {
 /// Calls `call`, a nonblocking system call that sends or receives, until it succeeds. Waits for `event` whenever the
 /// call would block. Sets `moved` to the number of bytes that were sent or received.
 template <typename Call>
-TransferResult moveSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
+TransferResult transferSome(int socket, short event, const WaitLimit& limit, std::size_t& moved, Call call) {
     for (;;) {
         const ssize_t result = call();
         if (result > 0) {
@@ -62,7 +62,7 @@ TransferResult moveSome(int socket, short event, const WaitLimit& limit, std::si
 Channel::~Channel() { close(socket_); }
 
 TransferResult Channel::send(MessageType type, std::string_view body, int file, const WaitLimit& limit) const {
-    Header header{type, body.size()};
+    MessageHeader header{type, body.size()};
     std::array parts{iovec{&header, sizeof header}, iovec{const_cast<char*>(body.data()), body.size()}};
     msghdr message{};
     message.msg_iov = parts.data();
@@ -80,7 +80,7 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
     const auto call = [&] { return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT); };
     for (std::size_t left = sizeof header + body.size(); left > 0;) {
         std::size_t sent = 0;
-        const TransferResult transfer = moveSome(socket_, POLLOUT, limit, sent, call);
+        const TransferResult transfer = transferSome(socket_, POLLOUT, limit, sent, call);
         if (transfer != TransferResult::complete) return transfer;
         left -= sent;
         message.msg_control = nullptr;
@@ -96,7 +96,7 @@ TransferResult Channel::send(MessageType type, std::string_view body, int file, 
 
 TransferResult Channel::receive(MessageType& type, std::string& body, int* file, const WaitLimit& limit,
                                 std::size_t maxBytes) const {
-    // Check the limit here, too: moveSome() checks the limit only when it must wait, and so never checks it if the
+    // Check the limit here, too: transferSome() checks the limit only when it must wait, and so never checks it if the
     // sender is fast.
     if (WaitLimit::Clock::now() > limit.until) return TransferResult::timed_out;
     if (file != nullptr) *file = kNoFile;
@@ -113,7 +113,7 @@ TransferResult Channel::receive(MessageType& type, std::string& body, int* file,
             }
             const auto call = [&] { return recvmsg(socket_, &message, MSG_DONTWAIT | MSG_CMSG_CLOEXEC); };
             std::size_t got = 0;
-            const TransferResult transfer = moveSome(socket_, POLLIN, limit, got, call);
+            const TransferResult transfer = transferSome(socket_, POLLIN, limit, got, call);
             if (transfer != TransferResult::complete) return transfer;
             if (const cmsghdr* tag = CMSG_FIRSTHDR(&message); tag != nullptr && tag->cmsg_type == SCM_RIGHTS)
                 std::memcpy(file, CMSG_DATA(tag), sizeof *file);
@@ -122,7 +122,7 @@ TransferResult Channel::receive(MessageType& type, std::string& body, int* file,
         }
         return TransferResult::complete;
     };
-    Header header{};
+    MessageHeader header{};
     if (const TransferResult transfer = read(&header, sizeof header); transfer != TransferResult::complete)
         return transfer;
     type = header.type;

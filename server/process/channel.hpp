@@ -28,8 +28,8 @@ enum class MessageType : std::uint32_t {
     object_missing,  ///< empty body
     drawn,           ///< raster::DrawTimes, the durations of the parts of drawing
     failed,          ///< the reason for the failure, as text
-    file,            ///< the command to read a file (file_reading::ReadRequest); may carry the file descriptor of the
-                     ///< file
+    file,  ///< the command to read a file (file_reading::FileReadRequest); may carry the file descriptor of the
+           ///< file
     /// Empty. Carries the descriptor of a mapped file, a new file, or a file of a series or folder.
     file_descriptor,
     new_file,    ///< the size in bytes of a new file that the process needs, as std::size_t

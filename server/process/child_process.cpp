@@ -30,9 +30,9 @@ constexpr std::size_t kMaxReason = 64U << 10U;
 
 /// The environment variables of a child process: those of this process, without the variables OVAL4D_… except
 /// OVAL4D_FONT, followed by those variables in `added` whose names are not present yet.
-class Environment {
+class ChildEnvironment {
   public:
-    explicit Environment(const std::vector<std::string>& added) {
+    explicit ChildEnvironment(const std::vector<std::string>& added) {
         for (char** each = environ; *each != nullptr; ++each) {
             const std::string_view entry = *each;
             if (!entry.starts_with("OVAL4D_") || entry.starts_with("OVAL4D_FONT=")) entries_.push_back(*each);
@@ -51,7 +51,7 @@ class Environment {
     std::vector<char*> entries_;
 };
 
-[[noreturn]] void fail(int error) {
+[[noreturn]] void throwStartError(int error) {
     throw std::runtime_error(std::string("cannot start a process: ") + std::strerror(error));
 }
 
@@ -82,7 +82,7 @@ void ChildProcess::start() {
     if (channel_) return;
     std::erase_if(unreaped_, [](pid_t each) { return waitpid(each, nullptr, WNOHANG) != 0; });
     int sockets[2];
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) fail(errno);
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets) != 0) throwStartError(errno);
     channel_ = std::make_unique<Channel>(sockets[0]);
     const Channel theirs(sockets[1]);
 
@@ -94,7 +94,7 @@ void ChildProcess::start() {
     posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_addclosefrom_np(&files, kChildSocket + 1);
-    const Environment environment(options_.environment);
+    const ChildEnvironment environment(options_.environment);
     std::string name = "oval4d", command = options_.command;
     char* const words[] = {name.data(), command.data(), nullptr};
     const int error = posix_spawn(&process_, "/proc/self/exe", &files, nullptr, words, environment.data());
@@ -106,7 +106,7 @@ void ChildProcess::start() {
         return;
     }
     channel_.reset();
-    fail(error);
+    throwStartError(error);
 }
 
 void ChildProcess::kill() {

@@ -48,7 +48,7 @@ class ProcessLostError : public std::runtime_error {
     ProcessLostError(const std::string& fault, bool hung) : std::runtime_error(fault), hung_(hung) {}
     /// Returns true if the process hung, so that the conversation was not repeated (see ChildOptions::repeatAfterHang).
     /// Returns false if both the process and the process that replaced it were lost.
-    bool hung() const { return hung_; }
+    bool hasHung() const { return hung_; }
 
   private:
     bool hung_;

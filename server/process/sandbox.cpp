@@ -24,7 +24,7 @@ namespace oval4d::process {
 
 namespace {
 
-void check(int error) {
+void throwOnSeccompError(int error) {
     if (error < 0) throw std::runtime_error(std::string("cannot filter system calls: ") + std::strerror(-error));
 }
 
@@ -78,8 +78,8 @@ constexpr auto kCommonCalls = std::to_array<const char*>({"brk",
                                                           "times",
                                                           "uname"});
 
-// The system calls that Mesa (the graphics library) makes in its threads. Most of them set the processor affinity and
-// the priority of a thread.
+// The system calls that Mesa (the graphics library) makes in its threads. Most of them get or set the processor
+// affinity or the priority of a thread.
 constexpr auto kThreadCalls = std::to_array<const char*>(
     {"arch_prctl", "getpriority", "sched_get_priority_max", "sched_get_priority_min", "sched_getparam",
      "sched_getscheduler", "sched_setaffinity", "sched_setscheduler", "setpriority"});
@@ -124,26 +124,26 @@ constexpr auto kIntruderCalls = std::to_array<const char*>({"accept",
 class SeccompFilter {
   public:
     SeccompFilter(std::uint32_t otherwise, bool allThreads) : context_(seccomp_init(otherwise), &seccomp_release) {
-        if (!context_) check(-ENOMEM);
-        check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
+        if (!context_) throwOnSeccompError(-ENOMEM);
+        throwOnSeccompError(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_TSYNC, allThreads ? 1 : 0));
         // Kill the process for system calls of another architecture, such as 32-bit calls on x86-64, because this
         // program never makes such calls.
-        check(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
+        throwOnSeccompError(seccomp_attr_set(context_.get(), SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS));
         // The value 2 stores the rules as a binary tree, which makes each system call faster.
-        check(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
+        throwOnSeccompError(seccomp_attr_set(context_.get(), SCMP_FLTATR_CTL_OPTIMIZE, 2));
     }
 
-    void add(std::uint32_t action, std::span<const char* const> names) {
-        for (const char* name : names) add(action, name, {});
+    void addRule(std::uint32_t action, std::span<const char* const> names) {
+        for (const char* name : names) addRule(action, name, {});
     }
-    void add(std::uint32_t action, const char* name, std::initializer_list<scmp_arg_cmp> arguments) {
+    void addRule(std::uint32_t action, const char* name, std::initializer_list<scmp_arg_cmp> arguments) {
         const int call = seccomp_syscall_resolve_name(name);
         if (call == __NR_SCMP_ERROR) return;
         const int error = seccomp_rule_add_array(context_.get(), action, call, static_cast<unsigned>(arguments.size()),
                                                  arguments.begin());
-        if (error != -EDOM) check(error);  // EDOM means that this architecture lacks the call
+        if (error != -EDOM) throwOnSeccompError(error);  // EDOM means that this architecture lacks the call
     }
-    void load() { check(seccomp_load(context_.get())); }
+    void load() { throwOnSeccompError(seccomp_load(context_.get())); }
 
   private:
     std::unique_ptr<void, decltype(&seccomp_release)> context_;
@@ -171,7 +171,7 @@ void limitResource(decltype(RLIMIT_AS) resource, rlim_t most) {
 
 /// Returns the size, in bytes, of the private writable memory in use: the memory that RLIMIT_DATA limits, and the
 /// stack.
-std::size_t dataInUse() {
+std::size_t privateMemoryInUse() {
     std::array<std::size_t, 6> pages{};  // the columns of statm: size, resident, shared, text, lib, data
     std::ifstream statm("/proc/self/statm");
     for (std::size_t& each : pages) statm >> each;
@@ -179,7 +179,7 @@ std::size_t dataInUse() {
 }
 
 /// Returns whether a filter of system calls can be set on this system. If not, sets `why` to the reason.
-bool canFilter(std::string& why) {
+bool canFilterSystemCalls(std::string& why) {
     if (kSanitized) {
         why = "this is a build with a sanitizer";
         return false;
@@ -200,35 +200,36 @@ bool canFilter(std::string& why) {
 /// Restricts all threads of this process to the system calls that `role` needs.
 void filterSystemCalls(SandboxRole role) {
     SeccompFilter filter(SCMP_ACT_ERRNO(EPERM), true);
-    filter.add(SCMP_ACT_ALLOW, kCommonCalls);
-    for (const char* name : {"recvmsg", "sendmsg"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, kChildSocket)});
-    for (const char* name : {"write", "writev"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, STDERR_FILENO)});
+    filter.addRule(SCMP_ACT_ALLOW, kCommonCalls);
+    for (const char* name : {"recvmsg", "sendmsg"}) filter.addRule(SCMP_ACT_ALLOW, name, {argumentIs(0, kChildSocket)});
+    for (const char* name : {"write", "writev"}) filter.addRule(SCMP_ACT_ALLOW, name, {argumentIs(0, STDERR_FILENO)});
     // abort() needs to send a signal to its own process.
     const auto own = static_cast<std::uint64_t>(getpid());
-    for (const char* name : {"kill", "tgkill"}) filter.add(SCMP_ACT_ALLOW, name, {argumentIs(0, own)});
-    filter.add(SCMP_ACT_ALLOW, "fcntl", {argumentIs(1, F_GETFL)});
+    for (const char* name : {"kill", "tgkill"}) filter.addRule(SCMP_ACT_ALLOW, name, {argumentIs(0, own)});
+    filter.addRule(SCMP_ACT_ALLOW, "fcntl", {argumentIs(1, F_GETFL)});
     // Allow reading the limits of the process, but not changing them: the argument for new limits must be null.
-    filter.add(SCMP_ACT_ALLOW, "prlimit64", {argumentIs(0, 0), argumentIs(2, 0)});
+    filter.addRule(SCMP_ACT_ALLOW, "prlimit64", {argumentIs(0, 0), argumentIs(2, 0)});
     // A filter cannot inspect the arguments of clone3, because they are in memory. Fail with ENOSYS, so that the C
     // library uses clone.
-    filter.add(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
+    filter.addRule(SCMP_ACT_ERRNO(ENOSYS), "clone3", {});
     // Forbid mmap with both of these flags. Together, they request shared memory without a file, which would not count
     // toward the memory limit.
     constexpr auto kNotTogether = std::to_array<std::uint64_t>({MAP_SHARED, MAP_ANONYMOUS});
     if (role == SandboxRole::draw) {
-        for (const char* name : {"mprotect", "mremap"}) filter.add(SCMP_ACT_ALLOW, name, {});
-        for (const std::uint64_t flag : kNotTogether) filter.add(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(3, flag)});
-        filter.add(SCMP_ACT_ALLOW, kThreadCalls);
-        constexpr std::uint64_t kThread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
-        filter.add(SCMP_ACT_ALLOW, "clone", {argumentHasAll(0, kThread)});
-        filter.add(SCMP_ACT_ALLOW, "prctl", {argumentIs(0, PR_SET_NAME)});
-    } else {
-        filter.add(SCMP_ACT_ALLOW, "mremap", {});
-        filter.add(SCMP_ACT_ALLOW, "mprotect", {argumentHasNone(2, PROT_EXEC)});
+        for (const char* name : {"mprotect", "mremap"}) filter.addRule(SCMP_ACT_ALLOW, name, {});
         for (const std::uint64_t flag : kNotTogether)
-            filter.add(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(2, PROT_EXEC), argumentHasNone(3, flag)});
+            filter.addRule(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(3, flag)});
+        filter.addRule(SCMP_ACT_ALLOW, kThreadCalls);
+        constexpr std::uint64_t kThread = CLONE_VM | CLONE_SIGHAND | CLONE_THREAD;
+        filter.addRule(SCMP_ACT_ALLOW, "clone", {argumentHasAll(0, kThread)});
+        filter.addRule(SCMP_ACT_ALLOW, "prctl", {argumentIs(0, PR_SET_NAME)});
+    } else {
+        filter.addRule(SCMP_ACT_ALLOW, "mremap", {});
+        filter.addRule(SCMP_ACT_ALLOW, "mprotect", {argumentHasNone(2, PROT_EXEC)});
+        for (const std::uint64_t flag : kNotTogether)
+            filter.addRule(SCMP_ACT_ALLOW, "mmap", {argumentHasNone(2, PROT_EXEC), argumentHasNone(3, flag)});
     }
-    filter.add(SCMP_ACT_KILL_PROCESS, kIntruderCalls);
+    filter.addRule(SCMP_ACT_KILL_PROCESS, kIntruderCalls);
     filter.load();
 }
 
@@ -238,7 +239,7 @@ void limitResources(const Confinement& limits) {
     if (kSanitized) return;
     // Limit RLIMIT_DATA and not RLIMIT_AS, because RLIMIT_AS also counts mapped files, which may be larger than the
     // main memory.
-    if (limits.memory > 0) limitResource(RLIMIT_DATA, dataInUse() + limits.memory);
+    if (limits.memory > 0) limitResource(RLIMIT_DATA, privateMemoryInUse() + limits.memory);
     if (limits.files > 0) limitResource(RLIMIT_NOFILE, limits.files);
 }
 
@@ -248,7 +249,7 @@ bool forbidNewPrivileges() { return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
 
 bool shouldSandbox(SandboxMode wanted, std::string& why) {
     if (wanted == SandboxMode::off) return false;
-    if (canFilter(why)) return true;
+    if (canFilterSystemCalls(why)) return true;
     if (wanted == SandboxMode::required) throw std::runtime_error("the sandbox is required, but not available: " + why);
     return false;
 }

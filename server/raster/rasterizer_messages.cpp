@@ -21,7 +21,7 @@ void encodeRequest(const scene::PictureRequest& picture, const RasterizerLimits&
     out.clear();
     serialization::ByteWriter archive(out);
     archive(slicing::infoOf(picture.source).serial), archive(slicing::infoOf(picture.object).serial);
-    archive(picture.orientation.left()), archive(picture.orientation.right());
+    archive(picture.orientation.leftQuaternion()), archive(picture.orientation.rightQuaternion());
     archiveMembers(picture, archive);
     archive(limits);
 }

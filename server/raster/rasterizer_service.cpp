@@ -26,7 +26,7 @@ namespace {
 
 /// A cache of the most recently drawn objects, the latest first. The cache keeps two forms of each object: as the
 /// object was loaded (`source`), and in the frame of reference in which the object was drawn last (`inFrame`).
-class RecentObjects {
+class RecentObjectCache {
   public:
     /// Returns the object of a request, in the frame of reference of the request. Returns null if the source object of
     /// the request is not in the cache.
@@ -39,7 +39,7 @@ class RecentObjects {
             found->inFrame = slicing::transformedTo(found->source, request.picture.referenceFrame, request.object);
             const std::size_t bytes = found->inFrame == found->source ? 0 : slicing::memoryOf(found->inFrame);
             bytes_ += bytes - std::exchange(found->inFrameBytes, bytes);
-            shrink(request.limits.objectBytes);
+            evictToFit(request.limits.objectBytes);
         }
         return &found->inFrame;
     }
@@ -51,7 +51,7 @@ class RecentObjects {
     }
     /// Removes the least recently drawn objects until the cache takes at most `bytes` bytes of memory. Never removes
     /// the latest object.
-    void shrink(std::size_t bytes) {
+    void evictToFit(std::size_t bytes) {
         for (; bytes_ > bytes && kept_.size() > 1; kept_.pop_back())
             bytes_ -= kept_.back().bytes + kept_.back().inFrameBytes;
     }
@@ -71,20 +71,20 @@ class RasterizerService {
         : channel_(socket), rasterizer_(&forkJoin), heap_(heap) {}
 
     void run(const process::Confinement& confinement) {
-        const bool ready = attempt([&] {
+        const bool ready = tryOrReportFailure([&] {
             rasterizer_.warmUp();  // called before confine(), because warmUp() reads the font and other files
             process::confine(process::SandboxRole::draw, confinement);
         });
         if (!ready) return;
         channel_.send(MessageType::ready);
-        for (MessageType type{}; next(type);) {
+        for (MessageType type{}; receiveNext(type);) {
             if (type == MessageType::draw) decodeRequest(body_, request_);
             // The object that refers to this file follows in a later message.
             if (type == MessageType::file_descriptor) continue;
-            if (type == MessageType::object && !attempt([this] { takeObject(); })) continue;
+            if (type == MessageType::object && !tryOrReportFailure([this] { takeObject(); })) continue;
             if (const slicing::Object* object = recent_.find(request_)) {
                 request_.picture.object = *object;
-                attempt([this] { draw(); });
+                tryOrReportFailure([this] { draw(); });
             } else {
                 channel_.send(MessageType::object_missing);
             }
@@ -94,7 +94,7 @@ class RasterizerService {
   private:
     /// Waits for the next message and receives it. If no message comes for WorkerPool::kIdleDelay, frees memory and
     /// goes on waiting. Returns false when the connection is closed.
-    bool next(MessageType& type) {
+    bool receiveNext(MessageType& type) {
         if (!channel_.wait({WaitLimit::Clock::now() + parallel::WorkerPool::kIdleDelay, {}})) {
             rasterizer_.freeMemory();
             heap_.returnFreeMemory();
@@ -123,7 +123,7 @@ class RasterizerService {
         const std::string bytes = std::exchange(body_, {});
         const slicing::Object object = slicing::decodeObject(bytes, std::exchange(mapped_, {}));
         recent_.add(object, std::max(bytes.size(), slicing::memoryOf(object)));
-        recent_.shrink(request_.limits.objectBytes);
+        recent_.evictToFit(request_.limits.objectBytes);
     }
 
     void draw() {
@@ -131,12 +131,12 @@ class RasterizerService {
         rasterizer_.limitOcclusion(request_.limits.occlusionSteps);
         DrawTimes times;
         const std::size_t size = image::byteCount(request_.picture.viewport.width, request_.picture.viewport.height);
-        rasterizer_.draw(request_.picture, pixelFiles_.at(currentFile_)->remap(size), times);
+        rasterizer_.draw(request_.picture, pixelFiles_.at(currentFile_)->remapIfResized(size), times);
         channel_.send(MessageType::drawn, {reinterpret_cast<const char*>(&times), sizeof times});
     }
 
     template <typename Act>
-    bool attempt(Act act) {
+    bool tryOrReportFailure(Act act) {
         try {
             act();
             return true;
@@ -149,7 +149,7 @@ class RasterizerService {
     Channel channel_;
     LocalRasterizer rasterizer_;
     process::ProcessHeap& heap_;
-    RecentObjects recent_;
+    RecentObjectCache recent_;
     DrawRequest request_;
     // By the inode of the file; one for each worker of the server.
     std::map<std::uint64_t, std::unique_ptr<SharedPixels>> pixelFiles_;

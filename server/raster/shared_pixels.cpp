@@ -14,13 +14,13 @@ namespace {
 // resize() shrinks the memory file if its size is more than this many times the requested size.
 constexpr std::size_t kWaste = 4;
 
-void check(bool done) {
+void throwSystemErrorUnless(bool done) {
     if (!done) throw std::system_error(errno, std::generic_category(), "cannot allocate memory for a picture");
 }
 
 struct stat statusOf(int file) {
     struct stat status{};
-    check(fstat(file, &status) == 0);
+    throwSystemErrorUnless(fstat(file, &status) == 0);
     return status;
 }
 
@@ -29,7 +29,7 @@ struct stat statusOf(int file) {
 SharedPixels::SharedPixels() : SharedPixels(memfd_create("oval4d-picture", MFD_CLOEXEC)) {}
 
 SharedPixels::SharedPixels(int file) : file_(file) {
-    check(file >= 0);
+    throwSystemErrorUnless(file >= 0);
     inode_ = statusOf(file).st_ino;
 }
 
@@ -41,13 +41,13 @@ SharedPixels::~SharedPixels() {
 std::span<std::uint8_t> SharedPixels::resize(std::size_t size) {
     if (size > mapped_.size() || size * kWaste < mapped_.size()) {
         map(0);
-        check(ftruncate(file_, static_cast<off_t>(size)) == 0);
+        throwSystemErrorUnless(ftruncate(file_, static_cast<off_t>(size)) == 0);
         map(size);
     }
     return mapped_.first(size);
 }
 
-std::span<std::uint8_t> SharedPixels::remap(std::size_t size) {
+std::span<std::uint8_t> SharedPixels::remapIfResized(std::size_t size) {
     const auto now = static_cast<std::size_t>(statusOf(file_).st_size);
     if (now != mapped_.size()) {
         map(0);
@@ -63,7 +63,7 @@ void SharedPixels::map(std::size_t size) {
     mapped_ = {};
     if (size == 0) return;
     void* const at = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
-    check(at != MAP_FAILED);
+    throwSystemErrorUnless(at != MAP_FAILED);
     mapped_ = {static_cast<std::uint8_t*>(at), size};
 }
 

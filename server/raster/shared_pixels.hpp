@@ -20,14 +20,14 @@ class SharedPixels {
     SharedPixels(const SharedPixels&) = delete;
     SharedPixels& operator=(const SharedPixels&) = delete;
 
-    /// Returns the first `size` bytes, which are valid until the next call of resize() or remap(). Throws
+    /// Returns the first `size` bytes, which are valid until the next call of resize() or remapIfResized(). Throws
     /// std::system_error if the file cannot be resized or mapped.
     std::span<std::uint8_t> resize(std::size_t size);
 
     /// Maps the file again if the other process has resized it. Returns the first `size` bytes, which are valid until
-    /// the next call of resize() or remap(). Throws std::system_error if the file cannot be mapped or has fewer than
-    /// `size` bytes.
-    std::span<std::uint8_t> remap(std::size_t size);
+    /// the next call of resize() or remapIfResized(). Throws std::system_error if the file cannot be mapped or has
+    /// fewer than `size` bytes.
+    std::span<std::uint8_t> remapIfResized(std::size_t size);
 
     /// Returns the descriptor of the memory file, which this object owns.
     int file() const { return file_; }

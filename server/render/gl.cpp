@@ -14,14 +14,14 @@ namespace oval4d::render {
 namespace {
 
 /// Returns `found`, the result of dlopen() or dlsym(). Throws std::runtime_error if `found` is null.
-void* required(void* found) {
+void* requireLoaded(void* found) {
     if (found == nullptr) throw std::runtime_error(std::string("OSMesa cannot be loaded: ") + dlerror());
     return found;
 }
 
-bool load() {
-    void* const library = required(dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL));
-#define OVAL4D_GL(function) function = reinterpret_cast<decltype(function)>(required(dlsym(library, #function)));
+bool loadOsMesaFunctions() {
+    void* const library = requireLoaded(dlopen("libOSMesa.so.8", RTLD_NOW | RTLD_LOCAL));
+#define OVAL4D_GL(function) function = reinterpret_cast<decltype(function)>(requireLoaded(dlsym(library, #function)));
 #include "render/gl_functions.inc"
 #undef OVAL4D_GL
     return true;
@@ -29,6 +29,6 @@ bool load() {
 
 }  // namespace
 
-void loadGl() { [[maybe_unused]] static const bool isLoaded = load(); }
+void loadGl() { [[maybe_unused]] static const bool isLoaded = loadOsMesaFunctions(); }
 
 }  // namespace oval4d::render

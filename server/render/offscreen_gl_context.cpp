@@ -7,20 +7,20 @@
 
 namespace oval4d::render {
 
-struct OffscreenGlContext::Native {
+struct OffscreenGlContext::NativeContext {
     OSMesaContext context = nullptr;
     std::uint8_t pixel[4]{};  // the default framebuffer of the context; nothing is drawn to it
     GLuint framebuffer = 0, color = 0, depth = 0;
 
     // The framebuffer and its buffers are deleted with the context.
-    ~Native() {
+    ~NativeContext() {
         if (context != nullptr) OSMesaDestroyContext(context);
     }
 };
 
 // The context draws pictures to a framebuffer object. OSMesa (of Mesa 22) would leak most of the memory of its default
 // framebuffer each time the size changes.
-OffscreenGlContext::OffscreenGlContext() : native_(std::make_unique<Native>()) {
+OffscreenGlContext::OffscreenGlContext() : native_(std::make_unique<NativeContext>()) {
     const int attributes[] = {OSMESA_FORMAT,
                               OSMESA_RGBA,
                               OSMESA_PROFILE,
@@ -86,6 +86,6 @@ void OffscreenGlContext::replacePicture(const std::uint8_t* pixels) {
 // Creates and deletes a fence: creating a fence flushes the commands without waiting.
 void OffscreenGlContext::flush() { glDeleteSync(glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)); }
 
-void OffscreenGlContext::finish() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }
+void OffscreenGlContext::readPixels() { glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_); }
 
 }  // namespace oval4d::render

@@ -17,7 +17,7 @@ class OffscreenGlContext {
     OffscreenGlContext(const OffscreenGlContext&) = delete;
     OffscreenGlContext& operator=(const OffscreenGlContext&) = delete;
 
-    /// Makes the context current, and starts a picture of width × height pixels. finish() writes the picture to
+    /// Makes the context current, and starts a picture of width × height pixels. readPixels() writes the picture to
     /// `pixels`, which must remain valid until then: RGBA with 8 bits per channel, the bottom row first. Throws
     /// std::runtime_error if the driver does not support pictures of this size.
     void begin(int width, int height, std::uint8_t* pixels);
@@ -31,20 +31,20 @@ class OffscreenGlContext {
     void flush();
 
     /// Waits until the picture is drawn. Then copies the picture to the pixels that were passed to begin().
-    void finish();
+    void readPixels();
 
     /// Returns the maximum width and height of a picture in pixels.
-    int maxSize() const { return maxSize_; }
+    int maxPictureSide() const { return maxSize_; }
 
   private:
     void makeCurrent();
     void resize(int width, int height);
 
-    struct Native;
-    std::unique_ptr<Native> native_;
+    struct NativeContext;
+    std::unique_ptr<NativeContext> native_;
     int maxSize_ = 0;
     int width_ = 0, height_ = 0;
-    std::uint8_t* pixels_ = nullptr;  // the memory to which finish() writes the current picture
+    std::uint8_t* pixels_ = nullptr;  // the memory to which readPixels() writes the current picture
 };
 
 }  // namespace oval4d::render

@@ -11,14 +11,14 @@ namespace oval4d::render {
 
 /// Projects points from view coordinates to the picture. In view coordinates, the eye is at the origin, x points to the
 /// right, y up, and z toward the viewer.
-struct Projection {
+struct ViewProjection {
     float width = 1, height = 1;   ///< the size of the picture in pixels
     float scaleX = 1, scaleY = 1;  ///< the cotangents of half the horizontal and half the vertical field of view
     /// The place where the view axis meets the picture: 0 is the center of the picture, ±1 are its edges.
     float shiftX = 0, shiftY = 0;
 
     /// Makes the projection of `camera` for pictures with the size of `viewport`.
-    static Projection of(const scene::Camera& camera, scene::Viewport viewport) {
+    static ViewProjection fromCamera(const scene::Camera& camera, scene::Viewport viewport) {
         const auto projection = glm::mat4(camera.projection(static_cast<double>(viewport.width) / viewport.height));
         return {static_cast<float>(viewport.width),
                 static_cast<float>(viewport.height),

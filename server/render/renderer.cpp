@@ -65,7 +65,7 @@ bool mayUseThreads() {
 bool needsOpenGl(const scene::Scene& scene) { return !scene.fog.empty(); }
 
 /// Sets the color with which OpenGL clears pictures: the background color multiplied by the opacity of the background.
-void setClearColor(const scene::Style& style) {
+void setClearColor(const scene::PictureStyle& style) {
     const auto alpha = static_cast<float>(style.backgroundOpacity);
     const auto channel = [&](int shift) { return alpha * static_cast<float>(style.background >> shift & 255) / 255; };
     glClearColor(channel(16), channel(8), channel(0), alpha);
@@ -117,7 +117,7 @@ struct Renderer::Impl {
     void drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths);
 
     /// The surfaces of some slices, prepared for drawing without OpenGL.
-    struct SurfacesInMemory {
+    struct SoftwareDrawnSurfaces {
         SurfaceBatch batch;
         SurfaceRasterizer rasterizer;
 
@@ -126,13 +126,13 @@ struct Renderer::Impl {
             batch.collect(scene, depths, selection);
             rasterizer.projectAndLight(scene.viewport, scene.style(), batch);
         }
-        std::span<const std::uint32_t> opaque() const {
-            return std::span(batch.opaqueIndices()).first(batch.fringesBegin());
+        std::span<const std::uint32_t> opaqueIndices() const {
+            return std::span(batch.opaqueIndices()).first(batch.antialiasingFringesBegin());
         }
-        std::span<const std::uint32_t> fringes() const {
-            return std::span(batch.opaqueIndices()).subspan(batch.fringesBegin());
+        std::span<const std::uint32_t> antialiasingFringes() const {
+            return std::span(batch.opaqueIndices()).subspan(batch.antialiasingFringesBegin());
         }
-        std::span<const std::uint32_t> translucent() const { return batch.translucentIndices(); }
+        std::span<const std::uint32_t> translucentIndices() const { return batch.translucentIndices(); }
     };
 
     parallel::ThreadOwnerAssertion owner;
@@ -142,7 +142,7 @@ struct Renderer::Impl {
     ShapeRasterizer shapeRasterizer;
     ShapeProgram patchDepthProgram, surfaceDepthProgram;
     SurfaceProgram surfaceProgram;
-    CoordinatesPlot coordinatesPlot;
+    ParallelCoordinatesPlot coordinatesPlot;
     Overlay overlay;
     ShapeBatch shapes, strokes;  // `strokes` are drawn over everything else, without OpenGL
     ConvexShapeCollector convexCollector;
@@ -152,8 +152,8 @@ struct Renderer::Impl {
     ProjectionShapeCollector::Layers projectionLayers;
     SurfaceBatch surfaces;  // the surfaces of the projection, and later those of all slices, for drawing with OpenGL
     // The surfaces of the nearer slices, and those of the farther slices.
-    std::array<SurfacesInMemory, 2> surfaceHalves;
-    SurfacesInMemory projectionSurfaces;
+    std::array<SoftwareDrawnSurfaces, 2> surfaceHalves;
+    SoftwareDrawnSurfaces projectionSurfaces;
     std::optional<FogPainter> fogPainter;  // created for the first picture with fog
 };
 
@@ -183,12 +183,12 @@ void Renderer::Impl::addProjection() {
     using DepthUse = ShapeRasterizer::DepthUse;
     using Blending = SurfaceRasterizer::Blending;
     const auto& [solid, translucent, depths] = projectionLayers;
-    const SurfacesInMemory& own = projectionSurfaces;
-    shapeRasterizer.add(own.rasterizer, own.opaque(), Blending::none);
-    shapeRasterizer.add(own.rasterizer, own.fringes(), Blending::alpha);
+    const SoftwareDrawnSurfaces& own = projectionSurfaces;
+    shapeRasterizer.add(own.rasterizer, own.opaqueIndices(), Blending::none);
+    shapeRasterizer.add(own.rasterizer, own.antialiasingFringes(), Blending::alpha);
     shapeRasterizer.add(solid, DepthUse::written);
     shapeRasterizer.add(translucent, DepthUse::tested);
-    shapeRasterizer.add(own.rasterizer, own.translucent(), Blending::alpha);
+    shapeRasterizer.add(own.rasterizer, own.translucentIndices(), Blending::alpha);
 }
 
 // Draws the projection of the whole object with OpenGL, if the scene shows it. Leaves the depths of the projection in
@@ -255,13 +255,13 @@ void Renderer::Impl::addLayers(const scene::Scene& scene) {
         shapeRasterizer.addDepthClearing(depthAreaOfProjection(scene));
     }
     shapeRasterizer.add(layers.faces, DepthUse::written);
-    for (const SurfacesInMemory* pass : {&near, &far})
-        shapeRasterizer.add(pass->rasterizer, pass->opaque(), Blending::none);
-    for (const SurfacesInMemory* pass : {&near, &far})
-        shapeRasterizer.add(pass->rasterizer, pass->fringes(), Blending::alpha);
+    for (const SoftwareDrawnSurfaces* pass : {&near, &far})
+        shapeRasterizer.add(pass->rasterizer, pass->opaqueIndices(), Blending::none);
+    for (const SoftwareDrawnSurfaces* pass : {&near, &far})
+        shapeRasterizer.add(pass->rasterizer, pass->antialiasingFringes(), Blending::alpha);
     shapeRasterizer.add(layers.skeleton, DepthUse::written);
-    for (const SurfacesInMemory* pass : {&far, &near})
-        shapeRasterizer.add(pass->rasterizer, pass->translucent(), Blending::alpha);
+    for (const SoftwareDrawnSurfaces* pass : {&far, &near})
+        shapeRasterizer.add(pass->rasterizer, pass->translucentIndices(), Blending::alpha);
     shapeRasterizer.add(layers.faded, DepthUse::tested);
 }
 
@@ -293,12 +293,12 @@ void Renderer::Impl::drawLayers(const scene::Scene& scene) {
 // Draws the opaque surfaces in `surfaces`. The depth test must be enabled. Leaves blending enabled.
 void Renderer::Impl::drawOpaqueSurfaces(DepthRange depths) {
     glDisable(GL_BLEND);
-    surfaceProgram.load(depths, surfaces, surfaces.opaqueIndices());
-    surfaceProgram.drawPart(0, surfaces.fringesBegin());
+    surfaceProgram.uploadTriangles(depths, surfaces, surfaces.opaqueIndices());
+    surfaceProgram.drawIndexRange(0, surfaces.antialiasingFringesBegin());
     context.flush();
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
-    surfaceProgram.drawPart(surfaces.fringesBegin(), surfaces.opaqueIndices().size());
+    surfaceProgram.drawIndexRange(surfaces.antialiasingFringesBegin(), surfaces.opaqueIndices().size());
     glDepthMask(GL_TRUE);
 }
 
@@ -310,26 +310,26 @@ void Renderer::Impl::prepareFog(const scene::Scene& scene, DepthRange depths) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     surfaceDepthProgram.drawWithDepth(depths, layers.skeleton);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::frame);
+    fogPainter->copyOccluderDepths(scene.viewport, FogPainter::FogOccluders::frame);
     glClear(GL_DEPTH_BUFFER_BIT);
 }
 
 // Draws the fog behind balls and bars. The opaque surfaces must have been drawn before, but no balls and bars.
 void Renderer::Impl::drawFogBehindFrame(const scene::Scene& scene) {
-    fogPainter->copyDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
-    for (const SurfaceBatch::Place& place : surfaces.placesFarToNear())
+    fogPainter->copyOccluderDepths(scene.viewport, FogPainter::FogOccluders::surfaces);
+    for (const SurfaceBatch::SurfacePlacement& place : surfaces.slicesFarToNear())
         fogPainter->draw(scene, place.slice, FogPainter::FogPart::behind);
 }
 
 // Draws the translucent surfaces and the fog of the slices, from the farthest slice to the nearest: in each slice,
 // first the surfaces and then the fog.
 void Renderer::Impl::drawFogAndSurfaces(const scene::Scene& scene, DepthRange depths) {
-    surfaceProgram.load(depths, surfaces, surfaces.translucentIndices());
+    surfaceProgram.uploadTriangles(depths, surfaces, surfaces.translucentIndices());
     std::size_t begin = 0;
-    for (std::size_t i = 0; i < surfaces.placesFarToNear().size(); ++i) {
+    for (std::size_t i = 0; i < surfaces.slicesFarToNear().size(); ++i) {
         const std::size_t end = surfaces.translucentEnds()[i];
-        surfaceProgram.drawPart(begin, end);
-        fogPainter->draw(scene, surfaces.placesFarToNear()[i].slice, FogPainter::FogPart::in_front);
+        surfaceProgram.drawIndexRange(begin, end);
+        fogPainter->draw(scene, surfaces.slicesFarToNear()[i].slice, FogPainter::FogPart::in_front);
         begin = end;
     }
 }
@@ -386,7 +386,7 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     ShapeBatch& strokes = impl_->strokes;
     shapes.begin(scene.style());
     strokes.begin(scene.style());
-    strokes.setProjection(Projection::of(scene.camera, scene.viewport));
+    strokes.setProjection(ViewProjection::fromCamera(scene.camera, scene.viewport));
     overlay.begin(scene.viewport);
     const bool inMemory =
         impl_->shapesInMemory && !needsOpenGl(scene) && scene.viewport.width >= ShapeRasterizer::kMinWidth;
@@ -415,15 +415,15 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
         }
     }
     addAxes(scene, shapes, overlay);
-    addCoordinates(scene, overlay,
-                   {.below = inMemory && !scene.clearsCoordinatesArea() ? &shapes : nullptr,
-                    .above = inMemory ? &strokes : nullptr});
+    addCoordinatesOverlay(scene, overlay,
+                          {.below = inMemory && !scene.clearsCoordinatesArea() ? &shapes : nullptr,
+                           .above = inMemory ? &strokes : nullptr});
     addLabels(scene, overlay);
     addMatrixAndFocusLines(scene, overlay);
 
     if (inMemory) {
         impl_->shapeRasterizer.add(shapes, ShapeRasterizer::DepthUse::unused);
-        impl_->shapeRasterizer.finish(impl_->forkJoin);
+        impl_->shapeRasterizer.drawAdded(impl_->forkJoin);
         impl_->context.replacePicture(pixels.data());
     } else {
         impl_->patchDepthProgram.draw(shapes);
@@ -431,11 +431,11 @@ void Renderer::draw(const scene::Scene& scene, std::span<std::uint8_t> pixels) {
     clearCoordinatesArea(scene);
     impl_->coordinatesPlot.draw(scene);
     overlay.draw();
-    impl_->context.finish();
+    impl_->context.readPixels();
     if (strokes.patches().empty()) return;
-    impl_->shapeRasterizer.beginOver(scene.viewport, scene.style(), pixels);
+    impl_->shapeRasterizer.beginOverPicture(scene.viewport, scene.style(), pixels);
     impl_->shapeRasterizer.add(strokes, ShapeRasterizer::DepthUse::unused);
-    impl_->shapeRasterizer.finish(nullptr);  // on one thread, because waking a second thread would take longer
+    impl_->shapeRasterizer.drawAdded(nullptr);  // on one thread, because waking a second thread would take longer
 }
 
 }  // namespace oval4d::render

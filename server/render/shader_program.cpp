@@ -29,7 +29,7 @@ GLuint compile(GLenum kind, std::string_view source) {
 }  // namespace
 
 ShaderProgram::ShaderProgram(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
-                             std::span<const Attribute> attributes)
+                             std::span<const VertexAttribute> attributes)
     : vertexSize_(vertexSize) {
     const GLuint vertex = compile(GL_VERTEX_SHADER, vertexSource);
     const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragmentSource);
@@ -50,7 +50,7 @@ ShaderProgram::ShaderProgram(std::string_view vertexSource, std::string_view fra
     glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indexBuffer_);
     for (GLuint i = 0; i < attributes.size(); ++i) {
-        const Attribute& a = attributes[i];
+        const VertexAttribute& a = attributes[i];
         glEnableVertexAttribArray(i);
         glVertexAttribPointer(i, a.components, a.type, a.type == GL_UNSIGNED_BYTE ? GL_TRUE : GL_FALSE,
                               static_cast<GLsizei>(vertexSize), reinterpret_cast<const void*>(a.offset));
@@ -64,7 +64,7 @@ ShaderProgram::~ShaderProgram() {
     glDeleteProgram(program_);
 }
 
-void ShaderProgram::upload(GLenum target, std::size_t& capacity, const void* data, std::size_t size) {
+void ShaderProgram::uploadBuffer(GLenum target, std::size_t& capacity, const void* data, std::size_t size) {
     if (size > capacity) {
         capacity = std::max<std::size_t>(std::bit_ceil(size), 65536);
         glBufferData(target, static_cast<GLsizeiptr>(capacity), nullptr, GL_STREAM_DRAW);
@@ -73,19 +73,20 @@ void ShaderProgram::upload(GLenum target, std::size_t& capacity, const void* dat
 }
 
 void ShaderProgram::draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices) {
-    load(vertices, vertexCount, indices);
-    drawPart(0, indices.size());
+    uploadTriangles(vertices, vertexCount, indices);
+    drawIndexRange(0, indices.size());
 }
 
-void ShaderProgram::load(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices) {
+void ShaderProgram::uploadTriangles(const void* vertices, std::size_t vertexCount,
+                                    std::span<const std::uint32_t> indices) {
     if (indices.empty()) return;
     glBindVertexArray(array_);
     glBindBuffer(GL_ARRAY_BUFFER, vertexBuffer_);
-    upload(GL_ARRAY_BUFFER, vertexCapacity_, vertices, vertexCount * vertexSize_);
-    upload(GL_ELEMENT_ARRAY_BUFFER, indexCapacity_, indices.data(), indices.size_bytes());
+    uploadBuffer(GL_ARRAY_BUFFER, vertexCapacity_, vertices, vertexCount * vertexSize_);
+    uploadBuffer(GL_ELEMENT_ARRAY_BUFFER, indexCapacity_, indices.data(), indices.size_bytes());
 }
 
-void ShaderProgram::drawPart(std::size_t begin, std::size_t end) {
+void ShaderProgram::drawIndexRange(std::size_t begin, std::size_t end) {
     if (begin == end) return;
     glUseProgram(program_);
     glBindVertexArray(array_);

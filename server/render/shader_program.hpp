@@ -12,7 +12,7 @@ namespace oval4d::render {
 
 /// A vertex attribute (see glVertexAttribPointer(3G)). Components of the type GL_UNSIGNED_BYTE are color channels: 0 …
 /// 255 in the buffer becomes 0 … 1 in the shader.
-struct Attribute {
+struct VertexAttribute {
     int components;      ///< the number of components: 1 … 4
     GLenum type;         ///< the type of each component: GL_FLOAT or GL_UNSIGNED_BYTE
     std::size_t offset;  ///< the offset of the attribute in the vertex structure, in bytes
@@ -26,7 +26,7 @@ class ShaderProgram {
     /// line. `vertexSize` is the size of a vertex in bytes. Attribute i has location i in the vertex shader. Throws
     /// std::runtime_error if a shader does not compile (with the message of the compiler) or the program does not link.
     ShaderProgram(std::string_view vertexSource, std::string_view fragmentSource, std::size_t vertexSize,
-                  std::span<const Attribute> attributes);
+                  std::span<const VertexAttribute> attributes);
     ~ShaderProgram();
     ShaderProgram(const ShaderProgram&) = delete;
     ShaderProgram& operator=(const ShaderProgram&) = delete;
@@ -40,14 +40,14 @@ class ShaderProgram {
     /// arguments are copied.
     void draw(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
 
-    /// Copies vertices and indices of triangles for later calls of drawPart(). The arguments are those of draw().
-    void load(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
+    /// Copies vertices and indices of triangles for later calls of drawIndexRange(). The arguments are those of draw().
+    void uploadTriangles(const void* vertices, std::size_t vertexCount, std::span<const std::uint32_t> indices);
     /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that were loaded last. Both
     /// numbers must be multiples of 3.
-    void drawPart(std::size_t begin, std::size_t end);
+    void drawIndexRange(std::size_t begin, std::size_t end);
 
   private:
-    void upload(GLenum target, std::size_t& capacity, const void* data, std::size_t size);
+    void uploadBuffer(GLenum target, std::size_t& capacity, const void* data, std::size_t size);
 
     GLuint program_ = 0, array_ = 0, vertexBuffer_ = 0, indexBuffer_ = 0;
     std::size_t vertexSize_ = 0, vertexCapacity_ = 0, indexCapacity_ = 0;

@@ -16,8 +16,8 @@ namespace {
 constexpr int kReferenceCount = 21;
 // The shapes of the ovals in wide and in tall pictures. A search found their numbers: those for which the focus slice
 // (the middle one) is largest while neighboring slices hide little of each other.
-constexpr Arrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
-constexpr Arrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
+constexpr SliceArrangement kWideOval{.halfWidth = 20.5, .depth = 49.0, .pitch = 0.46, .distance = 8.3};
+constexpr SliceArrangement kTallOval{.halfWidth = 7.0, .depth = 72.0, .pitch = 0.52, .distance = 9.6};
 
 // The distance between neighboring slices in a row or column, as a multiple of the radius of a slice with its balls.
 constexpr double kLineStep = 2.12;
@@ -45,9 +45,9 @@ constexpr double kSingleDistance = 7;  // the distance from the eye to a slice t
 
 double mix(double a, double b, double t) { return a + (b - a) * t; }
 
-Arrangement ovalOf(int count, double aspect) {
+SliceArrangement ovalArrangement(int count, double aspect) {
     const double t = std::clamp((1.6 - aspect) / 1.04, 0.0, 1.0);
-    Arrangement made;
+    SliceArrangement made;
     made.halfWidth = mix(kWideOval.halfWidth, kTallOval.halfWidth, t);
     made.depth = mix(kWideOval.depth, kTallOval.depth, t);
     made.pitch = mix(kWideOval.pitch, kTallOval.pitch, t);
@@ -59,8 +59,8 @@ Arrangement ovalOf(int count, double aspect) {
 }
 
 // Returns a straight row of `count` slices. `reach` is the radius of a slice with its balls.
-Arrangement rowOf(int count, double reach) {
-    Arrangement made;
+SliceArrangement rowArrangement(int count, double reach) {
+    SliceArrangement made;
     made.halfWidth = kLineStep * reach * (count - 1) / 2;
     made.distance = kLineDistance * made.halfWidth + kSingleDistance;
     made.isClearOfAxes = count == 1;
@@ -70,8 +70,8 @@ Arrangement rowOf(int count, double reach) {
 }
 
 // Returns the arrangement of the focus slice alone.
-Arrangement focusSliceAlone() {
-    Arrangement made;
+SliceArrangement focusSliceAlone() {
+    SliceArrangement made;
     made.distance = kSingleDistance;
     made.isClearOfAxes = true;
     return made;
@@ -79,9 +79,9 @@ Arrangement focusSliceAlone() {
 
 // Returns a straight column of `count` slices, with the last slice at the top: a row that is turned by a quarter.
 // `reach` is the radius of a slice with its balls.
-Arrangement columnOf(int count, double reach) {
+SliceArrangement columnArrangement(int count, double reach) {
     if (count == 1) return focusSliceAlone();
-    Arrangement made = rowOf(count, reach);
+    SliceArrangement made = rowArrangement(count, reach);
     std::swap(made.halfWidth, made.halfHeight);
     // Otherwise, the uppermost slices would often cover the symbol of the axes in tall pictures.
     made.isClearOfAxes = true;
@@ -94,7 +94,7 @@ Arrangement columnOf(int count, double reach) {
 
 // Returns a grid with the number of columns at which the slices are largest. `reach` is the radius of a slice with its
 // balls.
-Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
+SliceArrangement gridArrangement(int count, double reach, const AvailableSpace& room) {
     // The projection of the whole object fills a square. To the left of the grid, the side of the square is
     // kProjectionShare times the width of the room, but at most kProjectionBreadth times the height of the room. Above
     // the grid, width and height are exchanged.
@@ -128,7 +128,7 @@ Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
     grid.columnStep = kLineStep * reach;
     grid.rowStep = 2 * reach + kGridLabelRoom * text / scale;
     grid.focusGap = kGridFocusRoom * text / scale;
-    Arrangement made;
+    SliceArrangement made;
     made.grid = grid;
     for (int i = 0; i < count; ++i) {
         const glm::dvec3 offset = glm::abs(grid.positionOf(i));
@@ -144,7 +144,7 @@ Arrangement gridOf(int count, double reach, const AvailableSpace& room) {
 
 // Places the projection of the whole object to the right of the focus slice (the middle one) or, in a tall room, above
 // it.
-ProjectionPlacement besideFocusSlice(double reach, double aspect) {
+ProjectionPlacement projectionBesideFocusSlice(double reach, double aspect) {
     constexpr double kGap = 0.2;
     const double radius = 1.1 * reach, distance = reach + radius + kGap;
     return {true, aspect > 1 ? glm::dvec3(distance, 0, 0) : glm::dvec3(0, distance, 0), radius};
@@ -154,7 +154,7 @@ ProjectionPlacement besideFocusSlice(double reach, double aspect) {
 // projection fills most of the breadth that the slices leave in the room. It is at least as large as a slice, and at
 // most as long as the row or column. `halfLength` is half the length of the row or column. `aspect` is the length of
 // the room in the direction of the row or column, divided by the breadth of the room.
-ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double reach, double aspect) {
+ProjectionPlacement projectionBesideLine(const glm::dvec3& away, double halfLength, double reach, double aspect) {
     constexpr double kGap = 0.3, kShare = 0.9;
     const double left = 2 * halfLength / aspect - 2 * reach;  // the breadth that the slices leave, in world units
     const double radius = std::clamp(kShare * left / 2, reach, halfLength);
@@ -162,7 +162,7 @@ ProjectionPlacement besideLine(const glm::dvec3& away, double halfLength, double
 }
 
 // Places the projection of the whole object to the left of a grid or, unless the room is wide, above it.
-ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
+ProjectionPlacement projectionBesideGrid(const SliceGrid& grid, double reach) {
     // The diameter of the projection, as a fraction of the side of the square that contains it.
     constexpr double kShare = 0.94;
     const double half = grid.projectionSide / 2;
@@ -177,13 +177,13 @@ ProjectionPlacement besideGrid(const SliceGrid& grid, double reach) {
 
 // The following switches over the views have no default case, so that a view without a case does not compile.
 
-Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room) {
-    Arrangement made;
+SliceArrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room) {
+    SliceArrangement made;
     switch (view) {
         case View::oval:
             // The ends of an oval are far away from the viewer. If there are only two slices, as in some exported
             // files, both would be tiny at these ends. So they stand in a row.
-            made = count == 2 ? rowOf(count, 1 + relativeBall) : ovalOf(count, aspect);
+            made = count == 2 ? rowArrangement(count, 1 + relativeBall) : ovalArrangement(count, aspect);
             break;
         case View::single:
             made = focusSliceAlone();
@@ -193,53 +193,53 @@ Arrangement arrangementOf(View view, int count, double relativeBall, double aspe
             made.showsMatrix = true;
             break;
         case View::strip:
-            made = rowOf(count, 1 + relativeBall);
+            made = rowArrangement(count, 1 + relativeBall);
             break;
         case View::column:
-            made = columnOf(count, 1 + relativeBall);
+            made = columnArrangement(count, 1 + relativeBall);
             break;
         case View::grid:
-            made = gridOf(count, 1 + relativeBall, room);
+            made = gridArrangement(count, 1 + relativeBall, room);
             break;
     }
     made.reach = made.sliceRadius * (1 + relativeBall);
     return made;
 }
 
-ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect) {
+ProjectionPlacement placeProjectionBeside(View view, const SliceArrangement& arrangement, int count, double aspect) {
     const double reach = arrangement.reach;
-    if (count == 1) return besideFocusSlice(reach, aspect);
+    if (count == 1) return projectionBesideFocusSlice(reach, aspect);
     switch (view) {
         case View::single:
         case View::matrix:
-            return besideFocusSlice(reach, aspect);
+            return projectionBesideFocusSlice(reach, aspect);
         case View::oval:
             if (count > 2) break;
             [[fallthrough]];  // two slices of an oval stand in a row: see arrangementOf()
         case View::strip:
-            return besideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
+            return projectionBesideLine({0, 1, 0}, arrangement.halfWidth + reach, reach, aspect);
         case View::column:
-            return besideLine({-1, 0, 0}, arrangement.halfHeight + reach, reach, 1 / aspect);
+            return projectionBesideLine({-1, 0, 0}, arrangement.halfHeight + reach, reach, 1 / aspect);
         case View::grid:
-            return besideGrid(arrangement.grid, reach);
+            return projectionBesideGrid(arrangement.grid, reach);
     }
     return {};
 }
 
-ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
-                                     double top) {
+ProjectionPlacement placeProjectionInsideOval(const SliceArrangement& arrangement,
+                                              const std::vector<SlicePlacement>& placements, double top) {
     constexpr double kGap = 0.94;
     const InitialViewSpace space(arrangement);
     const auto radiusAt = [&](double depthOfOval) {
         const glm::dvec3 p{0, 0, -depthOfOval};
-        const double y = space.up(p) / space.depth(p);
+        const double y = space.heightAboveAxis(p) / space.depth(p);
         double room = top - y;
         for (std::size_t i = 0; i < placements.size(); ++i) {
-            const double u = parameterOf(i, placements.size());
+            const double u = sliceParameter(i, placements.size());
             const glm::dvec3& q = placements[i].position;
             const double depth = space.depth(q);
             const double r = arrangement.reach * arrangement.relativeSliceRadiusAt(u) / depth;
-            room = std::min(room, std::hypot(q.x / depth, space.up(q) / depth - y) - r);
+            room = std::min(room, std::hypot(q.x / depth, space.heightAboveAxis(q) / depth - y) - r);
         }
         return room;
     };

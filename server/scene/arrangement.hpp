@@ -51,7 +51,7 @@ struct SliceGrid {
 /// the curve is the origin. The focus slice stands at the origin, except on a curve with an even number of slices,
 /// which only exported files can have. The camera looks at the origin from the distance `distance`, downward by the
 /// angle `pitch` (radians).
-struct Arrangement {
+struct SliceArrangement {
     /// The x of the last slice; the first slice has −halfWidth. In a grid: the greatest |x| of a slice.
     double halfWidth = 0;
     /// The y of the last slice; the first slice has −halfHeight. In a grid: the greatest |y| of a slice.
@@ -99,23 +99,23 @@ struct Arrangement {
 /// Returns how a view arranges `count` slices in a picture with the aspect ratio `aspect` (width / height).
 /// `relativeBall` is the radius of balls as a fraction of the slice radius. Only the arrangement in a grid depends on
 /// `room`.
-Arrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room);
+SliceArrangement arrangementOf(View view, int count, double relativeBall, double aspect, const AvailableSpace& room);
 
 /// Places the projection of the whole object beside the slices of a view. `count` is the number of slices. `aspect` is
 /// the aspect ratio of the room that the slices and the projection have, without the part of the width that labels
 /// beside the slices take. If the view shows the projection between its slices, returns a placement that is not
-/// `shown`; the caller must then call projectionInside().
-ProjectionPlacement projectionBeside(View view, const Arrangement& arrangement, int count, double aspect);
+/// `shown`; the caller must then call placeProjectionInsideOval().
+ProjectionPlacement placeProjectionBeside(View view, const SliceArrangement& arrangement, int count, double aspect);
 
 /// Places the projection of the whole object in the middle of the oval, on the axis of the parabola. At this point, the
 /// largest circle on the screen fits between the slices and below `top`. `top` is a height on the plane at distance 1
 /// from the eye.
-ProjectionPlacement projectionInside(const Arrangement& arrangement, const std::vector<SlicePlacement>& placements,
-                                     double top);
+ProjectionPlacement placeProjectionInsideOval(const SliceArrangement& arrangement,
+                                              const std::vector<SlicePlacement>& placements, double top);
 
 /// Returns the parameter u of slice i of `count` slices: −1 … 1 from the first slice to the last. Slices at the same
 /// distance from the middle have exactly opposite parameters.
-inline double parameterOf(std::size_t i, std::size_t count) {
+inline double sliceParameter(std::size_t i, std::size_t count) {
     const double middle = static_cast<double>(count - 1) / 2;
     return count == 1 ? 0 : (static_cast<double>(i) - middle) / middle;
 }
@@ -124,12 +124,12 @@ inline double parameterOf(std::size_t i, std::size_t count) {
 /// pitch about the x axis.
 struct InitialViewSpace {
     double cos, sin, distance;
-    explicit InitialViewSpace(const Arrangement& arrangement)
+    explicit InitialViewSpace(const SliceArrangement& arrangement)
         : cos(std::cos(arrangement.pitch)), sin(std::sin(arrangement.pitch)), distance(arrangement.distance) {}
     /// Returns the depth of the point p: its distance from the eye along the view axis.
     double depth(const glm::dvec3& p) const { return distance - p.y * sin - p.z * cos; }
     /// Returns the height of the point p above the view axis.
-    double up(const glm::dvec3& p) const { return p.y * cos - p.z * sin; }
+    double heightAboveAxis(const glm::dvec3& p) const { return p.y * cos - p.z * sin; }
 };
 
 }  // namespace oval4d::scene

@@ -9,9 +9,9 @@
 namespace oval4d::scene {
 
 /// A color scheme: the colors of a picture that are chosen for a dark, or for a light, background.
-enum class Scheme : std::uint8_t { dark, light };
+enum class ColorScheme : std::uint8_t { dark, light };
 inline constexpr auto kSchemes =
-    text::completeTable<text::NamedValue<Scheme>>({{"dark", Scheme::dark}, {"light", Scheme::light}});
+    text::completeTable<text::NamedValue<ColorScheme>>({{"dark", ColorScheme::dark}, {"light", ColorScheme::light}});
 
 /// The background of a picture. Stored sessions contain the numbers of the enumerators; therefore these numbers must
 /// not change.
@@ -31,9 +31,9 @@ inline constexpr auto kBackgrounds =
 constexpr const auto& choicesOf(Background /*type*/) { return kBackgrounds; }
 
 /// Returns the color scheme for a background. For `automatic`, this is `viewer`, the scheme that the viewer prefers.
-constexpr Scheme schemeOn(Background background, Scheme viewer = Scheme::dark) {
+constexpr ColorScheme schemeForBackground(Background background, ColorScheme viewer = ColorScheme::dark) {
     if (background == Background::automatic) return viewer;
-    return background == Background::dark ? Scheme::dark : Scheme::light;
+    return background == Background::dark ? ColorScheme::dark : ColorScheme::light;
 }
 
 }  // namespace oval4d::scene

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
 
-Color pack(const std::array<double, 3>& rgb) {
+Color packRgb(const std::array<double, 3>& rgb) {
     Color color = 0;
     for (const double c : rgb) color = color << 8U | static_cast<Color>(std::lround(255 * std::clamp(c, 0.0, 1.0)));
     return color;
@@ -36,21 +36,21 @@ Color fromOklch(double lightness, double chroma, double hue) {
         const auto [least, most] = std::minmax_element(rgb.begin(), rgb.end());
         if (chroma > 0.01 && (*least < 0 || *most > 1)) continue;
         for (double& c : rgb) c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-        return pack(rgb);
+        return packRgb(rgb);
     }
 }
 
 // The lightness of a color in Oklch, 0 … 1, in each of the two color schemes.
-struct Lightness {
+struct LightnessPerScheme {
     double onDark, onLight;
 };
 
 // Returns the color, given in Oklch, for a color scheme. In the light scheme, reduces the lightness until the contrast
 // to white is at least kLeastContrast.
-Color colorFor(Scheme scheme, Lightness lightness, double chroma, double hue) {
+Color colorFor(ColorScheme scheme, LightnessPerScheme lightness, double chroma, double hue) {
     constexpr double kLeastContrast = 3.6;
     constexpr Color kWhite = 0xffffff;
-    if (scheme == Scheme::dark) return fromOklch(lightness.onDark, chroma, hue);
+    if (scheme == ColorScheme::dark) return fromOklch(lightness.onDark, chroma, hue);
     for (double least = lightness.onLight;; least *= 0.98) {
         const Color color = fromOklch(least, chroma, hue);
         if (contrast(color, kWhite) >= kLeastContrast) return color;
@@ -58,20 +58,20 @@ Color colorFor(Scheme scheme, Lightness lightness, double chroma, double hue) {
 }
 
 // Returns color i of `count` colors with well-separated hues, for a color scheme.
-Color distinct(std::size_t i, std::size_t count, Scheme scheme) {
+Color distinctColor(std::size_t i, std::size_t count, ColorScheme scheme) {
     const double step = count <= 8 ? 1.0 / static_cast<double>(count) : std::numbers::phi - 1;
     const double hue = kTau * (0.07 + std::fmod(static_cast<double>(i) * step, 1.0));
-    return colorFor(scheme, i % 2 == 0 ? Lightness{0.76, 0.61} : Lightness{0.69, 0.5}, 0.18, hue);
+    return colorFor(scheme, i % 2 == 0 ? LightnessPerScheme{0.76, 0.61} : LightnessPerScheme{0.69, 0.5}, 0.18, hue);
 }
 
 // Gives each cell a color of its own if there are at most kFew cells: the hues are well separated. If there are more
 // cells, the Hopf map takes the direction of each cell's center to a point on the 2-sphere. The longitude of this point
 // determines the hue, and its latitude the lightness. Therefore the cells of a ring along a Hopf fiber have the same
 // color.
-void assignByCell(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
+void assignColorsByCell(const slicing::Object& object, ColorScheme scheme, std::vector<Color>& out) {
     constexpr std::size_t kFew = 24;
     if (out.size() <= kFew) {
-        for (std::size_t c = 0; c < out.size(); ++c) out[c] = distinct(c, out.size(), scheme);
+        for (std::size_t c = 0; c < out.size(); ++c) out[c] = distinctColor(c, out.size(), scheme);
         return;
     }
     std::vector<glm::dvec4> centers;
@@ -86,7 +86,7 @@ void assignByCell(const slicing::Object& object, Scheme scheme, std::vector<Colo
     }
 }
 
-void assignByType(const slicing::Object& object, Scheme scheme, std::vector<Color>& out) {
+void assignColorsByCellType(const slicing::Object& object, ColorScheme scheme, std::vector<Color>& out) {
     const std::size_t types = slicing::infoOf(object).cellTypes.size();
     const auto typeOfCell = slicing::typesOfCells(object);
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = cellTypeColor(typeOfCell[c], types, scheme);
@@ -96,27 +96,30 @@ void assignByType(const slicing::Object& object, Scheme scheme, std::vector<Colo
 constexpr int kScaleSteps = 255;
 using ColorScale = std::array<Color, kScaleSteps>;
 // Returns a color scale that is blue at −1, gray at 0 and amber at 1.
-ColorScale divergingScale(Scheme scheme) {
+ColorScale divergingScale(ColorScheme scheme) {
     constexpr double kBlue = 4.5, kAmber = 1.25;  // the hues of blue and amber, in radians
     ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double t = 2.0 * i / (kScaleSteps - 1) - 1, reach = std::abs(t);
-        const Lightness lightness{0.74 - 0.06 * reach * (t < 0 ? 1.5 : -0.5), 0.62 - reach * (t < 0 ? 0.15 : 0.05)};
+        const LightnessPerScheme lightness{0.74 - 0.06 * reach * (t < 0 ? 1.5 : -0.5),
+                                           0.62 - reach * (t < 0 ? 0.15 : 0.05)};
         scale.at(static_cast<std::size_t>(i)) =
             colorFor(scheme, lightness, 0.01 + 0.17 * std::pow(reach, 0.8), t < 0 ? kBlue : kAmber);
     }
     return scale;
 }
 
-// One color scale for each color scheme. The index is the number of the enumerator of Scheme.
+// One color scale for each color scheme. The index is the number of the enumerator of ColorScheme.
 using ScalePerScheme = std::array<ColorScale, kSchemes.size()>;
-ScalePerScheme scalesFor(ColorScale (*make)(Scheme)) { return {make(Scheme::dark), make(Scheme::light)}; }
-const ColorScale& scaleOf(const ScalePerScheme& scales, Scheme scheme) {
+ScalePerScheme colorScalesPerScheme(ColorScale (*make)(ColorScheme)) {
+    return {make(ColorScheme::dark), make(ColorScheme::light)};
+}
+const ColorScale& colorScaleFor(const ScalePerScheme& scales, ColorScheme scheme) {
     return scales.at(static_cast<std::size_t>(scheme));
 }
 
 const ScalePerScheme& divergingScales() {
-    static const ScalePerScheme kScales = scalesFor(divergingScale);
+    static const ScalePerScheme kScales = colorScalesPerScheme(divergingScale);
     return kScales;
 }
 
@@ -127,13 +130,14 @@ const glm::dvec4 kLight = glm::normalize(glm::dvec4(-0.35, 0.65, 0.5, 0.6));
 // Returns a color scale of one hue. Its values are cosines of angles between the normals of cells and the direction
 // toward the light. The lightness also decreases with negative values, so that cells that are turned away from the
 // light differ from each other.
-ColorScale lightScale(Scheme scheme) {
+ColorScale lightingColorScale(ColorScheme scheme) {
     constexpr double kHue = 4.2;
-    constexpr Lightness kDark{0.3, 0.22}, kRange{0.58, 0.4};
+    constexpr LightnessPerScheme kDark{0.3, 0.22}, kRange{0.58, 0.4};
     ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double light = std::pow(static_cast<double>(i) / (kScaleSteps - 1), 1.3);
-        const Lightness lightness{kDark.onDark + kRange.onDark * light, kDark.onLight + kRange.onLight * light};
+        const LightnessPerScheme lightness{kDark.onDark + kRange.onDark * light,
+                                           kDark.onLight + kRange.onLight * light};
         scale.at(static_cast<std::size_t>(i)) = colorFor(scheme, lightness, 0.09, kHue);
     }
     return scale;
@@ -141,14 +145,14 @@ ColorScale lightScale(Scheme scheme) {
 
 // Returns a color scale whose lightness grows evenly from −1 to 1, while the hue turns from blue through green to
 // yellow.
-ColorScale sequentialScale(Scheme scheme) {
+ColorScale sequentialColorScale(ColorScheme scheme) {
     constexpr double kBlue = 4.8, kYellow = 1.8;
-    constexpr Lightness kDarkest{0.4, 0.28}, kLightest{0.92, 0.6};
+    constexpr LightnessPerScheme kDarkest{0.4, 0.28}, kLightest{0.92, 0.6};
     ColorScale scale{};
     for (int i = 0; i < kScaleSteps; ++i) {
         const double t = static_cast<double>(i) / (kScaleSteps - 1);
-        const Lightness lightness{std::lerp(kDarkest.onDark, kLightest.onDark, t),
-                                  std::lerp(kDarkest.onLight, kLightest.onLight, t)};
+        const LightnessPerScheme lightness{std::lerp(kDarkest.onDark, kLightest.onDark, t),
+                                           std::lerp(kDarkest.onLight, kLightest.onLight, t)};
         scale.at(static_cast<std::size_t>(i)) = colorFor(scheme, lightness, 0.14, kBlue + (kYellow - kBlue) * t);
     }
     return scale;
@@ -178,21 +182,23 @@ double contrast(Color a, Color b) {
     return (lighter + 0.05) / (darker + 0.05);
 }
 
-Color cellTypeColor(std::size_t type, std::size_t count, Scheme scheme) { return distinct(type, count, scheme); }
-
-Color levelColor(std::size_t i, std::size_t count, Scheme scheme) {
-    return distinct(i, std::max<std::size_t>(count, 3), scheme);
+Color cellTypeColor(std::size_t type, std::size_t count, ColorScheme scheme) {
+    return distinctColor(type, count, scheme);
 }
 
-Color plainColor(Scheme scheme) { return colorFor(scheme, {0.72, 0.55}, 0.1, 4.2); }
-
-Color divergingColor(double value, Scheme scheme) {
-    return colorAt(scaleOf(divergingScales(), scheme), std::isnan(value) ? 0 : value);
+Color levelColor(std::size_t i, std::size_t count, ColorScheme scheme) {
+    return distinctColor(i, std::max<std::size_t>(count, 3), scheme);
 }
 
-Color sequentialColor(double value, Scheme scheme) {
-    static const ScalePerScheme kScales = scalesFor(sequentialScale);
-    return colorAt(scaleOf(kScales, scheme), 2 * value - 1);
+Color plainColor(ColorScheme scheme) { return colorFor(scheme, {0.72, 0.55}, 0.1, 4.2); }
+
+Color divergingColor(double value, ColorScheme scheme) {
+    return colorAt(colorScaleFor(divergingScales(), scheme), std::isnan(value) ? 0 : value);
+}
+
+Color sequentialColor(double value, ColorScheme scheme) {
+    static const ScalePerScheme kScales = colorScalesPerScheme(sequentialColorScale);
+    return colorAt(colorScaleFor(kScales, scheme), 2 * value - 1);
 }
 
 Color noValueColor() {
@@ -200,11 +206,11 @@ Color noValueColor() {
     return kGray;
 }
 
-void CellPainter::updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
-                                   const geometry::Rotation& orientation, std::vector<Color>& out) {
-    const bool changed = prepare(object, coloring, scheme, slicing::elementCounts(object)[3], out);
-    if (changed && coloring == Coloring::cell) assignByCell(object, scheme, out);
-    if (changed && coloring == Coloring::cell_type) assignByType(object, scheme, out);
+void CellColorAssigner::updateCellColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
+                                         const geometry::Rotation& orientation, std::vector<Color>& out) {
+    const bool changed = prepareColors(object, coloring, scheme, slicing::elementCounts(object)[3], out);
+    if (changed && coloring == Coloring::cell) assignColorsByCell(object, scheme, out);
+    if (changed && coloring == Coloring::cell_type) assignColorsByCellType(object, scheme, out);
     if (changed && (coloring == Coloring::plain || coloring == Coloring::growth || coloring == Coloring::value))
         std::fill(out.begin(), out.end(), plainColor(scheme));
     if (coloring == Coloring::w) {
@@ -212,15 +218,15 @@ void CellPainter::updateCellColors(const slicing::Object& object, Coloring color
         colorByCenters(object, changed, orientation, out);
     } else if (coloring == Coloring::light) {
         if (changed) setDirectionsToNormals(object);
-        static const ScalePerScheme kScales = scalesFor(lightScale);
-        colorByDirection(scaleOf(kScales, scheme), orientation.inverse()(kLight), out);
+        static const ScalePerScheme kScales = colorScalesPerScheme(lightingColorScale);
+        colorByDirection(colorScaleFor(kScales, scheme), orientation.inverse()(kLight), out);
     }
 }
 
-void CellPainter::updateFaceColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
-                                   const geometry::Rotation& orientation, std::vector<Color>& out) {
+void CellColorAssigner::updateFaceColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
+                                         const geometry::Rotation& orientation, std::vector<Color>& out) {
     const std::size_t count = coloring == Coloring::w ? slicing::elementCounts(object)[2] : 1;
-    const bool changed = prepare(object, coloring, scheme, count, out);
+    const bool changed = prepareColors(object, coloring, scheme, count, out);
     if (coloring == Coloring::w) {
         if (changed) slicing::findFaceCenters(object, directions_);
         colorByCenters(object, changed, orientation, out);
@@ -231,8 +237,8 @@ void CellPainter::updateFaceColors(const slicing::Object& object, Coloring color
 
 // Resizes `out` to `count` colors, and stores the object, the coloring and the color scheme for which they are. Returns
 // whether one of these differs from the last call.
-bool CellPainter::prepare(const slicing::Object& object, Coloring coloring, Scheme scheme, std::size_t count,
-                          std::vector<Color>& out) {
+bool CellColorAssigner::prepareColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
+                                      std::size_t count, std::vector<Color>& out) {
     const std::uint64_t serial = slicing::infoOf(object).serial;
     const bool changed = assignedFor_ != serial || coloring_ != coloring || scheme_ != scheme || out.size() != count;
     assignedFor_ = serial;
@@ -244,14 +250,14 @@ bool CellPainter::prepare(const slicing::Object& object, Coloring coloring, Sche
 
 // Gives each cell or 2-face the divergingColor() for the w of its center. If `isNew` is true, directions_ has the
 // centers; otherwise, an earlier call has already scaled them.
-void CellPainter::colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
-                                 std::vector<Color>& out) {
+void CellColorAssigner::colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
+                                       std::vector<Color>& out) {
     if (isNew) scaleDirections(slicing::infoOf(object).circumradius);
-    colorByDirection(scaleOf(divergingScales(), scheme_), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
+    colorByDirection(colorScaleFor(divergingScales(), scheme_), orientation.inverse()(glm::dvec4(0, 0, 0, 1)), out);
 }
 
 // Scales directions_ (the centers of cells or 2-faces) so that the longest vector has the length 1.
-void CellPainter::scaleDirections(double circumradius) {
+void CellColorAssigner::scaleDirections(double circumradius) {
     double farthest = 0;
     for (const glm::dvec4& center : directions_) farthest = std::max(farthest, glm::length(center));
     // If all centers are at the origin, all entries become 0, and everything gets the color for w = 0.
@@ -260,7 +266,7 @@ void CellPainter::scaleDirections(double circumradius) {
 }
 
 // Sets directions_ to the unit normals of the cells; to 0 for cells that enclose no volume.
-void CellPainter::setDirectionsToNormals(const slicing::Object& object) {
+void CellColorAssigner::setDirectionsToNormals(const slicing::Object& object) {
     std::vector<double> offsets;
     slicing::findCellHyperplanes(object, directions_, offsets);
     for (glm::dvec4& normal : directions_) {
@@ -271,8 +277,8 @@ void CellPainter::setDirectionsToNormals(const slicing::Object& object) {
 
 // Gives each cell or 2-face the color of `scale` at the dot product of its entry in directions_ and `axis`. `axis` is a
 // unit vector in coordinates before the rotation.
-void CellPainter::colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis,
-                                   std::vector<Color>& out) const {
+void CellColorAssigner::colorByDirection(const std::array<Color, 255>& scale, const glm::dvec4& axis,
+                                         std::vector<Color>& out) const {
     for (std::size_t c = 0; c < out.size(); ++c) out[c] = colorAt(scale, glm::dot(axis, directions_[c]));
 }
 

@@ -30,27 +30,27 @@ double contrast(Color a, Color b);
 
 /// Returns the color that Coloring::cell_type gives to all cells of the type `type`. `type` is an index less than
 /// `count`, the number of the object's cell types.
-Color cellTypeColor(std::size_t type, std::size_t count, Scheme scheme = Scheme::dark);
+Color cellTypeColor(std::size_t type, std::size_t count, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color that Coloring::cell gives to the surface of level i of a field with `count` levels.
-Color levelColor(std::size_t i, std::size_t count, Scheme scheme = Scheme::dark);
+Color levelColor(std::size_t i, std::size_t count, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of cells and surfaces whose color has no meaning, as with Coloring::plain.
-Color plainColor(Scheme scheme = Scheme::dark);
+Color plainColor(ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of a value on a diverging scale: blue at −1, gray at 0, amber at 1. Values outside this range have
 /// the color of the nearer end; NaN has the gray of 0.
-Color divergingColor(double value, Scheme scheme = Scheme::dark);
+Color divergingColor(double value, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of a value on a sequential scale, from dark blue at 0 through green to light yellow at 1; in the
 /// light scheme, the yellow is darkened to olive. Values outside this range have the color of the nearer end.
-Color sequentialColor(double value, Scheme scheme = Scheme::dark);
+Color sequentialColor(double value, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of points without a value: gray.
 Color noValueColor();
 
 /// Computes the colors of an object's cells. Caches all data that do not depend on the orientation.
-class CellPainter {
+class CellColorAssigner {
   public:
     /// Writes one color per cell to `out`, as `coloring` specifies. Every call must get the vector that the previous
     /// call wrote, because colors that stay the same are not written again.
@@ -63,18 +63,18 @@ class CellPainter {
     /// - Coloring::light: one hue, whose lightness depends on the angle between the cell's outward normal after the
     ///   rotation and the direction toward a light in four dimensions.
     /// - Other values: the color is plainColor().
-    void updateCellColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+    void updateCellColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
                           const geometry::Rotation& orientation, std::vector<Color>& out);
 
     /// Writes to `out` the colors of the 2-faces of a surface, which has no cells. With Coloring::w, there is one color
     /// per 2-face: divergingColor() for the w of its center, as for cells. Otherwise, there is a single color for all
     /// 2-faces: plainColor(). `out` must be the vector of updateCellColors().
-    void updateFaceColors(const slicing::Object& object, Coloring coloring, Scheme scheme,
+    void updateFaceColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme,
                           const geometry::Rotation& orientation, std::vector<Color>& out);
 
   private:
-    bool prepare(const slicing::Object& object, Coloring coloring, Scheme scheme, std::size_t count,
-                 std::vector<Color>& out);
+    bool prepareColors(const slicing::Object& object, Coloring coloring, ColorScheme scheme, std::size_t count,
+                       std::vector<Color>& out);
     void colorByCenters(const slicing::Object& object, bool isNew, const geometry::Rotation& orientation,
                         std::vector<Color>& out);
     void scaleDirections(double circumradius);
@@ -83,7 +83,7 @@ class CellPainter {
 
     std::uint64_t assignedFor_ = 0;  // the serial number of the object whose cells or 2-faces were colored last
     Coloring coloring_ = Coloring::cell;
-    Scheme scheme_ = Scheme::dark;
+    ColorScheme scheme_ = ColorScheme::dark;
     // Per cell or 2-face, before the rotation. With Coloring::w: its center, divided by the greatest distance of any
     // center from the origin. With Coloring::light: its unit normal.
     std::vector<glm::dvec4> directions_;

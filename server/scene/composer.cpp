@@ -34,8 +34,8 @@ bool needsDepthBuffer(const Object& object) {
 // was cut or, if the face is 2-face f of the object, the number of cells + f. If every face was cut from a cell, this
 // cell is its source number, and `out` is left empty.
 template <typename Faces, typename SourceOf>
-void findCells(const Object& object, const slicing::VisibilityBySource& visibilities, const Faces& faces,
-               SourceOf sourceOf, std::vector<std::uint32_t>& out) {
+void findColoringCells(const Object& object, const slicing::VisibilityBySource& visibilities, const Faces& faces,
+                       SourceOf sourceOf, std::vector<std::uint32_t>& out) {
     const auto cells = static_cast<std::uint32_t>(slicing::elementCounts(object)[3]);
     out.clear();
     if (std::ranges::all_of(faces, [&](const auto& face) { return sourceOf(face) < cells; })) return;
@@ -68,7 +68,7 @@ void addFillOfSection(const slicing::FilledFaces& from, const SliceSet& slices, 
 
 // Returns the opacity of translucent faces: `own` times Look::opacity, but at most kMost, which looks opaque. An
 // opacity of 1 would tell clients that faces may cross each other.
-double translucent(double own, const Look& look) {
+double translucentOpacity(double own, const Look& look) {
     constexpr double kMost = 0.999;
     return std::min(own * look.opacity, kMost);
 }
@@ -126,32 +126,32 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     setObjectLookAndViewport(object, look, viewport, out);
     const bool objectChanged = std::exchange(objectChanged_, false);
-    if (objectChanged || filter_ != look.cellTypes) setFilter(object, look.cellTypes);
+    if (objectChanged || filter_ != look.cellTypes) setCellTypeFilter(object, look.cellTypes);
 
     out.slices = &slices;
     const fields::Field* const field = slicing::fieldIn(object);
     const bool isField = field != nullptr;
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     out.needsDepthBuffer = needsDepthBuffer(object);
-    out.faceOpacity = out.needsDepthBuffer ? 1 : translucent(out.style().faceOpacity, look);
+    out.faceOpacity = out.needsDepthBuffer ? 1 : translucentOpacity(out.style().faceOpacity, look);
     out.surfaces.clear();
     if (isField && look.parts.faces) chooseSurfaceLook(*field, look, slices.planes, out.surfaces);
     out.fog.clear();
-    if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog, schemeOn(look.background));
+    if (isField && !slices.fogs.empty()) makeFogTable(look.field.fog, out.fog, schemeForBackground(look.background));
     out.axisUnits = isField ? fields::pictureUnits(*field, orientation) : fields::PictureUnits();
     out.visibilities = visibilities_;
     removeHighlightColor(out);
-    const Scheme scheme = schemeOn(look.background);
+    const ColorScheme scheme = schemeForBackground(look.background);
     if (isSurface && look.parts.projectionFaces) {
         cellPainter_.updateFaceColors(object, look.coloring, scheme, orientation, out.cellColors);
     } else {
         cellPainter_.updateCellColors(object, look.coloring, scheme, orientation, out.cellColors);
     }
-    highlight(object, objectChanged, out);
+    updateHighlight(object, objectChanged, out);
     nameSection(object, orientation, focus, out);
     layOutIfChanged(object, slices.planes, focus, out);
     out.scale = out.sliceRadius / info.circumradius;
-    findCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
+    findColoringCells(object, out.visibilities, slices.faceSource, std::identity(), out.faceCells);
     out.fill.clear();
     // If the projection is not drawn, it is filled roughly, without any steps.
     std::size_t fillSteps = draws ? fillSteps_ : 0;
@@ -171,7 +171,7 @@ void Composer::compose(const Object& object, const geometry::Rotation& orientati
 
 // Finds the slice elements that show the highlighted element of the object. Gives a highlighted cell the highlight
 // color.
-void Composer::highlight(const Object& object, bool objectChanged, Scene& out) {
+void Composer::updateHighlight(const Object& object, bool objectChanged, Scene& out) {
     const std::optional<slicing::Element>& element = out.look.highlight;
     if (objectChanged || highlight_ != element) {
         highlight_ = element;
@@ -209,19 +209,19 @@ void Composer::nameSection(const Object& object, const geometry::Rotation& orien
     if (const fields::Field* const field = slicing::fieldIn(object))
         focusName = fields::placeInBox(*field, orientation, w, slices.planes.spacing);
     if (!slicing::propertiesOf(object).sectionsHaveNames) return;
-    if (!section_ || !section_->isOf(object, orientation, w)) {
+    if (!section_ || !section_->isSectionOf(object, orientation, w)) {
         section_ = slicing::NamedSection{
             slicing::infoOf(object).serial,
             orientation,
             w,
             {sectionNamer_.nameOfSlice(slices, slice),
-             sectionNamer_.nameOfObjectVertices(slices, slice, slicing::elementCounts(object)[1])}};
+             sectionNamer_.nameOfHullOfObjectVertices(slices, slice, slicing::elementCounts(object)[1])}};
     }
     out.sectionNames = section_->names;
     const auto& [name, vertices] = out.sectionNames;
     if (!name.empty()) {
         focusName = name;
-    } else if (slicing::SectionNamer::isSolid(vertices)) {
+    } else if (slicing::SectionNamer::isSolidName(vertices)) {
         focusName.append("vertices: ").append(vertices);
     }
 }
@@ -263,7 +263,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
                                                         .endSlice = all ? slices.planes.count : focusSlice + 1};
     ObjectProjection& projection = out.projection;
     projector_.project(object, orientation, slices, options, projection.elements, projection.faceCells);
-    projection.onlyTurnedAwayLeftOut = projector_.lacksSteps();
+    projection.onlyTurnedAwayLeftOut = projector_.exceededOcclusionSteps();
     const bool isSurface = slicing::propertiesOf(object).slices == slicing::SliceContent::curves;
     if (!isSurface) {
         // If a face of a section is a whole 2-face of the object, its source number (which says from what it was cut)
@@ -294,7 +294,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
             ObjectProjection::FocusSurface{static_cast<std::size_t>(focusSlice), projection.scale * magnification};
     }
     const double ball = out.projectionPlacement.ballRadius, bar = out.projectionPlacement.barRadius;
-    const Style& styles = out.style();
+    const PictureStyle& styles = out.style();
     projection.parts.clear();
     const double barRadius = look.parts.bars ? bar : 0;
     // If balls are hidden, balls with the radius and the color of the bars join the bars. The points of a cloud then
@@ -303,7 +303,7 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
     const double pointRadius = look.parts.balls ? ball : bar;
     // Surfaces may be less translucent than the 2-faces between cells, because a line of sight meets a surface less
     // often.
-    const double faceOpacity = translucent(isSurface ? 0.5 : 0.25, look);
+    const double faceOpacity = translucentOpacity(isSurface ? 0.5 : 0.25, look);
     projection.parts.push_back({look.parts.balls || isCloud ? pointRadius : barRadius, barRadius,
                                 look.parts.balls ? styles.ball : styles.bar, styles.bar, faceOpacity});
     for (int i = options.firstSlice; i < options.endSlice; ++i) {
@@ -311,8 +311,8 @@ void Composer::projectObject(const Object& object, const geometry::Rotation& ori
         const double sectionBar = (isFocus ? kSection : kThinSection) * bar;
         const Color color = isFocus ? styles.axes[3] : styles.bar;
         const bool filled = isFocus && look.parts.faces && !isField;
-        projection.parts.push_back(
-            {isCloud ? 1.02 * pointRadius : sectionBar, sectionBar, color, color, filled ? translucent(0.5, look) : 0});
+        projection.parts.push_back({isCloud ? 1.02 * pointRadius : sectionBar, sectionBar, color, color,
+                                    filled ? translucentOpacity(0.5, look) : 0});
     }
 }
 
@@ -363,14 +363,14 @@ void Composer::traceContours(const Object& object, const geometry::Rotation& ori
     contourInput_ = std::move(input);
 }
 
-void Composer::setFilter(const Object& object, const CellTypeFilter& filter) {
+void Composer::setCellTypeFilter(const Object& object, const CellTypeFilter& filter) {
     slicing::findVisibilities(object, filter.hidden, filter.faded, visibilities_);
     filter_ = filter;
 }
 
 void Composer::measureDensity(const geometry::Rotation& orientation, Scene& out) {
     if (densityObject_ != object_ || densityTurn_ != orientation || out.plotTones.empty()) {
-        density_.measure(out.slices->rotatedVertices, glm::dmat4(1), out.circumradius);
+        density_.compute(out.slices->rotatedVertices, glm::dmat4(1), out.circumradius);
         densityObject_ = object_;
         densityTurn_ = orientation;
     }
@@ -382,14 +382,14 @@ void Composer::measureFieldHistograms(const Object& object, const geometry::Rota
     const slicing::FieldSettings& settings = out.look.field;
     if (densityObject_ != object_ || densityTurn_ != orientation || histogramLevels_ != settings.levels ||
         out.plotTones.empty()) {
-        histogram_.measure(*slicing::fieldIn(object), orientation, settings.levels);
+        histogram_.compute(*slicing::fieldIn(object), orientation, settings.levels);
         densityObject_ = object_;
         densityTurn_ = orientation;
         histogramLevels_ = settings.levels;
     }
     const auto tones = histogram_.tones();
     out.plotTones.assign(tones.begin(), tones.end());
-    const auto& [least, greatest] = histogram_.range();
+    const auto& [least, greatest] = histogram_.valueRange();
     out.histogram.reach = histogram_.reach();
     out.histogram.least = least;
     out.histogram.greatest = greatest;

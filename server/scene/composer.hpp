@@ -53,10 +53,10 @@ class Composer {
                  slicing::Quality quality = slicing::Quality::full, ScenePurpose purpose = ScenePurpose::drawing);
 
     /// Returns the section in the focus slice (the middle one) that compose() has named last, or that was passed to
-    /// keepSection() last. Returns an empty optional if there is none yet.
-    const std::optional<slicing::NamedSection>& section() const { return section_; }
+    /// reuseSectionNames() last. Returns an empty optional if there is none yet.
+    const std::optional<slicing::NamedSection>& namedSection() const { return section_; }
     /// Gives compose() the names of a section, so that compose() need not find them.
-    void keepSection(const slicing::NamedSection& section) { section_ = section; }
+    void reuseSectionNames(const slicing::NamedSection& section) { section_ = section; }
 
     /// Chooses the lattices on which a field is sliced, such that their cubes have about the same size in pixels in all
     /// slices of the picture. Overwrites `out`: SurfaceDetail::steps is empty if the surfaces are hidden,
@@ -91,7 +91,7 @@ class Composer {
         bool operator==(const ContourInput&) const = default;
     };
 
-    void setFilter(const slicing::Object& object, const CellTypeFilter& filter);
+    void setCellTypeFilter(const slicing::Object& object, const CellTypeFilter& filter);
     void projectObject(const slicing::Object& object, const geometry::Rotation& orientation, int focus,
                        std::size_t fillSteps, Scene& out);
     void cutSectionMatrix(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
@@ -100,14 +100,14 @@ class Composer {
     void nameSection(const slicing::Object& object, const geometry::Rotation& orientation, int focus, Scene& out);
     void setObjectLookAndViewport(const slicing::Object& object, const Look& look, Viewport viewport, Scene& out);
     void layOutIfChanged(const slicing::Object& object, const geometry::Hyperplanes& planes, int focus, Scene& out);
-    void highlight(const slicing::Object& object, bool objectChanged, Scene& out);
+    void updateHighlight(const slicing::Object& object, bool objectChanged, Scene& out);
     void removeHighlightColor(Scene& out);
     void measureDensity(const geometry::Rotation& orientation, Scene& out);
     void measureFieldHistograms(const slicing::Object& object, const geometry::Rotation& orientation, Scene& out);
 
     std::size_t fillSteps_ = slicing::FaceFiller::kNoLimit;
     std::size_t occlusionSteps_ = slicing::OcclusionFinder::kDefaultSteps;
-    CellPainter cellPainter_;
+    CellColorAssigner cellPainter_;
     slicing::FaceFiller filler_;
     std::uint64_t object_ = 0;       // the serial number of the object in the last call
     bool objectChanged_ = false;     // whether the object has changed since the last call of compose()

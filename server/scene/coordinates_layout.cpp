@@ -15,11 +15,12 @@ namespace {
 // viewport's width.
 double availableWidth(double aspect) { return std::max(aspect - 4 * kMargin, aspect / 2); }
 
-constexpr double kMaxAxisStep = 0.42;  // the maximum of CoordinatesLayout::lineStep for a density strip or histogram
+constexpr double kMaxAxisStep =
+    0.42;  // the maximum of ParallelCoordinatesLayout::lineStep for a density strip or histogram
 constexpr double kPlotAmplitude = 0.056;
 constexpr double kStripNameRoom = 1.1;  // the room below the plot for the names of the axes, in heights of text
 
-void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& out) {
+void layOutDensityStrip(std::size_t vertices, double aspect, ParallelCoordinatesLayout& out) {
     out = {.rows = 1, .perRow = static_cast<int>(vertices), .lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.isDensityStrip = true;
     out.lineStep = std::clamp((availableWidth(aspect) - out.lineWidth) / 3, 0.0, kMaxAxisStep);
@@ -27,8 +28,8 @@ void layOutDensityStrip(std::size_t vertices, double aspect, CoordinatesLayout& 
     out.zero = kMargin + kStripNameRoom * style().textHeight + kPlotAmplitude;
 }
 
-void layOutHistogram(double aspect, CoordinatesLayout& out) {
-    // The gap between two panels of a histogram, as a fraction of CoordinatesLayout::lineStep.
+void layOutHistogram(double aspect, ParallelCoordinatesLayout& out) {
+    // The gap between two panels of a histogram, as a fraction of ParallelCoordinatesLayout::lineStep.
     constexpr double kGap = 0.08;
     out = {.lineWidth = 0.0022, .amplitude = kPlotAmplitude};
     out.lineStep = std::clamp(availableWidth(aspect) / (4 - kGap), 0.0, kMaxAxisStep);
@@ -39,7 +40,7 @@ void layOutHistogram(double aspect, CoordinatesLayout& out) {
 
 }  // namespace
 
-void layOutCoordinates(const LayoutObjectInfo& content, double aspect, CoordinatesLayout& out) {
+void layOutCoordinates(const LayoutObjectInfo& content, double aspect, ParallelCoordinatesLayout& out) {
     if (content.isField) {
         layOutHistogram(aspect, out);
         return;

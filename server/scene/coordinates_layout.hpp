@@ -7,6 +7,6 @@ namespace oval4d::scene {
 
 /// Lays out the parallel coordinates of an object in a picture with the aspect ratio `aspect` (width / height).
 /// Overwrites `out`.
-void layOutCoordinates(const LayoutObjectInfo& content, double aspect, CoordinatesLayout& out);
+void layOutCoordinates(const LayoutObjectInfo& content, double aspect, ParallelCoordinatesLayout& out);
 
 }  // namespace oval4d::scene

@@ -23,7 +23,7 @@ std::uint32_t binOf(float level) {
 
 }  // namespace
 
-void DensityPlot::measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius) {
+void DensityPlot::compute(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius) {
     const glm::dmat4 toBins = turn * (kMaxLevel / circumradius);
     for (std::vector<float>& levels : levels_) levels.resize(vertices.size());
     for (std::size_t i = 0; i < vertices.size(); ++i) {

@@ -28,7 +28,7 @@ class DensityPlot {
     static constexpr std::uint32_t kLineWeight = 4;
 
     /// Computes the density plot of the points turn · v for all v in `vertices`. Clamps coordinates to ±circumradius.
-    void measure(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius);
+    void compute(std::span<const glm::dvec4> vertices, const glm::dmat4& turn, double circumradius);
 
     /// Returns the weights, row by row. The sum of each column is kLineWeight times the number of vertices.
     std::span<const std::uint32_t> weights() const { return weights_; }

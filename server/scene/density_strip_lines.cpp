@@ -11,9 +11,9 @@ namespace oval4d::scene {
 namespace {
 
 // Finds the vertex line that is nearest to a point. The lines must be added in ascending order of their vertices.
-class NearestLine {
+class NearestLineFinder {
   public:
-    void add(std::size_t vertex, double distance) {
+    void keepIfNearer(std::size_t vertex, double distance) {
         if (distance >= distance_ - kEqual) return;
         vertex_ = vertex;
         distance_ = distance;
@@ -21,7 +21,7 @@ class NearestLine {
 
     // Returns the vertex of the nearest line. Returns an empty optional if the distance of this line is greater than
     // `reach`.
-    std::optional<std::size_t> within(double reach) const {
+    std::optional<std::size_t> vertexWithin(double reach) const {
         return distance_ <= reach ? std::optional(vertex_) : std::nullopt;
     }
 
@@ -37,7 +37,7 @@ class NearestLine {
 }  // namespace
 
 std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2 at) {
-    const CoordinatesLayout& layout = scene.coordinates;
+    const ParallelCoordinatesLayout& layout = scene.coordinates;
     // The distance of the point from the middle of the line of axis x.
     const double right = at.x - (layout.left + layout.lineWidth / 2);
     if (layout.lineStep <= 0 || right < -kLineReach || right > 3 * layout.lineStep + kLineReach) return std::nullopt;
@@ -49,12 +49,13 @@ std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2
         const double value = std::lerp(vertices[v][axis], vertices[v][axis + 1], along - axis);
         return std::abs(layout.zero + value * unit - at.y);
     };
-    NearestLine drawn;
-    forEachLineOverDensityStrip(scene.highlight.ownVertices, [&](std::uint32_t v) { drawn.add(v, distanceOf(v)); });
-    if (const auto vertex = drawn.within(layout.lineWidth)) return vertex;
-    NearestLine nearest;
-    for (std::size_t v = 0; v < vertices.size(); ++v) nearest.add(v, distanceOf(v));
-    return nearest.within(kLineReach);
+    NearestLineFinder drawn;
+    forEachLineOverDensityStrip(scene.highlight.ownVertices,
+                                [&](std::uint32_t v) { drawn.keepIfNearer(v, distanceOf(v)); });
+    if (const auto vertex = drawn.vertexWithin(layout.lineWidth)) return vertex;
+    NearestLineFinder nearest;
+    for (std::size_t v = 0; v < vertices.size(); ++v) nearest.keepIfNearer(v, distanceOf(v));
+    return nearest.vertexWithin(kLineReach);
 }
 
 }  // namespace oval4d::scene

@@ -1,6 +1,6 @@
 #pragma once
 // Chooses and finds the lines of single vertices in a density strip (a plot of parallel coordinates, see
-// CoordinatesLayout). The line of a vertex joins its coordinates on the axes x, y, z and w.
+// ParallelCoordinatesLayout). The line of a vertex joins its coordinates on the axes x, y, z and w.
 
 #include <algorithm>
 #include <cstddef>
@@ -35,9 +35,9 @@ inline constexpr double kLineReach = 0.006;
 
 /// Returns the vertex whose line passes through, or nearest to, the point `at` of a density strip. Returns an empty
 /// optional if no vertex has a line within kLineReach. `at` is measured in viewport heights from the lower left corner
-/// of the picture. A line that is drawn over the strip has precedence, up to CoordinatesLayout::lineWidth above and
-/// below it. Otherwise, the nearest line above or below the point counts: on an axis, the line of the vertex with the
-/// nearest coordinate. If several lines are equally near, for example those of vertices with equal coordinates, the
+/// of the picture. A line that is drawn over the strip has precedence, up to ParallelCoordinatesLayout::lineWidth above
+/// and below it. Otherwise, the nearest line above or below the point counts: on an axis, the line of the vertex with
+/// the nearest coordinate. If several lines are equally near, for example those of vertices with equal coordinates, the
 /// vertex with the lowest index counts. Requires that scene.coordinates.isDensityStrip is true. Takes time linear in
 /// the number of vertices.
 std::optional<std::size_t> vertexInDensityStripAt(const Scene& scene, glm::dvec2 at);

@@ -11,7 +11,7 @@
 
 namespace oval4d::scene {
 
-void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& out, Scheme scheme) {
+void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTransferTable& out, ColorScheme scheme) {
     out.clear();
     if (points.empty()) return;
     const double least = points.front().value, range = points.back().value - least;
@@ -32,7 +32,7 @@ void makeFogTable(std::span<const slicing::FogControlPoint> points, FogTable& ou
     }
 }
 
-glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTable& table, std::vector<std::uint8_t>& out) {
+glm::ivec3 findFogBlocks(const slicing::SliceFog& fog, const FogTransferTable& table, std::vector<std::uint8_t>& out) {
     const glm::ivec3 blocks = glm::max((fog.size - 1 + kFogBlock - 1) / kFogBlock, 1);
     // Entry v is the number of entries of `table` with an index less than v that are not transparent.
     std::array<std::uint16_t, kFogEntries + 1> visibleBelow{};

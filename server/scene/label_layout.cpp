@@ -27,7 +27,7 @@ constexpr double kLeastLabelSize = 0.45;  // the least SlicePlacement::labelSize
 
 }  // namespace
 
-LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double originW,
+LabelLayout::LabelLayout(const SliceArrangement& arrangement, int decimals, double originW,
                          std::vector<SlicePlacement>& placements)
     : arrangement_(arrangement), space_(arrangement), placements_(placements) {
     // All labels have room for the longest number with a sign. So the layout stays the same when the focus moves.
@@ -40,11 +40,11 @@ LabelLayout::LabelLayout(const Arrangement& arrangement, int decimals, double or
         width_ = kSignWidth + static_cast<double>(labelNumber(w, decimals).size()) * kDigitWidth;
 }
 
-void LabelLayout::shrink(double columnWidth) {
+void LabelLayout::shrinkLabels(double columnWidth) {
     for (SlicePlacement& placement : placements_) {
         if (placement.focus && !arrangement_.labelsAreBeside) continue;
-        const double width = columnWidth - (arrangement_.labelsAreBeside ? gapOf(placement) : 0);
-        const double size = placement.labelSize * width / (2 * halfPlate(placement).x);
+        const double width = columnWidth - (arrangement_.labelsAreBeside ? labelGapOf(placement) : 0);
+        const double size = placement.labelSize * width / (2 * halfPlateSize(placement).x);
         placement.labelSize = std::clamp(size, kLeastLabelSize, placement.labelSize);
     }
 }
@@ -53,7 +53,7 @@ Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
     Rect out{0, 0, 0, 0};
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         if (!placements_[i].drawn) continue;
-        const Box box = labelBoxInInitialView(i, scale);
+        const CenteredRect box = labelBoxInInitialView(i, scale);
         out.left = std::max(out.left, bounds.left * scale - (box.center.x - box.half.x));
         out.right = std::max(out.right, box.center.x + box.half.x - bounds.right * scale);
         out.bottom = std::max(out.bottom, bounds.bottom * scale - (box.center.y - box.half.y));
@@ -62,7 +62,7 @@ Rect LabelLayout::overhang(const Rect& bounds, double scale) const {
     return out;
 }
 
-void LabelLayout::place(const Camera& camera) {
+void LabelLayout::placeLabels(const Camera& camera) {
     const glm::dmat4 view = camera.view();
     const glm::dvec3 right(view[0][0], view[1][0], view[2][0]);
     const glm::dvec3 up(view[0][1], view[1][1], view[2][1]);
@@ -70,7 +70,7 @@ void LabelLayout::place(const Camera& camera) {
     for (std::size_t i = 0; i < placements_.size(); ++i) {
         SlicePlacement& placement = placements_[i];
         const double depth = -(view * glm::dvec4(placement.position, 1)).z;
-        const glm::dvec2 top = offsetOf(i, pixels / depth) + glm::dvec2(0, kDigitHeight / 2 * fontSize(placement));
+        const glm::dvec2 top = labelOffset(i, pixels / depth) + glm::dvec2(0, kDigitHeight / 2 * fontSize(placement));
         placement.labelAt = placement.position + (right * top.x + up * top.y) * (depth / pixels);
     }
 }
@@ -86,7 +86,7 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
         const double depth = -(view * glm::dvec4(focus->position, 1)).z;
         focus->labelAt += right * (fontSize(*focus) * nameWidth_ / 2 * depth / camera.focalLength());
     }
-    const Box box = boxSeenBy(camera, view, aspect, *focus);
+    const CenteredRect box = boxSeenBy(camera, view, aspect, *focus);
     if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) {
         nameWidth_ = 0;
         focus->labelAt = withoutName;
@@ -95,18 +95,18 @@ void LabelLayout::nameFocusSlice(std::string_view name, const Camera& camera, do
     }
 }
 
-void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const Box& axes,
+void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const CenteredRect& axes,
                                           bool isMoved) {
     const auto count = static_cast<std::ptrdiff_t>(placements_.size());
     const auto focus = std::ranges::find_if(placements_, &SlicePlacement::focus) - placements_.begin();
-    const std::ptrdiff_t step = smallestStep(focus, camera.focalLength());
+    const std::ptrdiff_t step = smallestLabelStep(focus, camera.focalLength());
     const glm::dmat4 toView = camera.view();
     const auto boxOf = [&](std::ptrdiff_t i) { return boxSeenBy(camera, toView, aspect, placements_[i]); };
     const auto keeps = [&](std::ptrdiff_t i, std::ptrdiff_t distance) {
         const SlicePlacement& placement = placements_[i];
         if (placement.focus || !placement.drawn) return true;
         if (distance % step != 0 || (toView * glm::dvec4(placement.labelAt, 1)).z > -camera.near) return false;
-        const Box box = boxOf(i);
+        const CenteredRect box = boxOf(i);
         if (box.center.x < box.half.x || box.center.x > aspect - box.half.x) return false;
         if (box.center.y < box.half.y || box.center.y > 1 - box.half.y) return false;
         if (isMoved && (box.center.y < bottom + box.half.y || overlap(box, axes) ||
@@ -131,35 +131,35 @@ void LabelLayout::removeOverlappingLabels(const Camera& camera, double aspect, d
 
 double LabelLayout::fontSize(const SlicePlacement& placement) { return style().textHeight * placement.labelSize; }
 
-double LabelLayout::gapOf(const SlicePlacement& placement) const {
+double LabelLayout::labelGapOf(const SlicePlacement& placement) const {
     return kLabelGap + (placement.focus ? arrangement_.focusLabelDrop * style().textHeight : 0);
 }
 
-glm::dvec2 LabelLayout::halfText(const SlicePlacement& placement) const {
+glm::dvec2 LabelLayout::halfTextSize(const SlicePlacement& placement) const {
     return fontSize(placement) * glm::dvec2(width_ + (placement.focus ? kFocusPrefixWidth : 0), kDigitHeight) / 2.0;
 }
 
-glm::dvec2 LabelLayout::halfPlate(const SlicePlacement& placement) const {
+glm::dvec2 LabelLayout::halfPlateSize(const SlicePlacement& placement) const {
     const glm::dvec2 margin =
         placement.focus ? glm::dvec2(kFocusPlateMarginX, kFocusPlateMarginY) : glm::dvec2(kPlateMarginX, kPlateMarginY);
-    return halfText(placement) + fontSize(placement) * margin;
+    return halfTextSize(placement) + fontSize(placement) * margin;
 }
 
 glm::dvec2 LabelLayout::sliceCenterOnPlane(double u) const {
     const glm::dvec3 p = arrangement_.positionAt(u);
-    return glm::dvec2(p.x, space_.up(p)) / space_.depth(p);
+    return glm::dvec2(p.x, space_.heightAboveAxis(p)) / space_.depth(p);
 }
 
 double LabelLayout::extentOf(double u, const glm::dvec2& direction, double scale) const {
     const double r = arrangement_.reach * arrangement_.relativeSliceRadiusAt(u);
     const glm::dvec3 p = arrangement_.positionAt(u);
-    const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.up(p)));
+    const double d = space_.depth(p), a = glm::dot(direction, glm::dvec2(p.x, space_.heightAboveAxis(p)));
     const double e = (a * d + r * std::sqrt(std::max(a * a + d * d - r * r, 0.0))) / (d * d - r * r);
     return (e * d - a) * scale;
 }
 
-glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
-    const double u = parameterOf(i, placements_.size());
+glm::dvec2 LabelLayout::labelOffset(std::size_t i, double scale) const {
+    const double u = sliceParameter(i, placements_.size());
     const glm::dvec2 along = sliceCenterOnPlane(u + 1e-3) - sliceCenterOnPlane(u - 1e-3);
     glm::dvec2 outward{0, -1};
     if (glm::length(along) > 0)
@@ -167,46 +167,47 @@ glm::dvec2 LabelLayout::offsetOf(std::size_t i, double scale) const {
             glm::normalize(glm::normalize(glm::dvec2(along.y, -along.x)) + glm::dvec2(0, -arrangement_.labelDrop));
     const double radius = extentOf(u, outward, scale);
     const SlicePlacement& placement = placements_[i];
-    return outward * (radius + gapOf(placement) + glm::dot(glm::abs(outward), halfText(placement)));
+    return outward * (radius + labelGapOf(placement) + glm::dot(glm::abs(outward), halfTextSize(placement)));
 }
 
-Box LabelLayout::labelBoxInInitialView(std::size_t i, double scale) const {
-    const double u = parameterOf(i, placements_.size());
-    return {scale * sliceCenterOnPlane(u) + offsetOf(i, scale / space_.depth(placements_[i].position)),
-            halfPlate(placements_[i])};
+CenteredRect LabelLayout::labelBoxInInitialView(std::size_t i, double scale) const {
+    const double u = sliceParameter(i, placements_.size());
+    return {scale * sliceCenterOnPlane(u) + labelOffset(i, scale / space_.depth(placements_[i].position)),
+            halfPlateSize(placements_[i])};
 }
 
-glm::dvec2 LabelLayout::onScreen(const glm::dvec3& p, const Camera& camera, double aspect) {
+glm::dvec2 LabelLayout::screenPosition(const glm::dvec3& p, const Camera& camera, double aspect) {
     return glm::dvec2(p) * (camera.focalLength() / -p.z) +
            glm::dvec2((0.5 + camera.shiftX) * aspect, 0.5 + camera.shiftY);
 }
 
-bool LabelLayout::overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
-                                     double aspect) const {
+bool LabelLayout::overlapsOtherSlice(std::ptrdiff_t i, const CenteredRect& box, const Camera& camera,
+                                     const glm::dmat4& toView, double aspect) const {
     for (std::size_t j = 0; j < placements_.size(); ++j) {
         const glm::dvec3 p(toView * glm::dvec4(placements_[j].position, 1));
         if (static_cast<std::ptrdiff_t>(j) == i || !placements_[j].drawn || p.z > -camera.near) continue;
-        const double u = parameterOf(j, placements_.size());
+        const double u = sliceParameter(j, placements_.size());
         const double radius = arrangement_.reach * arrangement_.relativeSliceRadiusAt(u) * camera.focalLength() / -p.z;
-        if (overlap(box, onScreen(p, camera, aspect), radius)) return true;
+        if (overlap(box, screenPosition(p, camera, aspect), radius)) return true;
     }
     return false;
 }
 
-Box LabelLayout::boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
-                           const SlicePlacement& placement) const {
+CenteredRect LabelLayout::boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+                                    const SlicePlacement& placement) const {
     const glm::dvec3 p(toView * glm::dvec4(placement.labelAt, 1));
-    const glm::dvec2 top = onScreen(p, camera, aspect);
+    const glm::dvec2 top = screenPosition(p, camera, aspect);
     const double name = placement.focus ? fontSize(placement) * nameWidth_ / 2 : 0;
-    return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)), halfPlate(placement) + glm::dvec2(name, 0)};
+    return {top - glm::dvec2(0, kDigitHeight / 2 * fontSize(placement)),
+            halfPlateSize(placement) + glm::dvec2(name, 0)};
 }
 
-std::ptrdiff_t LabelLayout::smallestStep(std::ptrdiff_t focus, double scale) const {
+std::ptrdiff_t LabelLayout::smallestLabelStep(std::ptrdiff_t focus, double scale) const {
     const auto count = static_cast<std::ptrdiff_t>(placements_.size());
     const auto fits = [&](std::ptrdiff_t step) {
         for (std::ptrdiff_t i = focus % step; i < count; i += step) {
             if (!placements_[i].drawn) continue;
-            const Box box = labelBoxInInitialView(i, scale);
+            const CenteredRect box = labelBoxInInitialView(i, scale);
             for (std::ptrdiff_t j = i + step; j < count; j += step)
                 if (placements_[j].drawn && overlap(box, labelBoxInInitialView(j, scale))) return false;
         }

@@ -22,11 +22,13 @@ class LabelLayout {
     /// Prepares the labels of the slices in `placements`. `decimals` is the number of decimals in the labels. `originW`
     /// is added to each w (see LayoutObjectInfo). `arrangement` and `placements` must outlive this object, which
     /// changes the labels in `placements`.
-    LabelLayout(const Arrangement& arrangement, int decimals, double originW, std::vector<SlicePlacement>& placements);
+    LabelLayout(const SliceArrangement& arrangement, int decimals, double originW,
+                std::vector<SlicePlacement>& placements);
 
     /// Reduces the size of labels until they fit side by side in columns of the width `columnWidth`, in viewport
-    /// heights (see Arrangement::labelColumns). The labels keep a minimum size, even if they do not fit at this size.
-    void shrink(double columnWidth);
+    /// heights (see SliceArrangement::labelColumns). The labels keep a minimum size, even if they do not fit at this
+    /// size.
+    void shrinkLabels(double columnWidth);
 
     /// Returns how far the labels extend beyond the slices on each side, in viewport heights. `bounds` are the bounds
     /// of the slices on the plane at distance 1 from the eye. `scale` is the length in the picture, in viewport
@@ -36,7 +38,7 @@ class LabelLayout {
     /// Places each label on the outer side of the curve on which the slices stand, where there is no neighboring slice.
     /// Labels are below the focus slice (the middle one) and the slices of a row, beside and somewhat below the slices
     /// on the arms of the oval, and to the right of the slices of a column.
-    void place(const Camera& camera);
+    void placeLabels(const Camera& camera);
 
     /// Appends the name of the section to the label of the focus slice (the middle one), if there is room for it in the
     /// picture. `aspect` is the width of the picture in viewport heights. A label beside its slice grows only to the
@@ -44,25 +46,26 @@ class LabelLayout {
     void nameFocusSlice(std::string_view name, const Camera& camera, double aspect);
 
     /// Removes labels so that no two of them overlap. Keeps the label of the focus slice (the middle one) and, of the
-    /// others, at most every k-th (see smallestStep()). Also removes a label if it is behind the eye, if it extends
-    /// beyond the picture, or if it overlaps the kept label of a slice nearer to the focus slice. If the viewer has
-    /// moved the camera (`isMoved`), also removes a label in two more cases: if it overlaps another slice or the axes
-    /// symbol (whose box is `axes`), or if it extends below `bottom`, the upper edge of the parallel coordinates, which
-    /// are drawn below the slices.
-    void removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const Box& axes, bool isMoved);
+    /// others, at most every k-th (see smallestLabelStep()). Also removes a label if it is behind the eye, if it
+    /// extends beyond the picture, or if it overlaps the kept label of a slice nearer to the focus slice. If the viewer
+    /// has moved the camera (`isMoved`), also removes a label in two more cases: if it overlaps another slice or the
+    /// axes symbol (whose box is `axes`), or if it extends below `bottom`, the upper edge of the parallel coordinates,
+    /// which are drawn below the slices.
+    void removeOverlappingLabels(const Camera& camera, double aspect, double bottom, const CenteredRect& axes,
+                                 bool isMoved);
 
   private:
     // Returns the font size of a label, in viewport heights.
     static double fontSize(const SlicePlacement& placement);
 
     // Returns the gap between a slice and the text of its label, in viewport heights.
-    double gapOf(const SlicePlacement& placement) const;
+    double labelGapOf(const SlicePlacement& placement) const;
 
     // Returns half the size of a label's text, in viewport heights, without the name of a section.
-    glm::dvec2 halfText(const SlicePlacement& placement) const;
+    glm::dvec2 halfTextSize(const SlicePlacement& placement) const;
 
     // Returns half the size of the plate behind a label, in viewport heights, without the name of a section.
-    glm::dvec2 halfPlate(const SlicePlacement& placement) const;
+    glm::dvec2 halfPlateSize(const SlicePlacement& placement) const;
 
     // Returns the center of the slice with the parameter u, on the plane at distance 1 from the eye.
     glm::dvec2 sliceCenterOnPlane(double u) const;
@@ -79,35 +82,36 @@ class LabelLayout {
 
     // Returns the vector on the screen from the center of slice i to the center of its label, in viewport heights. At
     // the depth of the slice, a world unit appears as `scale` viewport heights.
-    glm::dvec2 offsetOf(std::size_t i, double scale) const;
+    glm::dvec2 labelOffset(std::size_t i, double scale) const;
 
     // Returns the box of label i before the viewer moves the camera, in viewport heights from the center of the focus
     // slice (the middle one). `scale` is the length in the picture, in viewport heights, of one unit on the plane at
     // distance 1 from the eye.
-    Box labelBoxInInitialView(std::size_t i, double scale) const;
+    CenteredRect labelBoxInInitialView(std::size_t i, double scale) const;
 
     // Returns the place in the picture of the point p in view coordinates, in viewport heights from the lower left
     // corner. `aspect` is the width of the picture, in viewport heights.
-    static glm::dvec2 onScreen(const glm::dvec3& p, const Camera& camera, double aspect);
+    static glm::dvec2 screenPosition(const glm::dvec3& p, const Camera& camera, double aspect);
 
     // Returns whether the box of label i overlaps a slice other than slice i. `box` is the result of boxSeenBy() for
     // this label. `toView` is camera.view(), which the caller computes once for all labels. `aspect` is the width of
     // the picture, in viewport heights.
-    bool overlapsOtherSlice(std::ptrdiff_t i, const Box& box, const Camera& camera, const glm::dmat4& toView,
+    bool overlapsOtherSlice(std::ptrdiff_t i, const CenteredRect& box, const Camera& camera, const glm::dmat4& toView,
                             double aspect) const;
 
     // Returns the box that the label of `placement` takes up in the picture that `camera` takes, in viewport heights
     // from the lower left corner of the picture. The box of the focus slice's label includes the name of the section.
     // `toView` is camera.view(), which the caller computes once for all labels. `aspect` is the width of the picture,
     // in viewport heights.
-    Box boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect, const SlicePlacement& placement) const;
+    CenteredRect boxSeenBy(const Camera& camera, const glm::dmat4& toView, double aspect,
+                           const SlicePlacement& placement) const;
 
     // Returns the smallest k for which no two labels overlap if only every k-th label, counted from the focus slice
     // (the middle one), is kept. The camera is at its first place, before the viewer moves it. `scale` is the length in
     // the picture, in viewport heights, of one unit on the plane at distance 1 from the eye.
-    std::ptrdiff_t smallestStep(std::ptrdiff_t focus, double scale) const;
+    std::ptrdiff_t smallestLabelStep(std::ptrdiff_t focus, double scale) const;
 
-    const Arrangement& arrangement_;
+    const SliceArrangement& arrangement_;
     InitialViewSpace space_;
     double width_ = 0;  // the width of the longest number in a label, as a multiple of the font size
     // The width of the section's name in the focus slice's label, as a multiple of the font size.

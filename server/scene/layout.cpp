@@ -32,18 +32,19 @@ struct Circle {
 
 // Returns a circle, on the plane at distance 1 from the eye, that approximates the outline of a sphere. The
 // approximation is good for spheres that are small and near the optical axis.
-Circle circleOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
+Circle projectedOutlineOf(const glm::dvec3& position, double radius, const InitialViewSpace& space) {
     const double depth = space.depth(position);
-    return {glm::dvec2(position.x, space.up(position)) / depth, radius / depth};
+    return {glm::dvec2(position.x, space.heightAboveAxis(position)) / depth, radius / depth};
 }
 
 // Returns circles, on the plane at distance 1 from the eye, within which the slices are assumed to lie.
-std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const Arrangement& arrangement) {
+std::vector<Circle> circlesOf(const std::vector<SlicePlacement>& placements, const SliceArrangement& arrangement) {
     const InitialViewSpace space(arrangement);
     std::vector<Circle> circles;
     for (std::size_t i = 0; i < placements.size(); ++i) {
-        const double radius = arrangement.reach * arrangement.relativeSliceRadiusAt(parameterOf(i, placements.size()));
-        circles.push_back(circleOf(placements[i].position, radius, space));
+        const double radius =
+            arrangement.reach * arrangement.relativeSliceRadiusAt(sliceParameter(i, placements.size()));
+        circles.push_back(projectedOutlineOf(placements[i].position, radius, space));
     }
     return circles;
 }
@@ -82,15 +83,15 @@ glm::dvec2 sizeOf(const Rect& rect) { return {rect.right - rect.left, rect.top -
 double aspectOf(const Rect& rect) { return (rect.right - rect.left) / (rect.top - rect.bottom); }
 
 // Returns the greatest magnification at which the rectangle `bounds` fits into the rectangle `room`.
-double scaleFor(const Rect& bounds, const Rect& room) {
+double scaleToFit(const Rect& bounds, const Rect& room) {
     return std::min((room.right - room.left) / (bounds.right - bounds.left),
                     (room.top - room.bottom) / (bounds.top - bounds.bottom));
 }
 
 // Sets the camera's field of view and shift so that `bounds` fits into `room` and is centered in it. Then magnifies the
 // picture about the view axis by the factor `zoom`.
-void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
-    const double scale = scaleFor(bounds, room);
+void fitCamera(const Rect& bounds, const Rect& room, double aspect, double zoom, Camera& camera) {
+    const double scale = scaleToFit(bounds, room);
     camera.fieldOfView = 2 * std::atan(0.5 / (scale * zoom));
     const double x = (room.left + room.right) / 2 - scale * (bounds.left + bounds.right) / 2;
     const double y = (room.bottom + room.top) / 2 - scale * (bounds.bottom + bounds.top) / 2;
@@ -100,7 +101,7 @@ void fit(const Rect& bounds, const Rect& room, double aspect, double zoom, Camer
 
 // Places the slices, and sets the text and size of their labels.
 void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW, int decimals,
-                 const Arrangement& arrangement, const Look& look, std::vector<SlicePlacement>& placements) {
+                 const SliceArrangement& arrangement, const Look& look, std::vector<SlicePlacement>& placements) {
     placements.resize(planes.count);
     const InitialViewSpace space(arrangement);
     for (int i = 0; i < planes.count; ++i) {
@@ -109,7 +110,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
         placement.w = planes.w(i);
         placement.focus = placement.index == focus;
         placement.drawn = showsAllSlices(look.view) || placement.focus;
-        placement.position = arrangement.positionAt(parameterOf(i, planes.count));
+        placement.position = arrangement.positionAt(sliceParameter(i, planes.count));
         placement.label.clear();
         if (look.parts.labels)
             placement.label = (placement.focus ? "w = " : "") + labelNumber(originW + placement.w, decimals);
@@ -120,7 +121,7 @@ void placeSlices(const geometry::Hyperplanes& planes, int focus, double originW,
 
 // Points the camera at the focus slice (the middle one) from the direction that `orbit` specifies, and sets the
 // camera's clipping planes.
-void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camera) {
+void aimCamera(const CameraOrbit& orbit, const SliceArrangement& arrangement, Camera& camera) {
     constexpr double kMaxPitch = 1.55;  // a pitch less than π/2; at π/2, the up vector would be undefined
     const double pitch = std::clamp(arrangement.pitch + orbit.elevation, -kMaxPitch, kMaxPitch);
     const glm::dvec3 away{std::sin(orbit.azimuth) * std::cos(pitch), std::sin(pitch),
@@ -133,20 +134,20 @@ void aim(const CameraOrbit& orbit, const Arrangement& arrangement, Camera& camer
 }
 
 // Returns a box that contains the symbol of the axes with their names, whatever the directions of the axes are.
-Box boxOf(const AxesSymbolLayout& axes) {
+CenteredRect boxOf(const AxesSymbolLayout& axes) {
     constexpr double kNameRoom = 0.02;
     return {{axes.x, 1 - axes.y}, glm::dvec2(axes.length + kNameRoom)};
 }
 
 // Returns the part of `room` in which the slices must be placed so that their labels fit into `room`, too. This part
 // has at least half the width and half the height of `room`.
-Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels) {
+Rect roomForSlices(const Rect& room, const Rect& bounds, const LabelLayout& labels) {
     const double maxX = (room.right - room.left) / 4, maxY = (room.top - room.bottom) / 4;
     Rect inside = room;
     // How far labels extend beyond the slices depends on the scale of the slices. The scale depends on the room that
     // the labels leave. A few steps of this iteration suffice.
     for (int step = 0; step < 4; ++step) {
-        const Rect overhang = labels.overhang(bounds, scaleFor(bounds, inside));
+        const Rect overhang = labels.overhang(bounds, scaleToFit(bounds, inside));
         // Labels that are only to the right of the slices may take half of the width.
         const double left = std::min(overhang.left, maxX);
         inside = {room.left + left, room.right - std::min(overhang.right, 2 * maxX - left),
@@ -157,32 +158,32 @@ Rect roomInside(const Rect& room, const Rect& bounds, const LabelLayout& labels)
 
 // Returns two parts of `room`: the part to the right of the axes symbol, and the part below it. The first part has at
 // least half the width of `room`, the second at least half its height. `axes` is the box of the symbol.
-std::array<Rect, 2> partsBeside(const Box& axes, const Rect& room) {
+std::array<Rect, 2> roomBesideAndBelow(const CenteredRect& axes, const Rect& room) {
     Rect right = room, below = room;
     right.left = std::min(axes.center.x + axes.half.x, (room.left + room.right) / 2);
     below.top = std::max(axes.center.y - axes.half.y, (room.bottom + room.top) / 2);
     return {right, below};
 }
 
-// Returns the part of `room` in which the slices must be placed, like roomInside(), but leaves the axes symbol free.
+// Returns the part of `room` in which the slices must be placed, like roomForSlices(), but leaves the axes symbol free.
 // `axes` is the box of the symbol. `circles` are the outlines of the slices and of the projection. If a circle would
 // overlap the symbol, uses only the part of `room` to the right of the symbol or the part below it, whichever lets the
 // slices be larger. Uses the part to the right only if labels beside the slices take at most half of its width.
-Rect clearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels, const std::vector<Circle>& circles,
-                 const Box& axes) {
-    const Rect inside = roomInside(room, bounds, labels);
-    const double scale = scaleFor(bounds, inside);
+Rect roomClearOfAxes(const Rect& room, const Rect& bounds, const LabelLayout& labels,
+                     const std::vector<Circle>& circles, const CenteredRect& axes) {
+    const Rect inside = roomForSlices(room, bounds, labels);
+    const double scale = scaleToFit(bounds, inside);
     const glm::dvec2 middle((inside.left + inside.right) / 2, (inside.bottom + inside.top) / 2);
     const glm::dvec2 middleOfBounds((bounds.left + bounds.right) / 2, (bounds.bottom + bounds.top) / 2);
     const bool isClear = std::ranges::none_of(circles, [&](const Circle& circle) {
         return overlap(axes, middle + scale * (circle.center - middleOfBounds), scale * circle.radius);
     });
     if (isClear) return inside;
-    auto [right, below] = partsBeside(axes, room);
+    auto [right, below] = roomBesideAndBelow(axes, room);
     const bool labelsFit = 2 * labels.overhang(bounds, scale).right <= right.right - right.left;
-    right = roomInside(right, bounds, labels);
-    below = roomInside(below, bounds, labels);
-    return labelsFit && scaleFor(bounds, right) > scaleFor(bounds, below) ? right : below;
+    right = roomForSlices(right, bounds, labels);
+    below = roomForSlices(below, bounds, labels);
+    return labelsFit && scaleToFit(bounds, right) > scaleToFit(bounds, below) ? right : below;
 }
 
 // Places the matrix of planar sections at the right of `room` or, if the room is tall, at its lower end. Takes this
@@ -239,38 +240,38 @@ void layOut(const geometry::Hyperplanes& planes, int focus, const LayoutObjectIn
     // proportional to this radius.
     const double relativeBall = look.thickness * content.relativeBallRadius;
     const bool projected = look.projection.kind != ProjectionKind::off;
-    const auto [right, below] = partsBeside(boxOf(out.axes), room);
+    const auto [right, below] = roomBesideAndBelow(boxOf(out.axes), room);
     const AvailableSpace sliceRoom{sizeOf(room), {sizeOf(right), sizeOf(below)}, projected};
-    const Arrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect, sliceRoom);
+    const SliceArrangement arrangement = arrangementOf(look.view, planes.count, relativeBall, aspect, sliceRoom);
     out.matrix = arrangement.showsMatrix ? placeMatrix(room, content.relativeBallRadius) : SectionMatrixLayout{};
     out.sliceRadius = arrangement.sliceRadius;
     out.ballRadius = relativeBall * out.sliceRadius;
     out.barRadius = kBarPerBall * out.ballRadius;
     const int decimals = labelDecimals(planes);
     placeSlices(planes, focus, content.originW, decimals, arrangement, look, out.placements);
-    aim(look.orbit, arrangement, out.camera);
+    aimCamera(look.orbit, arrangement, out.camera);
     LabelLayout labels(arrangement, decimals, content.originW, out.placements);
-    if (arrangement.labelColumns > 0) labels.shrink((room.right - room.left) / arrangement.labelColumns);
+    if (arrangement.labelColumns > 0) labels.shrinkLabels((room.right - room.left) / arrangement.labelColumns);
     std::vector<Circle> circles = circlesOf(out.placements, arrangement);
     ProjectionPlacement& projection = out.projectionPlacement;
     projection = {};
     if (projected) {
-        const Rect beside = arrangement.labelsAreBeside ? roomInside(room, boundsOf(circles), labels) : room;
-        projection = projectionBeside(look.view, arrangement, planes.count, aspectOf(beside));
+        const Rect beside = arrangement.labelsAreBeside ? roomForSlices(room, boundsOf(circles), labels) : room;
+        projection = placeProjectionBeside(look.view, arrangement, planes.count, aspectOf(beside));
     }
     if (projection.shown)
-        circles.push_back(circleOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
+        circles.push_back(projectedOutlineOf(projection.position, projection.radius, InitialViewSpace(arrangement)));
     const Rect bounds = boundsOf(circles);
-    const Rect inside = arrangement.isClearOfAxes ? clearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
-                                                  : roomInside(room, bounds, labels);
+    const Rect inside = arrangement.isClearOfAxes ? roomClearOfAxes(room, bounds, labels, circles, boxOf(out.axes))
+                                                  : roomForSlices(room, bounds, labels);
     if (projected && !projection.shown) {
-        const double scale = scaleFor(bounds, inside);
+        const double scale = scaleToFit(bounds, inside);
         const double top = (bounds.bottom + bounds.top) / 2 + (room.top - (inside.bottom + inside.top) / 2) / scale;
-        projection = projectionInside(arrangement, out.placements, top);
+        projection = placeProjectionInsideOval(arrangement, out.placements, top);
     }
     if (projected) setRadii(look.projection, relativeBall, projection);
-    fit(bounds, inside, aspect, look.orbit.zoom, out.camera);
-    labels.place(out.camera);
+    fitCamera(bounds, inside, aspect, look.orbit.zoom, out.camera);
+    labels.placeLabels(out.camera);
     if (look.parts.labels) {
         labels.nameFocusSlice(focusName, out.camera, aspect);
         labels.removeOverlappingLabels(out.camera, aspect, room.bottom - kMargin, boxOf(out.axes),

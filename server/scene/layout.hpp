@@ -26,7 +26,7 @@ struct SlicePlacement {
     /// there is room for it. Empty if the label is not shown.
     std::string label;
     glm::dvec3 labelAt{0};  ///< the center of the label's top edge
-    double labelSize = 1;   ///< the font size of the label, as a multiple of Style::textHeight
+    double labelSize = 1;   ///< the font size of the label, as a multiple of PictureStyle::textHeight
     bool focus = false;     ///< whether the slice is the focus slice
     bool drawn = true;      ///< whether the slice is drawn: see showsAllSlices()
     bool operator==(const SlicePlacement&) const = default;
@@ -43,7 +43,7 @@ struct SlicePlacement {
 ///   middle of the next.
 /// - A histogram, for a field: the panel of axis k (0 … 3) extends from `left` + k · `lineStep` to the right by
 ///   `panel`, and from `zero` − `amplitude` up to `zero` + `amplitude`.
-struct CoordinatesLayout {
+struct ParallelCoordinatesLayout {
     int rows = 1, perRow = 1;
     double left = 0;        ///< the left edge of the first column, axis or panel
     double zero = 0;        ///< the height of the zero line of the top row, or of the middle of the axes or panels
@@ -62,7 +62,7 @@ struct CoordinatesLayout {
     double top() const { return zero + amplitude + 0.01; }
     /// Returns whether each vertex has lines of its own, so that there is neither a density strip nor a histogram.
     bool hasLines() const { return !isDensityStrip && panel == 0; }
-    bool operator==(const CoordinatesLayout&) const = default;
+    bool operator==(const ParallelCoordinatesLayout&) const = default;
 };
 
 /// The maximum number of vertices whose parallel coordinates are drawn as lines. For more vertices, a density strip is
@@ -108,7 +108,7 @@ struct SectionMatrixLayout {
     }
     /// Returns the length in a panel, in viewport heights, of one unit of an object with the circumradius
     /// `circumradius`.
-    double scale(double circumradius) const { return panel / 2 / (kReach * circumradius); }
+    double panelScale(double circumradius) const { return panel / 2 / (kReach * circumradius); }
     /// The row and column (0 … 3) of a panel that shows a section. `row` is also the axis that points upward, and
     /// `column` the axis that points to the right.
     struct Panel {
@@ -127,7 +127,7 @@ struct PictureLayout {
     double ballRadius = 0, barRadius = 0;  ///< the radii of the balls and bars of slices, in world units
     std::vector<SlicePlacement> placements;
     ProjectionPlacement projectionPlacement;
-    CoordinatesLayout coordinates;
+    ParallelCoordinatesLayout coordinates;
     AxesSymbolLayout axes;
     SectionMatrixLayout matrix;
 };

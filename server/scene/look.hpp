@@ -104,7 +104,7 @@ constexpr const auto& choicesOf(ProjectionKind /*type*/) { return kProjectionKin
 
 /// How the whole object is projected.
 struct ProjectionSettings {
-    static constexpr geometry::Range kEyeRange{1.05, 1000};  ///< greater than 1, so the eye is outside the object
+    static constexpr geometry::NumberRange kEyeRange{1.05, 1000};  ///< greater than 1, so the eye is outside the object
 
     ProjectionKind kind = ProjectionKind::off;
     double eye = 3;  ///< for the perspective: the w coordinate of the 4-D eye, in circumradii; within kEyeRange
@@ -121,8 +121,9 @@ struct CellTypeFilter {
 /// The user's changes to the camera. `azimuth` and `elevation` rotate the camera about its target, in radians; positive
 /// values move the camera to the right and up. `zoom` multiplies the magnification. The defaults mean no change.
 struct CameraOrbit {
-    static constexpr geometry::Range kAngleRange{-1000, 1000};  ///< the range of `azimuth` and `elevation`, in radians
-    static constexpr geometry::Range kZoomRange{0.05, 20};
+    /// The range of `azimuth` and `elevation`, in radians.
+    static constexpr geometry::NumberRange kAngleRange{-1000, 1000};
+    static constexpr geometry::NumberRange kZoomRange{0.05, 20};
 
     double azimuth = 0, elevation = 0, zoom = 1;
     bool operator==(const CameraOrbit&) const = default;
@@ -136,7 +137,7 @@ void visitStoredMembers(serialization::ReadOrWritten<CameraOrbit> auto& orbit, a
 
 /// All choices of the user about the display of an object.
 struct Look {
-    static constexpr geometry::Range kThicknessRange{0.25, 4}, kOpacityRange{0.25, 4};
+    static constexpr geometry::NumberRange kThicknessRange{0.25, 4}, kOpacityRange{0.25, 4};
 
     View view = View::oval;
     ShownParts parts;
@@ -166,15 +167,15 @@ void visitStoredMembers(serialization::ReadOrWritten<Look> auto& look, auto& vis
     visit.member(3, coloring);
     visit.member(4, hidden);
     visit.member(5, faded);
-    visit.addedMember(6, kind);
-    visit.addedMember(7, eye, ProjectionSettings::kEyeRange);
-    visit.addedMember(8, highlight);
-    visit.addedMember(9, focusPoint, geometry::Range::finite());
-    visit.addedMember(10, field);
-    visit.addedMember(11, caps);
-    visit.addedMember(12, background);
-    visit.addedMember(13, thickness, Look::kThicknessRange);
-    visit.addedMember(14, opacity, Look::kOpacityRange);
+    visit.memberAddedLater(6, kind);
+    visit.memberAddedLater(7, eye, ProjectionSettings::kEyeRange);
+    visit.memberAddedLater(8, highlight);
+    visit.memberAddedLater(9, focusPoint, geometry::NumberRange::ofFiniteNumbers());
+    visit.memberAddedLater(10, field);
+    visit.memberAddedLater(11, caps);
+    visit.memberAddedLater(12, background);
+    visit.memberAddedLater(13, thickness, Look::kThicknessRange);
+    visit.memberAddedLater(14, opacity, Look::kOpacityRange);
 }
 
 }  // namespace oval4d::scene

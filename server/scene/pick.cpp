@@ -23,18 +23,20 @@ using slicing::Visibility;
 // slice element (see SliceSet). A number less than `count` is the index of an element of the kind `cut` that the
 // hyperplane cuts. Any other number is `count` plus the index of an element of the kind `contained` that lies in the
 // hyperplane.
-Element elementOf(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
+Element elementOfSource(std::uint32_t source, ElementKind cut, std::size_t count, ElementKind contained) {
     if (source < count) return {cut, source};
     return {contained, source - count};
 }
 
 // Returns the length of one unit of the object in the panels of the matrix, in pixels.
-double pixelsPerUnitOf(const Scene& scene) { return scene.matrix.scale(scene.circumradius) * scene.viewport.height; }
+double pixelsPerUnitOf(const Scene& scene) {
+    return scene.matrix.panelScale(scene.circumradius) * scene.viewport.height;
+}
 
 // Finds the element that is nearest to the viewer at one pixel.
-class Picker {
+class ElementPicker {
   public:
-    Picker(const Scene& scene, const slicing::Object& object, glm::dvec2 point)
+    ElementPicker(const Scene& scene, const slicing::Object& object, glm::dvec2 point)
         : scene_(scene),
           counts_(slicing::elementCounts(object)),
           drawsFaces_(scene.look.parts.faces && slicing::fieldIn(object) == nullptr),
@@ -53,9 +55,9 @@ class Picker {
             if (!scene_.placements[i].drawn) continue;
             // If balls are hidden, the points of a cloud can still be picked, but the balls that join bars cannot.
             const bool points = parts.balls || !scene_.slices->ballScale.empty();
-            pick(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
-                 {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, drawsFaces_},
-                 {{}, PickedIn::slice, i});
+            pickInSlice(*scene_.slices, i, scene_.placements[i].position, scene_.scale,
+                        {points ? scene_.drawnBallRadius() : 0, parts.bars ? scene_.barRadius : 0, drawsFaces_},
+                        {{}, PickLocation::slice, i});
         }
     }
 
@@ -64,8 +66,8 @@ class Picker {
         const ObjectProjection& projection = scene_.projection;
         for (std::size_t i = 0; i < projection.parts.size(); ++i) {
             const ProjectionPartLook& part = projection.parts[i];
-            pick(projection.elements, i, scene_.projectionPlacement.position, projection.scale,
-                 {part.ballRadius, part.barRadius, part.faceOpacity > 0}, {{}, PickedIn::projection, 0});
+            pickInSlice(projection.elements, i, scene_.projectionPlacement.position, projection.scale,
+                        {part.ballRadius, part.barRadius, part.faceOpacity > 0}, {{}, PickLocation::projection, 0});
         }
     }
 
@@ -92,7 +94,7 @@ class Picker {
             if (distance > std::max(scene_.matrix.pointRadius * size_.y * own, kHitRadius)) continue;
             if (distance > nearest || styles.points[i] == Visibility::hidden) continue;
             nearest = distance;
-            picked_ = {elementOfPoint(section->pointSource[i]), PickedIn::matrix, 0};
+            picked_ = {elementOfPoint(section->pointSource[i]), PickLocation::matrix, 0};
         }
         if (picked_) return;
         nearest = std::max(scene_.matrix.lineWidth / 2 * size_.y, kHitRadius);
@@ -100,18 +102,18 @@ class Picker {
             const double distance = distanceFromLine(pixelAt(section->edges[e][0]), pixelAt(section->edges[e][1]));
             if (distance > nearest || styles.edges[e] == Visibility::hidden) continue;
             nearest = distance;
-            picked_ = {elementOf(section->edgeSource[e], ElementKind::cell, counts_[3], ElementKind::face),
-                       PickedIn::matrix, 0};
+            picked_ = {elementOfSource(section->edgeSource[e], ElementKind::cell, counts_[3], ElementKind::face),
+                       PickLocation::matrix, 0};
         }
     }
 
     void pickCoordinates() {
-        const CoordinatesLayout& layout = scene_.coordinates;
+        const ParallelCoordinatesLayout& layout = scene_.coordinates;
         if (!scene_.look.parts.coordinates) return;
         const glm::dvec2 at = pixel_ / size_.y;
         if (layout.isDensityStrip) {
             if (const auto vertex = vertexInDensityStripAt(scene_, at))
-                picked_ = {{ElementKind::vertex, *vertex}, PickedIn::coordinates, 0};
+                picked_ = {{ElementKind::vertex, *vertex}, PickLocation::coordinates, 0};
             return;
         }
         if (!layout.hasLines()) return;
@@ -123,13 +125,13 @@ class Picker {
         const bool inColumn = at.x - first - column * layout.columnStep <= 4 * layout.lineStep + layout.lineWidth;
         const double index = row * layout.perRow + column;
         if (!inRow || !inColumn || index >= static_cast<double>(counts_[0])) return;
-        picked_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PickedIn::coordinates, 0};
+        picked_ = {{ElementKind::vertex, static_cast<std::size_t>(index)}, PickLocation::coordinates, 0};
     }
 
     const std::optional<PickedElement>& picked() const { return picked_; }
 
   private:
-    struct Sizes {
+    struct DrawnElementSizes {
         double ball, bar;  // the radii of balls and bars in world units; 0 if balls or bars are not drawn
         bool faces;
     };
@@ -138,8 +140,8 @@ class Picker {
     // of the point (see PlanarSection).
     Element elementOfPoint(std::uint32_t source) const {
         if (source < counts_[2]) return {ElementKind::face, source};
-        return elementOf(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
-                         ElementKind::vertex);
+        return elementOfSource(source - static_cast<std::uint32_t>(counts_[2]), ElementKind::edge, counts_[1],
+                               ElementKind::vertex);
     }
 
     // Returns the distance of the picked pixel from a line segment in the picture, in pixels.
@@ -153,8 +155,8 @@ class Picker {
     // Finds the element at the pixel in slice i of `set`, or in part i of the projection. Keeps the element in picked_
     // if it is nearer than the element in picked_. `position` and `scale` map the units of the object to world space.
     // `where` has the members `in` and `slice` to report.
-    void pick(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale, const Sizes& sizes,
-              const PickedElement& where) {
+    void pickInSlice(const SliceSet& set, std::size_t i, const glm::dvec3& position, double scale,
+                     const DrawnElementSizes& sizes, const PickedElement& where) {
         const std::uint32_t v0 = set.vertexBegin[i], e0 = set.edgeBegin[i];
         points_.clear();
         pixels_.clear();
@@ -174,9 +176,9 @@ class Picker {
             if (isHidden(scene_.visibilities.vertex(set.vertexSource[v]))) continue;
             const glm::dvec3& center = points_[v - v0];
             const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
-            if (isWithin(glm::distance(pixels_[v - v0], pixel_), sizes.ball * own, -center.z))
+            if (isHitAtDistance(glm::distance(pixels_[v - v0], pixel_), sizes.ball * own, -center.z))
                 add(-center.z - sizes.ball * own,
-                    elementOf(set.vertexSource[v], ElementKind::edge, counts_[1], ElementKind::vertex));
+                    elementOfSource(set.vertexSource[v], ElementKind::edge, counts_[1], ElementKind::vertex));
         }
         for (std::uint32_t e = e0; sizes.bar > 0 && e < set.edgeBegin[i + 1]; ++e) {
             if (isHidden(scene_.visibilities.edge(set.edgeSource[e]))) continue;
@@ -186,21 +188,22 @@ class Picker {
             const double length = glm::dot(along, along);
             const double t = length > 0 ? std::clamp(glm::dot(pixel_ - from, along) / length, 0.0, 1.0) : 0;
             const double depth = -(a.z + t * (b.z - a.z));
-            if (isWithin(glm::distance(from + t * along, pixel_), sizes.bar, depth))
-                add(depth - sizes.bar, elementOf(set.edgeSource[e], ElementKind::face, counts_[2], ElementKind::edge));
+            if (isHitAtDistance(glm::distance(from + t * along, pixel_), sizes.bar, depth))
+                add(depth - sizes.bar,
+                    elementOfSource(set.edgeSource[e], ElementKind::face, counts_[2], ElementKind::edge));
         }
         // The loops that were cut from one cell form a single face (see FilledFaces).
         for (std::uint32_t f = set.faceBegin[i], end = f; sizes.faces && f < set.faceBegin[i + 1]; f = end) {
             while (end < set.faceBegin[i + 1] && set.faceSource[end] == set.faceSource[f]) ++end;
             if (isHidden(scene_.visibilities.face(set.faceSource[f]))) continue;
             if (const auto depth = depthOfFace(set, f, end))
-                add(*depth, elementOf(set.faceSource[f], ElementKind::cell, counts_[3], ElementKind::face));
+                add(*depth, elementOfSource(set.faceSource[f], ElementKind::cell, counts_[3], ElementKind::face));
         }
     }
 
     // Returns whether a ball or bar is hit at a distance of `pixels` pixels from its center or axis. `radius` is its
     // radius, in world units, and `depth` its distance from the eye along the view axis.
-    bool isWithin(double pixels, double radius, double depth) const {
+    bool isHitAtDistance(double pixels, double radius, double depth) const {
         return depth > 0 && pixels <= std::max(radius * focalLength_ / depth, kHitRadius);
     }
 
@@ -253,7 +256,7 @@ class Picker {
 }  // namespace
 
 std::optional<PickedElement> pickElement(const Scene& scene, const slicing::Object& object, glm::dvec2 point) {
-    Picker picker(scene, object, point);
+    ElementPicker picker(scene, object, point);
     picker.pickCoordinates();
     if (picker.picked()) return picker.picked();
     if (matrixPointAt(scene, point)) {  // panels cover the slices behind them, so slices are not searched

@@ -14,18 +14,19 @@ namespace oval4d::scene {
 
 /// The part of the picture in which something is picked: a slice, the projection, the parallel coordinates or the
 /// matrix.
-enum class PickedIn : std::uint8_t { slice, projection, coordinates, matrix };
+enum class PickLocation : std::uint8_t { slice, projection, coordinates, matrix };
 inline constexpr auto kPickedIn =
-    text::completeTable<text::NamedValue<PickedIn>>({{"slice", PickedIn::slice},
-                                                     {"projection", PickedIn::projection},
-                                                     {"coordinates", PickedIn::coordinates},
-                                                     {"matrix", PickedIn::matrix}});
+    text::completeTable<text::NamedValue<PickLocation>>({{"slice", PickLocation::slice},
+                                                         {"projection", PickLocation::projection},
+                                                         {"coordinates", PickLocation::coordinates},
+                                                         {"matrix", PickLocation::matrix}});
 
 /// The element of the object that a picture shows at a pixel.
 struct PickedElement {
     slicing::Element element;
-    PickedIn in = PickedIn::slice;
-    std::size_t slice = 0;  ///< for PickedIn::slice: the index of the slice in the SliceSet; otherwise without meaning
+    PickLocation in = PickLocation::slice;
+    std::size_t slice =
+        0;  ///< for PickLocation::slice: the index of the slice in the SliceSet; otherwise without meaning
     /// In slices and in the projection: the distance from the eye along the camera's axis, in world units.
     double depth = 0;
 };
@@ -36,7 +37,7 @@ struct PickedElement {
 /// - Where the slices show no element, the result is the nearest element in the projection, over which the slices are
 ///   drawn.
 /// - In the parallel coordinates, the result is the vertex whose lines are drawn there (see
-///   CoordinatesLayout::hasLines()), or the vertex that vertexInDensityStripAt() finds.
+///   ParallelCoordinatesLayout::hasLines()), or the vertex that vertexInDensityStripAt() finds.
 /// - In a panel of the matrix, the result is the element from which the point or edge of the section was cut.
 ///
 /// Balls, bars, points and edges are found up to 3 pixels from their centers, or farther where they are drawn thicker.

@@ -23,7 +23,7 @@ namespace {
 // The part of the ray through a pixel that lies in one slice, shown at its own place or in the projection. The points
 // of the ray are start + depth · direction, in the units of the object.
 struct SliceRay {
-    PickedIn in = PickedIn::slice;
+    PickLocation in = PickLocation::slice;
     std::size_t slice = 0;
     glm::dvec3 start{0}, direction{0};
     double entry = 0, exit = 0;  // the depths between which the ray is in the box of the field
@@ -40,23 +40,23 @@ class RayCaster {
 
     // Finds the nearest point of a surface that `element` does not hide. Searches the slices first and then, if they
     // show no such point, the projection.
-    std::optional<PickedLevel> nearestBefore(const std::optional<PickedElement>& element) {
+    std::optional<PickedLevel> nearestLevelBefore(const std::optional<PickedElement>& element) {
         constexpr double kInf = std::numeric_limits<double>::infinity();
-        const bool isElementInProjection = element && element->in == PickedIn::projection;
+        const bool isElementInProjection = element && element->in == PickLocation::projection;
         std::vector<SliceRay> rays;
-        const auto addRay = [&](PickedIn in, std::size_t slice, const glm::dvec3& position, double scale) {
+        const auto addRay = [&](PickLocation in, std::size_t slice, const glm::dvec3& position, double scale) {
             if (!scene_.placements[slice].drawn) return;
             placeSection(slice);
             if (const auto ray = rayThrough(in, slice, position, scale)) rays.push_back(*ray);
         };
         for (std::size_t i = 0; i < scene_.placements.size(); ++i)
-            addRay(PickedIn::slice, i, scene_.placements[i].position, scene_.scale);
+            addRay(PickLocation::slice, i, scene_.placements[i].position, scene_.scale);
         std::ranges::sort(rays, {}, &SliceRay::entry);
         castAll(rays, element && !isElementInProjection ? element->depth : kInf);
         const auto& focus = scene_.projection.focusSurface;
         if (!found_ && (!element || isElementInProjection) && scene_.projectionPlacement.shown && focus) {
             rays.clear();
-            addRay(PickedIn::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
+            addRay(PickLocation::projection, focus->slice, scene_.projectionPlacement.position, focus->scale);
             castAll(rays, element ? element->depth : kInf);
         }
         field_.function->releasePages();
@@ -66,7 +66,7 @@ class RayCaster {
 
   private:
     // A point of a ray at which the ray enters or leaves the body of a level.
-    struct Crossing {
+    struct LevelCrossing {
         double depth;
         bool cap;
     };
@@ -88,13 +88,15 @@ class RayCaster {
 
     // Returns the part of the ray in a slice whose section has been placed. Returns an empty optional if the ray misses
     // the box of the field. `position` and `scale` map the units of the object to world space.
-    std::optional<SliceRay> rayThrough(PickedIn in, std::size_t slice, const glm::dvec3& position, double scale) const {
+    std::optional<SliceRay> rayThrough(PickLocation in, std::size_t slice, const glm::dvec3& position,
+                                       double scale) const {
         SliceRay ray;
         ray.in = in;
         ray.slice = slice;
         ray.start = (scene_.camera.eye - position) / scale;
         ray.direction = direction_ / scale;
-        const glm::dvec4 start = section_.origin + inFunction(ray.start), along = inFunction(ray.direction);
+        const glm::dvec4 start = section_.origin + directionInFunction(ray.start),
+                         along = directionInFunction(ray.direction);
         ray.entry = -std::numeric_limits<double>::infinity();
         ray.exit = scene_.camera.far;
         for (int axis = 0; axis < 4; ++axis) {
@@ -112,7 +114,7 @@ class RayCaster {
         if (!(ray.entry < ray.exit)) return std::nullopt;
         return ray;
     }
-    glm::dvec4 inFunction(const glm::dvec3& v) const {
+    glm::dvec4 directionInFunction(const glm::dvec3& v) const {
         return v.x * section_.axes[0] + v.y * section_.axes[1] + v.z * section_.axes[2];
     }
 
@@ -131,20 +133,21 @@ class RayCaster {
             return std::lerp(ray.entry, ray.exit, static_cast<double>(k) / static_cast<double>(steps));
         };
         for (const SurfaceLook::LevelLook& level : scene_.surfaces.levels) {
-            if (level.caps && ray.beginsAtWall && isInside(values[0], level)) keep(ray, level, {ray.entry, true});
+            if (level.caps && ray.beginsAtWall && isInside(values[0], level))
+                keepIfNearest(ray, level, {ray.entry, true});
         }
         for (std::size_t k = 0; k < steps && depthAt(k) < nearest_; ++k) {
             for (const SurfaceLook::LevelLook& level : scene_.surfaces.levels) {
                 if (isInside(values[k], level) == isInside(values[k + 1], level)) continue;
-                const Crossing crossing = refine(ray, level, depthAt(k), depthAt(k + 1));
-                if (!crossing.cap || level.caps) keep(ray, level, crossing);
+                const LevelCrossing crossing = refineCrossing(ray, level, depthAt(k), depthAt(k + 1));
+                if (!crossing.cap || level.caps) keepIfNearest(ray, level, crossing);
             }
         }
     }
 
     // Finds the first place between the depths `from` and `to` at which the ray enters or leaves the body of a level.
     // There must be such a place.
-    Crossing refine(const SliceRay& ray, const SurfaceLook::LevelLook& level, double from, double to) {
+    LevelCrossing refineCrossing(const SliceRay& ray, const SurfaceLook::LevelLook& level, double from, double to) {
         constexpr std::size_t kSteps = 32, kRounds = 5;
         bool cap = false, entering = false;
         for (std::size_t round = 0; round < kRounds; ++round) {
@@ -162,7 +165,7 @@ class RayCaster {
         return {cap ? (entering ? to : from) : (from + to) / 2, cap};
     }
 
-    void keep(const SliceRay& ray, const SurfaceLook::LevelLook& level, const Crossing& crossing) {
+    void keepIfNearest(const SliceRay& ray, const SurfaceLook::LevelLook& level, const LevelCrossing& crossing) {
         if (crossing.depth >= nearest_) return;
         nearest_ = crossing.depth;
         const glm::dvec3 p = ray.start + crossing.depth * ray.direction;
@@ -171,7 +174,7 @@ class RayCaster {
 
     bool isInside(float value, const SurfaceLook::LevelLook& look) const {
         const double level = scene_.look.field.levels[look.index];
-        return scene_.look.field.inside == fields::Inside::below ? value < level : value > level;
+        return scene_.look.field.inside == fields::BodySide::below ? value < level : value > level;
     }
 
     // Sets values_ to the values of the function at steps + 1 points of the ray between the depths `from` and `to`.
@@ -212,7 +215,7 @@ std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, con
     const slicing::PlanarContours& contours = scene.sectionMatrix.contours.at(static_cast<std::size_t>(plane));
     const glm::dvec2 at(shown[axes[0]], shown[axes[1]]);
     // The length of one unit of the object in the panel, in pixels.
-    const double pixels = scene.matrix.scale(scene.circumradius) * height;
+    const double pixels = scene.matrix.panelScale(scene.circumradius) * height;
     double nearest = std::max(scene.matrix.lineWidth / 2 * height, kHitRadius) / pixels;
     std::optional<PickedLevel> found;
     for (std::size_t i = 0; i < contours.lineCount(); ++i) {
@@ -221,7 +224,7 @@ std::optional<PickedLevel> pickContour(const Scene& scene, glm::dvec2 point, con
             const glm::dvec2 offset = nearestToOrigin(line[k] - at, line[k + 1] - at);
             if (glm::length(offset) > nearest) continue;
             nearest = glm::length(offset);
-            found = {contours.level[i], false, PickedIn::matrix, 0, scene.sectionMatrix.point};
+            found = {contours.level[i], false, PickLocation::matrix, 0, scene.sectionMatrix.point};
             found->point[axes[0]] = at.x + offset.x;
             found->point[axes[1]] = at.y + offset.y;
         }
@@ -235,11 +238,12 @@ std::optional<PickedLevel> pickLevel(const Scene& scene, const fields::Field& fi
                                      const geometry::Rotation& orientation, glm::dvec2 point,
                                      const std::optional<PickedElement>& element) {
     if (scene.surfaces.empty()) return std::nullopt;
-    const bool isElementInSpace = element && (element->in == PickedIn::slice || element->in == PickedIn::projection);
+    const bool isElementInSpace =
+        element && (element->in == PickLocation::slice || element->in == PickLocation::projection);
     if (element && !isElementInSpace) return std::nullopt;
     if (const auto shown = matrixPointAt(scene, point)) return pickContour(scene, point, *shown);
     if (isClearedOfSlices(scene, point)) return std::nullopt;
-    return RayCaster(scene, field, orientation, point).nearestBefore(element);
+    return RayCaster(scene, field, orientation, point).nearestLevelBefore(element);
 }
 
 }  // namespace oval4d::scene

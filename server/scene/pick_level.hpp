@@ -19,9 +19,9 @@ namespace oval4d::scene {
 struct PickedLevel {
     std::size_t level = 0;  ///< the index of the level in slicing::FieldSettings::levels
     bool cap = false;       ///< whether the point is on a cap (see slicing::SliceSurface), inside the body of the level
-    PickedIn in = PickedIn::slice;  ///< where the point is: in a slice, the projection or the matrix
-    std::size_t slice = 0;          ///< the index of the slice in the SliceSet; without meaning for PickedIn::matrix
-    glm::dvec4 point{0};            ///< in the units of the object, after the rotation
+    PickLocation in = PickLocation::slice;  ///< where the point is: in a slice, the projection or the matrix
+    std::size_t slice = 0;  ///< the index of the slice in the SliceSet; without meaning for PickLocation::matrix
+    glm::dvec4 point{0};    ///< in the units of the object, after the rotation
 };
 
 /// Returns the point of a surface or contour of `field`, rotated by `orientation`, that the picture shows at the point

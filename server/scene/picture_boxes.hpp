@@ -17,17 +17,17 @@ struct Rect {
 };
 
 /// A rectangle, given by its center and half its size.
-struct Box {
+struct CenteredRect {
     glm::dvec2 center, half;
 };
 
 /// Returns whether two boxes overlap.
-inline bool overlap(const Box& a, const Box& b) {
+inline bool overlap(const CenteredRect& a, const CenteredRect& b) {
     return glm::all(glm::lessThan(glm::abs(a.center - b.center), a.half + b.half));
 }
 
 /// Returns whether a box overlaps the disk with this center and this radius.
-inline bool overlap(const Box& box, const glm::dvec2& center, double radius) {
+inline bool overlap(const CenteredRect& box, const glm::dvec2& center, double radius) {
     return glm::length(glm::max(glm::abs(center - box.center) - box.half, glm::dvec2(0))) < radius;
 }
 

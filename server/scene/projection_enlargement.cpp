@@ -14,7 +14,8 @@ namespace {
 
 // Returns the radius of a sphere about the origin that contains the vertices `first` … `end` − 1 of `set` with their
 // balls. `scale` is the number of world units per unit of the object. `ballRadius` and the result are in world units.
-double reachOf(const slicing::SliceSet& set, std::size_t first, std::size_t end, double scale, double ballRadius) {
+double boundingRadius(const slicing::SliceSet& set, std::size_t first, std::size_t end, double scale,
+                      double ballRadius) {
     double reach = 0;
     for (std::size_t v = first; v < end; ++v) {
         const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
@@ -36,7 +37,7 @@ double enlargementBehindSlices(const Scene& scene) {
     double thickest = 0;
     for (const ProjectionPartLook& look : scene.projection.parts)
         thickest = std::max({thickest, look.ballRadius, look.barRadius});
-    const double reach = reachOf(elements, 0, elements.vertices.size(), scene.projection.scale, thickest);
+    const double reach = boundingRadius(elements, 0, elements.vertices.size(), scene.projection.scale, thickest);
     const glm::dvec3 toProjection = scene.projectionPlacement.position - scene.camera.eye;
     const double distance = glm::length(toProjection);
     const double nearest = std::max(distance - reach, scene.camera.near);
@@ -45,7 +46,7 @@ double enlargementBehindSlices(const Scene& scene) {
         const std::size_t first = slices.vertexBegin[i], end = slices.vertexBegin[i + 1];
         if (!scene.placements[i].drawn || first == end) continue;
         const double ball = std::max(scene.drawnBallRadius(), scene.barRadius);
-        const double sliceReach = reachOf(slices, first, end, scene.scale, ball);
+        const double sliceReach = boundingRadius(slices, first, end, scene.scale, ball);
         const glm::dvec3 toSlice = scene.placements[i].position - scene.camera.eye;
         const double sliceDistance = glm::length(toSlice);
         const double cosine = glm::dot(toSlice, toProjection) / (sliceDistance * distance);

@@ -98,7 +98,7 @@ struct HistogramAxes {
     std::string quantity;  ///< what the values measure, such as "temperature, K"; empty if unknown
 
     /// Returns the height of a value above the lower edge, as a fraction of the height of the histogram.
-    double height(double value) const { return (value - least) / (greatest - least); }
+    double heightOf(double value) const { return (value - least) / (greatest - least); }
 };
 
 /// The complete description of a picture: its layout, its slices, and how everything is drawn.
@@ -112,7 +112,7 @@ struct Scene : PictureLayout {
     double scale = 1;  ///< world units per unit of the object
     /// One color per cell. For a surface, only the projection shows the 2-faces. If ShownParts::projectionFaces is
     /// true, there is one color per 2-face, or one color for all of them; otherwise the list is empty (see
-    /// CellPainter::updateFaceColors()).
+    /// CellColorAssigner::updateFaceColors()).
     std::vector<Color> cellColors;
     /// For each face of `slices`, the cell that determines the color of the face. Empty if the list would be equal to
     /// SliceSet::faceSource.
@@ -130,7 +130,7 @@ struct Scene : PictureLayout {
     /// The filled faces of slices; empty for a field, if faces are hidden, and if `needsDepthBuffer` is false.
     slicing::FilledFaces fill;
     SurfaceLook surfaces;                  ///< how SliceSet::surfaces are drawn; empty if no surfaces are drawn
-    FogTable fog;                          ///< how SliceSet::fogs are drawn; empty if no fog is drawn
+    FogTransferTable fog;                  ///< how SliceSet::fogs are drawn; empty if no fog is drawn
     std::vector<std::uint32_t> fillCells;  ///< for each face of `fill`, the cell that determines the color of the face
     /// If showsDensity() is true, the tones of the density plot (DensityPlot::tones()); if showsHistogram() is true,
     /// those of the histograms of a field (slicing::CoordinateValueHistograms::tones()); otherwise without meaning.
@@ -139,7 +139,7 @@ struct Scene : PictureLayout {
     fields::PictureUnits axisUnits;  ///< the units of a field's axes and values; unknown for all other objects
 
     /// Returns the fixed colors and sizes of the picture, which depend on its background.
-    const Style& style() const { return scene::style(look.background); }
+    const PictureStyle& style() const { return scene::style(look.background); }
     /// Returns the radius of the balls at the vertices of slices, in world units, before SliceSet::ballScale multiplies
     /// the radius. If ShownParts::balls is false, balls with the radius and color of the bars join the bars; the points
     /// of a cloud have this radius, too. Returns 0 if no balls are drawn.

@@ -25,7 +25,7 @@ struct ShownParts {
 
 /// A part of the picture and its name. The name is used in messages, queries and on the page's command line. The key
 /// that shows or hides the part has an action with the same name (protocol/keymap.json).
-struct NamedPart {
+struct NamedPicturePart {
     std::string_view name;
     bool ShownParts::* flag;
     /// The number of `flag` in stored sessions; it must not change (see serialization/stored_members.hpp).
@@ -33,23 +33,23 @@ struct NamedPart {
 };
 
 /// All parts of a picture that can be shown or hidden.
-inline constexpr auto kParts = std::to_array<NamedPart>({{"faces", &ShownParts::faces, 0},
-                                                         {"bars", &ShownParts::bars, 1},
-                                                         {"balls", &ShownParts::balls, 2},
-                                                         {"coordinates", &ShownParts::coordinates, 3},
-                                                         {"labels", &ShownParts::labels, 4},
-                                                         {"cells", &ShownParts::projectionFaces, 5},
-                                                         {"back", &ShownParts::back, 6},
-                                                         {"sections", &ShownParts::allSections, 7}});
+inline constexpr auto kParts = std::to_array<NamedPicturePart>({{"faces", &ShownParts::faces, 0},
+                                                                {"bars", &ShownParts::bars, 1},
+                                                                {"balls", &ShownParts::balls, 2},
+                                                                {"coordinates", &ShownParts::coordinates, 3},
+                                                                {"labels", &ShownParts::labels, 4},
+                                                                {"cells", &ShownParts::projectionFaces, 5},
+                                                                {"back", &ShownParts::back, 6},
+                                                                {"sections", &ShownParts::allSections, 7}});
 static_assert(sizeof(ShownParts) == kParts.size(), "every part has a row");
 static_assert(std::ranges::all_of(kParts,
-                                  [](const NamedPart& part) {
-                                      return std::ranges::count(kParts, part.number, &NamedPart::number) == 1;
+                                  [](const NamedPicturePart& part) {
+                                      return std::ranges::count(kParts, part.number, &NamedPicturePart::number) == 1;
                                   }),
               "no two parts have the same number");
 
 void visitStoredMembers(serialization::ReadOrWritten<ShownParts> auto& parts, auto& visit) {
-    for (const NamedPart& part : kParts) visit.addedMember(part.number, parts.*part.flag);
+    for (const NamedPicturePart& part : kParts) visit.memberAddedLater(part.number, parts.*part.flag);
 }
 
 }  // namespace oval4d::scene

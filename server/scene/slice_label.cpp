@@ -22,7 +22,7 @@ double leastDistance(const geometry::Hyperplanes& planes) {
     return least;
 }
 
-std::string fixed(double number, int decimals) {
+std::string fixedDecimal(double number, int decimals) {
     std::array<char, 48> digits{};
     std::snprintf(digits.data(), digits.size(), "%.*f", decimals, number);
     return digits.data();
@@ -37,7 +37,8 @@ std::string withExponentIfSmall(double number, int decimals) {
     std::snprintf(digits.data(), digits.size(), "%.*e", kMostDigits - 1, number);
     std::string text = digits.data();
     const int exponent = std::atoi(text.c_str() + text.find('e') + 1);
-    if (number >= kLeastWithoutExponent) return fixed(number, std::clamp(kMostDigits - 1 - exponent, 0, decimals));
+    if (number >= kLeastWithoutExponent)
+        return fixedDecimal(number, std::clamp(kMostDigits - 1 - exponent, 0, decimals));
     std::snprintf(digits.data(), digits.size(), "%.*e", std::clamp(exponent + decimals, 0, kMostDigits - 1), number);
     text = digits.data();
     const std::size_t first = text.find("e-") + 2;
@@ -53,8 +54,8 @@ int labelDecimals(const geometry::Hyperplanes& planes) {
 
 std::string labelNumber(double w, int decimals) {
     if (std::abs(w) < 0.5 * std::pow(10, -decimals)) return "0";
-    return (w < 0 ? "\u2212" : "") +
-           (decimals > kMaxPlainDecimals ? withExponentIfSmall(std::abs(w), decimals) : fixed(std::abs(w), decimals));
+    return (w < 0 ? "\u2212" : "") + (decimals > kMaxPlainDecimals ? withExponentIfSmall(std::abs(w), decimals)
+                                                                   : fixedDecimal(std::abs(w), decimals));
 }
 
 }  // namespace oval4d::scene

@@ -14,8 +14,8 @@ inline constexpr int kMaxPlainDecimals = 9;
 int labelDecimals(const geometry::Hyperplanes& planes);
 
 /// Returns w as text, rounded to `decimals` decimals, with a minus sign (U+2212) if it is negative; "0" if all digits
-/// are 0. If `decimals` is greater than kMaxPlainDecimals, a number below 0.0001 has an exponent ("5.0e-11"), and no
-/// number has more than 17 significant digits, the precision of a double.
+/// are 0. If `decimals` is greater than kMaxPlainDecimals, a number with an absolute value below 0.0001 has an exponent
+/// ("5.0e-11"), and no number has more than 17 significant digits, the precision of a double.
 std::string labelNumber(double w, int decimals);
 
 }  // namespace oval4d::scene

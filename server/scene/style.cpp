@@ -6,7 +6,7 @@ namespace oval4d::scene {
 
 namespace {
 
-Style styleOnDark() {
+PictureStyle styleOnDark() {
     return {
         .background = 0x10141c,
         .text = 0x9fabbd,
@@ -27,8 +27,8 @@ Style styleOnDark() {
     };
 }
 
-Style styleOnLight(Color background, double opacity) {
-    Style style = styleOnDark();
+PictureStyle styleOnLight(Color background, double opacity) {
+    PictureStyle style = styleOnDark();
     style.background = background;
     style.backgroundOpacity = opacity;
     style.text = 0x4a5463;
@@ -44,11 +44,11 @@ Style styleOnLight(Color background, double opacity) {
 
 }  // namespace
 
-const Style& style(Background background) {
+const PictureStyle& style(Background background) {
     constexpr Color kPaleGround = 0xf4f6f9, kWhite = 0xffffff;
-    static const Style kDark = styleOnDark();
-    static const Style kLight = styleOnLight(kPaleGround, 1), kPaper = styleOnLight(kWhite, 1);
-    static const Style kTransparent = styleOnLight(kWhite, 0);
+    static const PictureStyle kDark = styleOnDark();
+    static const PictureStyle kLight = styleOnLight(kPaleGround, 1), kPaper = styleOnLight(kWhite, 1);
+    static const PictureStyle kTransparent = styleOnLight(kWhite, 0);
     switch (background) {
         case Background::light:
             return kLight;

@@ -12,7 +12,7 @@ namespace oval4d::scene {
 
 /// The fixed colors and sizes of pictures. All pictures with the same background have the same style. Only the colors,
 /// `backgroundOpacity` and `faceOpacity` depend on the background.
-struct Style {
+struct PictureStyle {
     Color background, text, focusText, ball, bar, zeroLine;
     double backgroundOpacity;   ///< 1, or 0 if the background is transparent
     std::array<Color, 4> axes;  ///< the colors of the axes x, y, z and w
@@ -29,6 +29,6 @@ struct Style {
 ///
 /// Texts have a contrast (WCAG 2.2) to the background of at least 4.5; balls, bars and lines have a contrast of at
 /// least 3. Only the zero lines of the parallel coordinates on a dark background are fainter.
-const Style& style(Background background = Background::automatic);
+const PictureStyle& style(Background background = Background::automatic);
 
 }  // namespace oval4d::scene

@@ -6,17 +6,17 @@
 
 namespace oval4d::scene {
 
-Color growthColor(float growth, Scheme scheme) {
+Color growthColor(float growth, ColorScheme scheme) {
     return divergingColor(std::atan(growth) * 2 / std::numbers::pi, scheme);
 }
 
-Color ValueScale::color(double value) const {
+Color ValueColorScale::colorOf(double value) const {
     if (std::isnan(value)) return noValueColor();
     const double at = greatest > least ? (value - least) / (greatest - least) : 0.5;
     return diverging ? divergingColor(2 * at - 1, scheme) : sequentialColor(at, scheme);
 }
 
-ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme) {
+ValueColorScale valueScaleFor(const fields::ValueRange& range, ColorScheme scheme) {
     // 0 divides the range of values into two parts. The scale is diverging only if the shorter part is at least this
     // fraction of the longer part.
     constexpr double kLeastSide = 1.0 / 9;
@@ -29,15 +29,15 @@ ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme) {
 
 Color SurfaceLook::pointColor(const slicing::SliceSurface& surface, std::size_t point) const {
     return pointColoring == PointColoring::growth ? growthColor(surface.growth[point], scheme)
-                                                  : scale.color(surface.coloringValues()[point]);
+                                                  : scale.colorOf(surface.coloringValues()[point]);
 }
 
 Color SurfaceLook::capPointColor(const slicing::SliceSurface& surface, std::size_t point) const {
-    return scale.color(surface.coloringValues()[point]);
+    return scale.colorOf(surface.coloringValues()[point]);
 }
 
 Color surfaceColor(std::size_t i, std::size_t count, const Look& look) {
-    const Scheme scheme = schemeOn(look.background);
+    const ColorScheme scheme = schemeForBackground(look.background);
     return look.coloring == Coloring::cell ? levelColor(i, count, scheme) : plainColor(scheme);
 }
 
@@ -47,10 +47,10 @@ void chooseSurfaceLook(const fields::Field& field, const Look& look, const geome
     const slicing::FieldSettings& settings = look.field;
     const Coloring coloring = look.coloring;
     const std::size_t count = settings.levels.size();
-    out.scheme = schemeOn(look.background);
+    out.scheme = schemeForBackground(look.background);
     out.levels.resize(count);
     for (std::size_t i = 0; i < count; ++i) out.levels[i] = {i, surfaceColor(i, count, look), kOuterOpacity, false};
-    const bool below = settings.inside == fields::Inside::below;
+    const bool below = settings.inside == fields::BodySide::below;
     std::ranges::sort(out.levels, [&](const SurfaceLook::LevelLook& a, const SurfaceLook::LevelLook& b) {
         const double first = settings.levels[a.index], second = settings.levels[b.index];
         return below ? first < second : first > second;

@@ -16,20 +16,20 @@ namespace oval4d::scene {
 
 /// A color scale for values. The scale is either diverging, with gray in the middle (see divergingColor()), or
 /// sequential (see sequentialColor()).
-struct ValueScale {
+struct ValueColorScale {
     double least = 0, greatest = 1;  ///< the values at the two ends of the scale
     bool diverging = false;
-    Scheme scheme = Scheme::dark;
+    ColorScheme scheme = ColorScheme::dark;
 
     /// Returns the color of a value. For NaN, returns noValueColor().
-    Color color(double value) const;
-    bool operator==(const ValueScale&) const = default;
+    Color colorOf(double value) const;
+    bool operator==(const ValueColorScale&) const = default;
 };
 
 /// Returns the color scale for values in `range`. If 0 lies in the middle four fifths of the range, the scale is
 /// diverging, with gray at 0 and ends at equal distances from 0. Otherwise the scale is sequential, from the least to
 /// the greatest value.
-ValueScale valueScaleFor(const fields::ValueRange& range, Scheme scheme = Scheme::dark);
+ValueColorScale valueScaleFor(const fields::ValueRange& range, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns whether the colors of surfaces or caps show values. The values are those of the field's second function or,
 /// if there is none, of its function.
@@ -54,8 +54,8 @@ struct SurfaceLook {
     std::vector<Color> sliceColors;
     PointColoring pointColoring = PointColoring::none;  ///< the coloring of the points of level sets
     PointColoring capColoring = PointColoring::none;    ///< the coloring of the points of caps: none or value
-    ValueScale scale;              ///< valid if pointColoring or capColoring is PointColoring::value
-    Scheme scheme = Scheme::dark;  ///< the color scheme: for a dark or a light background
+    ValueColorScale scale;                   ///< valid if pointColoring or capColoring is PointColoring::value
+    ColorScheme scheme = ColorScheme::dark;  ///< the color scheme: for a dark or a light background
 
     /// Removes all levels, so that no surfaces are shown.
     void clear() {
@@ -80,7 +80,7 @@ struct SurfaceLook {
 
 /// Returns the color of a point where the surface moves outward at the speed `growth` while w increases (see
 /// SliceSurface::growth): amber where the body grows, blue where it shrinks, gray where it does not change.
-Color growthColor(float growth, Scheme scheme = Scheme::dark);
+Color growthColor(float growth, ColorScheme scheme = ColorScheme::dark);
 
 /// Returns the color of level i of `count` levels on the background of `look`: levelColor() with Coloring::cell,
 /// otherwise plainColor(). Ignores colors that depend on the slice or the point.

@@ -80,12 +80,12 @@ class ByteReader {
         value = byte == 1;
     }
     void operator()(std::string& text) {
-        const std::size_t size = count(1);
+        const std::size_t size = readElementCount(1);
         text.assign(take(size), size);
     }
     template <BytewiseCopyable T>
     void operator()(std::vector<T>& list) {
-        list.resize(count(sizeof(T)));
+        list.resize(readElementCount(sizeof(T)));
         if (!list.empty()) std::memcpy(list.data(), take(list.size() * sizeof(T)), list.size() * sizeof(T));
     }
     template <Memberwise T>
@@ -96,13 +96,13 @@ class ByteReader {
     template <Memberwise T>
     void operator()(std::vector<T>& list) {
         list.clear();
-        for (std::size_t rest = count(1); rest > 0; --rest) (*this)(list.emplace_back());
+        for (std::size_t rest = readElementCount(1); rest > 0; --rest) (*this)(list.emplace_back());
     }
 
   private:
     // Reads the number of elements of a string or vector. Throws std::runtime_error if too few bytes are left for these
     // elements. `each` is the size of an element in bytes.
-    std::size_t count(std::size_t each) {
+    std::size_t readElementCount(std::size_t each) {
         std::size_t number = 0;
         (*this)(number);
         if (number > rest_.size() / each) throw std::runtime_error("a message between processes is cut short");

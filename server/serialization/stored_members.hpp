@@ -17,7 +17,7 @@
 // member is its index in this array. Servers of different versions read and write the same records. Hence these rules:
 //
 // - A member keeps its number forever. The number of a removed member is not used again.
-// - A new member gets the next number. addedMember() visits it, because records of earlier versions lack it.
+// - A new member gets the next number. memberAddedLater() visits it, because records of earlier versions lack it.
 // - The same rules hold for the numbers of enumerators.
 // - A record with members that this version does not know is refused. Otherwise, these members would be lost when the
 //   record is written again.
@@ -26,12 +26,14 @@
 //
 // - member(number, value) or member(number, value, range): visits a member. `range` is the range of a floating-point
 //   number, or of all numbers in a list. A record with a number outside the range is refused.
-// - addedMember(…): does the same for a member that records of earlier versions lack. Its value then stays unchanged.
+// - memberAddedLater(…): does the same for a member that records of earlier versions lack. Its value then stays
+// unchanged.
 // - rotation(number, value): visits a rotation: two quaternions, with the numbers `number` and `number` + 1.
 // - array(number, visitThem): visits members that are stored together, as an array of their own with the index
 //   `number`. visitThem(visit) visits these members.
 // - object(number, value): visits a 4-D object. Only State has such a member.
-// - computedMember(value): visits a member of a 4-D object that is not stored, because it is computed when the object
+// - recomputableMember(value): visits a member of a 4-D object that is not stored, because it is computed when the
+// object
 //   is made. Messages between processes can contain such a member (see slicing/object_bytes.cpp).
 
 #include <cstddef>
@@ -61,13 +63,13 @@ struct AnyValue {
 /// Returns whether the aggregate `Struct` can be initialized with its base class and N further values, where N is the
 /// number of `kNumbers`.
 template <typename Struct, typename Base, std::size_t... kNumbers>
-constexpr bool takesInitializers(std::index_sequence<kNumbers...> /*numbers*/) {
+constexpr bool isInitializableWith(std::index_sequence<kNumbers...> /*numbers*/) {
     return requires { Struct{std::declval<Base>(), AnyValue<kNumbers>()...}; };
 }
 
 /// Satisfied if the aggregate `Struct` has exactly `kCount` members besides the members of `Base`, its only base class.
 template <typename Struct, typename Base, std::size_t kCount>
-concept HasOwnMembers = takesInitializers<Struct, Base>(std::make_index_sequence<kCount>()) &&
-                        !takesInitializers<Struct, Base>(std::make_index_sequence<kCount + 1>());
+concept HasOwnMembers = isInitializableWith<Struct, Base>(std::make_index_sequence<kCount>()) &&
+                        !isInitializableWith<Struct, Base>(std::make_index_sequence<kCount + 1>());
 
 }  // namespace oval4d::serialization

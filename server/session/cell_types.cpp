@@ -28,7 +28,7 @@ void add(CellTypeList& to, const CellTypeList& types) {
     to = sortedUnique(std::move(to));
 }
 
-Result<std::monostate> check(const CellTypeList& types, const geometry::ObjectInfo& object) {
+Result<std::monostate> checkCellTypes(const CellTypeList& types, const geometry::ObjectInfo& object) {
     for (const std::uint32_t type : types) {
         if (type < object.cellTypes.size()) continue;
         const std::string available = object.cellTypes.empty() ? "no cells"
@@ -91,7 +91,7 @@ Result<CellTypeList> findCellTypes(std::string_view text, const geometry::Object
                                                     "; the kinds of the " + object.name + ", from 0, are " +
                                                     text::commaSeparated(known)};
     }
-    if (auto valid = check(*numbers, object); !valid) return valid.error();
+    if (auto valid = checkCellTypes(*numbers, object); !valid) return valid.error();
     return *numbers;
 }
 
@@ -113,10 +113,10 @@ scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& c
     return filter;
 }
 
-Result<std::monostate> applyCellTypeVisibility(State& state, const Set& set) {
+Result<std::monostate> applyCellTypeVisibility(State& state, const ChangeSettings& set) {
     for (const auto* list : {&set.hidden, &set.faded}) {
         if (!*list) continue;
-        if (auto valid = check(**list, slicing::infoOf(state.object)); !valid) return valid;
+        if (auto valid = checkCellTypes(**list, slicing::infoOf(state.object)); !valid) return valid;
     }
     scene::CellTypeFilter& filter = state.look.cellTypes;
     if (set.faded) {

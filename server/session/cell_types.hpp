@@ -32,6 +32,6 @@ scene::CellTypeFilter reveal(scene::CellTypeFilter filter, const CellTypeList& c
 /// Replaces the lists of hidden and faded cell types in `state` by the lists in `set`. If `set` has only one of the two
 /// lists, its cell types are removed from the other list of `state`. A cell type in both lists of `set` becomes hidden.
 /// Error: `out_of_range` if the object has no cell type with one of the numbers; `state` is then unchanged.
-Result<std::monostate> applyCellTypeVisibility(State& state, const Set& set);
+Result<std::monostate> applyCellTypeVisibility(State& state, const ChangeSettings& set);
 
 }  // namespace oval4d::session

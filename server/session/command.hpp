@@ -29,17 +29,17 @@
 namespace oval4d::session {
 
 /// The command that a key press triggers.
-struct Key {
+struct KeyPress {
     static constexpr std::string_view kMessageType = "key";
     std::string key;  ///< the value of KeyboardEvent.key in a browser, such as "y", "K", "2" or " "
     bool shift = false, ctrl = false;
 };
-BOOST_DESCRIBE_STRUCT(Key, (), (key, shift, ctrl))
+BOOST_DESCRIBE_STRUCT(KeyPress, (), (key, shift, ctrl))
 
 /// The command that rotates the object in one plane, or in two perpendicular planes at once.
 struct Rotate {
     static constexpr std::string_view kMessageType = "rotate";
-    geometry::Turn turn;
+    geometry::RotationAngles turn;
     /// Whether undo treats the rotation and the previous command as one step, as during a drag with the mouse.
     bool continues = false;
     bool operator==(const Rotate&) const = default;
@@ -56,12 +56,12 @@ struct TurnToward {
 BOOST_DESCRIBE_STRUCT(TurnToward, (), (element, number, immediately))
 
 /// A finer resolution level of a multiscale image. The level replaces the coarser level that is shown.
-struct FinerLevel {
+struct FinerImageLevel {
     std::uint32_t level = 0;  ///< the index of the level in the image; 0 is the finest
     /// The initial level value (isovalue) of the field at the coarser resolution. The finer field gets the same value,
     /// so that a session that shows initial values keeps them.
     double initialLevel = 0;
-    bool operator==(const FinerLevel&) const = default;
+    bool operator==(const FinerImageLevel&) const = default;
 };
 /// The command that loads an object from a file, or makes a field from a formula, and shows the object.
 struct LoadObject {
@@ -94,12 +94,12 @@ struct LoadObject {
     /// Open files that contain one time step of an array each; empty if the object is elsewhere.
     std::vector<std::shared_ptr<const fields::FileHandle>> series = {};
     /// A Zarr folder that contains an array; null if the object is elsewhere.
-    std::shared_ptr<const fields::FolderFiles> folder = {};
+    std::shared_ptr<const fields::FolderFileProvider> folder = {};
     std::string dataName = {};  ///< the name of an array in the server's data folder; empty if none
     /// For a polytope, a surface or points: the point about which the object turns.
     geometry::Centering center = {};
     /// For an array in the server's data folder: the resolution level to read. Set by loadOfFinerLevel() only.
-    std::optional<FinerLevel> finer = {};
+    std::optional<FinerImageLevel> finer = {};
 
     /// Returns whether the object is an array in files or in a folder, not in `data`. The format of such an array may
     /// be empty.
@@ -107,31 +107,31 @@ struct LoadObject {
     bool operator==(const LoadObject&) const = default;
 };
 /// A member of LoadObject that says how to read an object, with its name in messages and in the queries of uploads.
-struct LoadText {
+struct LoadTextMember {
     std::string_view name;
     std::string LoadObject::* member;
 };
-inline constexpr auto kLoadTexts = std::to_array<LoadText>({{"format", &LoadObject::format},
-                                                            {"axes", &LoadObject::axes},
-                                                            {"variable", &LoadObject::variable},
-                                                            {"values", &LoadObject::secondFormula},
-                                                            {"values_variable", &LoadObject::secondVariable}});
+inline constexpr auto kLoadTexts = std::to_array<LoadTextMember>({{"format", &LoadObject::format},
+                                                                  {"axes", &LoadObject::axes},
+                                                                  {"variable", &LoadObject::variable},
+                                                                  {"values", &LoadObject::secondFormula},
+                                                                  {"values_variable", &LoadObject::secondVariable}});
 
 /// The new values of the plain settings: those that a command only stores (see forEachSetting() in setting_table.hpp).
 /// The names are those on the command line.
-class PlainSettings {
+class PlainSettingValues {
   public:
     /// Returns a reference to the new value of the setting `name`, so that the caller can set it. Until then, the value
     /// is an empty optional. `Value` must be the type of the value in a State. `name` must be a string constant,
     /// because only a reference to its characters is stored.
     template <typename Value>
-    std::optional<Value>& of(std::string_view name) {
+    std::optional<Value>& valueOf(std::string_view name) {
         std::any& value = values_.try_emplace(name, std::optional<Value>()).first->second;
         return std::any_cast<std::optional<Value>&>(value);
     }
     /// Returns the new value of the setting `name`, or an empty optional if the command does not change the setting.
     template <typename Value>
-    const std::optional<Value>& of(std::string_view name) const {
+    const std::optional<Value>& valueOf(std::string_view name) const {
         static const std::optional<Value> none;
         const auto found = values_.find(name);
         return found == values_.end() ? none : std::any_cast<const std::optional<Value>&>(found->second);
@@ -141,7 +141,7 @@ class PlainSettings {
     std::map<std::string_view, std::any> values_;
 };
 /// The command that changes settings. Settings whose member is empty keep their values.
-struct Set {
+struct ChangeSettings {
     static constexpr std::string_view kMessageType = "set";
     bool continues = false;             ///< whether undo treats the change and the previous command as one step
     std::optional<std::string> object;  ///< the name of the object to show (see findObject())
@@ -170,7 +170,7 @@ struct Set {
     /// The isovalues of the surfaces of a field.
     std::optional<std::vector<double>> levels;
     /// The side of the isovalues that is inside the surfaces of a field.
-    std::optional<fields::Inside> inside;
+    std::optional<fields::BodySide> inside;
     /// The fog (transfer function) of a field.
     std::optional<std::vector<slicing::FogControlPoint>> fog;
     /// Indices of hidden and of faded (translucent) cell types, in any order.
@@ -178,8 +178,8 @@ struct Set {
     /// The element that is highlighted in another color. The outer optional is empty if the highlight stays the same.
     /// The inner optional is empty if the command removes the highlight.
     std::optional<std::optional<slicing::Element>> highlight;
-    std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
-    PlainSettings plain;                     ///< all other settings
+    std::optional<geometry::RotationAngles> lastTurn;  ///< the last rotation, which the keys '.' and space repeat
+    PlainSettingValues plain;                          ///< all other settings
 };
 struct Undo {
     static constexpr std::string_view kMessageType = "undo";
@@ -192,10 +192,10 @@ struct Redo {
 BOOST_DESCRIBE_STRUCT(Redo, (), ())
 
 /// The command that restores the initial orientation and focus, and ends all motion.
-struct Reset {
+struct ResetOrientationAndFocus {
     static constexpr std::string_view kMessageType = "reset";
 };
-BOOST_DESCRIBE_STRUCT(Reset, (), ())
+BOOST_DESCRIBE_STRUCT(ResetOrientationAndFocus, (), ())
 
 /// The command that replaces the orientation by a random rotation. All rotations are equally probable.
 struct TurnAtRandom {
@@ -219,7 +219,7 @@ struct ShowLinkedView {
 };
 BOOST_DESCRIBE_STRUCT(ShowLinkedView, (), (query))
 
-using Command = std::variant<Key, Rotate, TurnToward, TurnAtRandom, Set, LoadObject, Undo, Redo, Reset, CommandLine,
-                             ShowLinkedView>;
+using Command = std::variant<KeyPress, Rotate, TurnToward, TurnAtRandom, ChangeSettings, LoadObject, Undo, Redo,
+                             ResetOrientationAndFocus, CommandLine, ShowLinkedView>;
 
 }  // namespace oval4d::session

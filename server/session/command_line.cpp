@@ -21,9 +21,9 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-Error bad(ErrorCode code, std::string message) { return {code, std::move(message)}; }
+Error errorWith(ErrorCode code, std::string message) { return {code, std::move(message)}; }
 
-Words split(std::string_view line) {
+Words splitWords(std::string_view line) {
     Words words;
     while (true) {
         const std::size_t start = line.find_first_not_of(" \t");
@@ -55,20 +55,21 @@ Words joinedWords(const Words& words, std::string_view separators) {
     return joined;
 }
 
-Result<Command> oneSetting(std::string_view name, std::string_view value) {
-    Set set;
+Result<Command> makeSetCommand(std::string_view name, std::string_view value) {
+    ChangeSettings set;
     if (auto done = parseSetting(name, value, set); !done) return done.error();
     return Command{set};
 }
 
-Result<Command> polytopeLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
-    if (rest.empty()) return bad(ErrorCode::unknown_polytope, "polytope needs a name, such as polytope 24-cell");
-    return oneSetting("polytope", rest);  // names may contain blanks
+Result<Command> parsePolytopeCommand(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+    if (rest.empty()) return errorWith(ErrorCode::unknown_polytope, "polytope needs a name, such as polytope 24-cell");
+    return makeSetCommand("polytope", rest);  // names may contain blanks
 }
 
-Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+Result<Command> parseFormulaCommand(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (rest.empty())
-        return bad(ErrorCode::bad_expression, "formula needs a function of x, y, z and w, such as formula x*y + z*w");
+        return errorWith(ErrorCode::bad_expression,
+                         "formula needs a function of x, y, z and w, such as formula x*y + z*w");
     // " colored by " separates two formulas. A formula cannot contain this text: the only words that may directly
     // follow another word in a formula are the units deg and rad.
     constexpr std::string_view kColoredBy = " colored by ";
@@ -80,13 +81,14 @@ Result<Command> formulaLine(std::string_view rest, const Words& /*words*/, const
 
 // Parses the command "region". The shown field is a region of a larger array. "region 0,1,0,1,0,1,0,5" loads another
 // region of this array, and "region all" the whole array.
-Result<Command> regionLine(std::string_view rest, const Words& /*words*/, const State& state) {
+Result<Command> parseRegionCommand(std::string_view rest, const Words& /*words*/, const State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) {
-        return bad(ErrorCode::out_of_range, text::inQuotes(slicing::infoOf(state.source).name) +
-                                                " is not a part of a larger array in the data folder of the server");
+        return errorWith(ErrorCode::out_of_range,
+                         text::inQuotes(slicing::infoOf(state.source).name) +
+                             " is not a part of a larger array in the data folder of the server");
     }
-    LoadObject load = loadOf(field->name, *field->source);
+    LoadObject load = loadCommandFor(field->name, *field->source);
     load.region.reset();
     if (rest != "all") {
         const auto region = parseBox(rest, "region");
@@ -96,17 +98,18 @@ Result<Command> regionLine(std::string_view rest, const Words& /*words*/, const 
     return Command{std::move(load)};
 }
 
-Result<Command> setLine(std::string_view rest, const Words& words, const State& /*state*/) {
-    if (words.empty()) return bad(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
+Result<Command> parseSetCommand(std::string_view rest, const Words& words, const State& /*state*/) {
+    if (words.empty())
+        return errorWith(ErrorCode::unknown_command, "set needs name=value; the names are " + settingNames());
     // The name of a polytope may contain blanks. If `polytope` is the only setting on the line, the name extends to the
     // end of the line.
     if (rest.starts_with("polytope=") && rest.find('=') == rest.rfind('='))
-        return oneSetting("polytope", rest.substr(std::string_view("polytope=").size()));
-    Set set;
+        return makeSetCommand("polytope", rest.substr(std::string_view("polytope=").size()));
+    ChangeSettings set;
     for (const std::string_view word : joinedWords(words, ",:=")) {
         const std::size_t equals = word.find('=');
         if (equals == std::string_view::npos) {
-            return bad(
+            return errorWith(
                 ErrorCode::bad_expression,
                 text::inQuotes(word) + " has no '='; write set name=value, without blanks, such as set slices=31");
         }
@@ -116,10 +119,10 @@ Result<Command> setLine(std::string_view rest, const Words& words, const State& 
     return Command{set};
 }
 
-Result<Command> rotateLine(std::string_view /*rest*/, const Words& given, const State& state) {
+Result<Command> parseRotateCommand(std::string_view /*rest*/, const Words& given, const State& state) {
     const Words words = joinedWords(given, ",");
     if (words.empty())
-        return bad(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
+        return errorWith(ErrorCode::bad_expression, "rotate needs planes and angles, such as rotate xw,yz pi/8 pi/5");
     // Without angles on the line, use the angles alpha and beta of the rotation keys.
     const std::string alpha = text::shortestDecimal(state.alpha) + "rad";
     const std::string beta = text::shortestDecimal(state.beta) + "rad";
@@ -133,12 +136,12 @@ Result<Command> rotateLine(std::string_view /*rest*/, const Words& given, const 
     return Command{Rotate{*turn}};
 }
 
-Result<Command> towardLine(std::string_view rest, const Words& words, const State& /*state*/) {
+Result<Command> parseTowardCommand(std::string_view rest, const Words& words, const State& /*state*/) {
     if (words.empty() || words.size() > 2) {
-        return bad(ErrorCode::bad_expression, "toward needs " +
-                                                  text::alternatives(text::namesOf(slicing::kElementKinds)) +
-                                                  " and optionally a number, such as toward cell 3" +
-                                                  (rest.empty() ? "" : ", not " + text::inQuotes(rest)));
+        return errorWith(ErrorCode::bad_expression, "toward needs " +
+                                                        text::joinedWithOr(text::namesOf(slicing::kElementKinds)) +
+                                                        " and optionally a number, such as toward cell 3" +
+                                                        (rest.empty() ? "" : ", not " + text::inQuotes(rest)));
     }
     const auto kind = parseElementKind(words[0]);
     if (!kind) return kind.error();
@@ -148,10 +151,11 @@ Result<Command> towardLine(std::string_view rest, const Words& words, const Stat
     return Command{TurnToward{*kind, *index}};
 }
 
-Result<Command> keyLine(std::string_view rest, const Words& words, const State& /*state*/) {
+Result<Command> parseKeyCommand(std::string_view rest, const Words& words, const State& /*state*/) {
     constexpr std::string_view kCtrl = "ctrl-";
-    if (words.size() != 1) return bad(ErrorCode::unknown_key, "key needs one key, such as key y, key Y or key ctrl-r");
-    Key key{std::string(rest), false, false};
+    if (words.size() != 1)
+        return errorWith(ErrorCode::unknown_key, "key needs one key, such as key y, key Y or key ctrl-r");
+    KeyPress key{std::string(rest), false, false};
     if (rest == "space") key.key = " ";
     if ((rest.starts_with(kCtrl) || rest.starts_with("Ctrl-")) && rest.size() > kCtrl.size()) {
         key.key = rest.substr(kCtrl.size());
@@ -161,27 +165,28 @@ Result<Command> keyLine(std::string_view rest, const Words& words, const State& 
 }
 
 // Parses "highlight cell 17", which means "set highlight=cell:17".
-Result<Command> highlightLine(std::string_view rest, const Words& words, const State& /*state*/) {
-    if (joinedWords(words, ":").size() != 2) return oneSetting("highlight", rest);
-    return oneSetting("highlight", std::string(words[0]) + ':' + std::string(words[1]));
+Result<Command> parseHighlightCommand(std::string_view rest, const Words& words, const State& /*state*/) {
+    if (joinedWords(words, ":").size() != 2) return makeSetCommand("highlight", rest);
+    return makeSetCommand("highlight", std::string(words[0]) + ':' + std::string(words[1]));
 }
 
 // Parses "boost x 0.6", which means "set boost=0.6,0,0".
-Result<Command> boostLine(std::string_view rest, const Words& words, const State& /*state*/) {
-    if (joinedWords(words, ",").size() != 2) return oneSetting("boost", rest);
+Result<Command> parseBoostCommand(std::string_view rest, const Words& words, const State& /*state*/) {
+    if (joinedWords(words, ",").size() != 2) return makeSetCommand("boost", rest);
     const std::size_t axis = words[0].size() == 1 ? std::string_view("xyz").find(words[0]) : std::string_view::npos;
     if (axis == std::string_view::npos) {
-        return bad(ErrorCode::bad_expression,
-                   "boost needs an axis x, y or z and a velocity, such as boost x 0.6, or none, or a velocity such as "
-                   "boost 0.6,0,0, not " +
-                       text::inQuotes(rest));
+        return errorWith(
+            ErrorCode::bad_expression,
+            "boost needs an axis x, y or z and a velocity, such as boost x 0.6, or none, or a velocity such as "
+            "boost 0.6,0,0, not " +
+                text::inQuotes(rest));
     }
     std::string velocity;
     for (std::size_t i = 0; i < 3; ++i) {
         if (i > 0) velocity += ',';
         velocity += i == axis ? words[1] : "0";
     }
-    return oneSetting("boost", velocity);
+    return makeSetCommand("boost", velocity);
 }
 
 // Returns the cell types that the arguments of hide, fade and show select: numbers, or the name of a cell type. Without
@@ -197,8 +202,8 @@ Result<CellTypeList> selectedCellTypes(std::string_view rest, const State& state
 // Parses the arguments of hide, fade and show. `change` is the function of the command: hide(), fade() or reveal().
 // Without arguments, show shows all cells.
 template <scene::CellTypeFilter (*change)(scene::CellTypeFilter, const CellTypeList&)>
-Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, const State& state) {
-    Set set;
+Result<Command> parseCellTypesCommand(std::string_view rest, const Words& /*words*/, const State& state) {
+    ChangeSettings set;
     scene::CellTypeFilter filter;
     if (change != reveal || !rest.empty()) {
         const auto named = selectedCellTypes(rest, state);
@@ -212,15 +217,15 @@ Result<Command> cellTypesLine(std::string_view rest, const Words& /*words*/, con
 
 // Parses a command that takes no arguments.
 template <typename C>
-Result<Command> noArguments(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+Result<Command> parseWithoutArguments(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
     if (!rest.empty())
-        return bad(ErrorCode::bad_expression, "this command takes no arguments; remove " + text::inQuotes(rest));
+        return errorWith(ErrorCode::bad_expression, "this command takes no arguments; remove " + text::inQuotes(rest));
     return Command{C{}};
 }
 
 // Parses the command "play", which starts to move the focus to and fro. "play 2" does so at twice the normal speed.
-Result<Command> playLine(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
-    Set set;
+Result<Command> parsePlayCommand(std::string_view rest, const Words& /*words*/, const State& /*state*/) {
+    ChangeSettings set;
     if (!rest.empty()) {
         if (auto done = parseSetting("speed", rest, set); !done) return done.error();
     }
@@ -228,42 +233,42 @@ Result<Command> playLine(std::string_view rest, const Words& /*words*/, const St
     return Command{std::move(set)};
 }
 
-Result<Command> pauseLine(std::string_view rest, const Words& words, const State& state) {
-    if (auto valid = noArguments<Set>(rest, words, state); !valid) return valid.error();
-    Set set;
+Result<Command> parsePauseCommand(std::string_view rest, const Words& words, const State& state) {
+    if (auto valid = parseWithoutArguments<ChangeSettings>(rest, words, state); !valid) return valid.error();
+    ChangeSettings set;
     set.playing = false;
     return Command{std::move(set)};
 }
 
 // A command of the page's command line: its name, and the function that parses the rest of the line.
-struct Verb {
+struct CommandLineVerb {
     std::string_view name;
     Result<Command> (*read)(std::string_view rest, const Words& words, const State& state);
 };
-constexpr auto kVerbs = std::to_array<Verb>(
-    {{"polytope", polytopeLine},
-     {"set", setLine},
-     {"rotate", rotateLine},
-     {"toward", towardLine},
-     {"view", [](std::string_view rest, const Words&, const State&) { return oneSetting("view", rest); }},
-     {"focus", [](std::string_view rest, const Words&, const State&) { return oneSetting("focus", rest); }},
-     {"play", playLine},
-     {"pause", pauseLine},
-     {"color", [](std::string_view rest, const Words&, const State&) { return oneSetting("color", rest); }},
-     {"project", [](std::string_view rest, const Words&, const State&) { return oneSetting("projection", rest); }},
-     {"highlight", highlightLine},
-     {"hide", cellTypesLine<hide>},
-     {"fade", cellTypesLine<fade>},
-     {"show", cellTypesLine<reveal>},
-     {"formula", formulaLine},
-     {"region", regionLine},
-     {"fog", [](std::string_view rest, const Words&, const State&) { return oneSetting("fog", rest); }},
-     {"follow", [](std::string_view rest, const Words&, const State&) { return oneSetting("follow", rest); }},
-     {"boost", boostLine},
-     {"key", keyLine},
-     {"reset", noArguments<Reset>},
-     {"undo", noArguments<Undo>},
-     {"redo", noArguments<Redo>}});
+constexpr auto kVerbs = std::to_array<CommandLineVerb>(
+    {{"polytope", parsePolytopeCommand},
+     {"set", parseSetCommand},
+     {"rotate", parseRotateCommand},
+     {"toward", parseTowardCommand},
+     {"view", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("view", rest); }},
+     {"focus", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("focus", rest); }},
+     {"play", parsePlayCommand},
+     {"pause", parsePauseCommand},
+     {"color", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("color", rest); }},
+     {"project", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("projection", rest); }},
+     {"highlight", parseHighlightCommand},
+     {"hide", parseCellTypesCommand<hide>},
+     {"fade", parseCellTypesCommand<fade>},
+     {"show", parseCellTypesCommand<reveal>},
+     {"formula", parseFormulaCommand},
+     {"region", parseRegionCommand},
+     {"fog", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("fog", rest); }},
+     {"follow", [](std::string_view rest, const Words&, const State&) { return makeSetCommand("follow", rest); }},
+     {"boost", parseBoostCommand},
+     {"key", parseKeyCommand},
+     {"reset", parseWithoutArguments<ResetOrientationAndFocus>},
+     {"undo", parseWithoutArguments<Undo>},
+     {"redo", parseWithoutArguments<Redo>}});
 
 }  // namespace
 
@@ -279,19 +284,20 @@ Result<Command> parseCommandLine(std::string_view written, const State& state) {
     if (line.starts_with(':')) line.remove_prefix(1);
     trim();
     std::vector<std::string_view> verbs;
-    for (const Verb& verb : kVerbs) verbs.push_back(verb.name);
-    if (line.empty()) return bad(ErrorCode::unknown_command, "a command is expected: " + text::commaSeparated(verbs));
+    for (const CommandLineVerb& verb : kVerbs) verbs.push_back(verb.name);
+    if (line.empty())
+        return errorWith(ErrorCode::unknown_command, "a command is expected: " + text::commaSeparated(verbs));
 
     const std::size_t end = line.find_first_of(" \t");
     const std::string_view name = line.substr(0, end);
     std::string_view rest = end == std::string_view::npos ? std::string_view{} : line.substr(end);
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-    for (const Verb& verb : kVerbs) {
-        if (verb.name == name) return verb.read(rest, split(rest), state);
+    for (const CommandLineVerb& verb : kVerbs) {
+        if (verb.name == name) return verb.read(rest, splitWords(rest), state);
     }
-    return bad(ErrorCode::unknown_command, "no command is called " + text::inQuotes(name) +
-                                               text::didYouMean(name, verbs) + "; the commands are " +
-                                               text::commaSeparated(verbs));
+    return errorWith(ErrorCode::unknown_command, "no command is called " + text::inQuotes(name) +
+                                                     text::didYouMean(name, verbs) + "; the commands are " +
+                                                     text::commaSeparated(verbs));
 }
 
 }  // namespace oval4d::session

@@ -14,7 +14,7 @@ namespace oval4d::session {
 
 namespace {
 
-std::vector<ExampleField> readExamples() {
+std::vector<ExampleField> readExampleFields() {
     std::vector<ExampleField> examples;
     const auto table = nlohmann::json::parse(protocol_data::embeddedFile("fields.json"));
     for (const nlohmann::json& row : table.at("fields")) {
@@ -38,7 +38,7 @@ std::vector<ExampleField> readExamples() {
 }  // namespace
 
 std::span<const ExampleField> exampleFields() {
-    static const std::vector<ExampleField> examples = readExamples();
+    static const std::vector<ExampleField> examples = readExampleFields();
     return examples;
 }
 

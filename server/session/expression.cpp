@@ -55,15 +55,15 @@ struct ValueWithUnit {
     std::size_t unitAt = 0;         // the position of the unit in the text
 };
 
-// A recursive-descent parser that evaluates an expression while parsing it. Throws SyntaxError, which evaluated()
-// catches. The grammar is:
+// A recursive-descent parser that evaluates an expression while parsing it. Throws SyntaxError, which
+// evaluateExpression() catches. The grammar is:
 //    sum = product {(+|−) product}   product = signed {(*|/) signed}   signed = {+|−} power
 //    power = angle [^ signed]   angle = atom [unit]   atom = number | constant | function ( sum ) | ( sum )
 // A product has at most one unit, after any of its factors, and this unit applies to the whole product: people read
 // 45/2° as 22.5°. If `units` is false, a unit is an error, except in the argument of a function.
-class Parser {
+class ExpressionParser {
   public:
-    Parser(std::string_view text, bool units) : text_(text), units_(units) {}
+    ExpressionParser(std::string_view text, bool units) : text_(text), units_(units) {}
 
     struct SyntaxError {
         std::size_t position;
@@ -72,7 +72,7 @@ class Parser {
 
     ValueWithUnit parse() {
         const ValueWithUnit term = sum();
-        if (at_ != text_.size()) fail("an operator is expected" + hint());
+        if (at_ != text_.size()) fail("an operator is expected" + productHint());
         return term;
     }
 
@@ -80,11 +80,11 @@ class Parser {
     // Parses a sum and returns its value, in radians if the sum has a unit.
     ValueWithUnit sum() {
         const NestingGuard deeper(*this);
-        ValueWithUnit total = inRadians(product());
+        ValueWithUnit total = convertToRadians(product());
         while (true) {
             const bool isDifference = take("-") || take(kMinusSign);
             if (!isDifference && !take("+")) return total;
-            const ValueWithUnit term = inRadians(product());
+            const ValueWithUnit term = convertToRadians(product());
             const double sign = isDifference ? -1 : 1;
             total.value += sign * term.value;
             total.plain += sign * term.plain;
@@ -101,7 +101,7 @@ class Parser {
             const ValueWithUnit factor = signedPower();
             if (isQuotient && factor.hasUnit && factor.isGroup)
                 failAt(factor.unitAt, "an angle cannot be divided by an angle, and neither can a number");
-            total = joined(total, factor, isQuotient ? total.value / factor.value : total.value * factor.value);
+            total = productOf(total, factor, isQuotient ? total.value / factor.value : total.value * factor.value);
         }
     }
     ValueWithUnit signedPower() {
@@ -117,11 +117,11 @@ class Parser {
         if (!take("^")) return base;
         if (base.hasUnit) failAt(base.unitAt, "the power of an angle is no angle; write the unit after the exponent");
         const ValueWithUnit exponent = signedPower();
-        return joined(base, exponent, std::pow(base.value, exponent.value));
+        return productOf(base, exponent, std::pow(base.value, exponent.value));
     }
     // Returns the product, quotient or power of the terms `a` and `b`, where `value` is the numeric result. Throws
     // SyntaxError if both terms have a unit.
-    ValueWithUnit joined(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
+    ValueWithUnit productOf(const ValueWithUnit& a, const ValueWithUnit& b, double value) {
         if (a.hasUnit && b.hasUnit)
             failAt(std::max(a.unitAt, b.unitAt), "a product has one unit, which is that of all of it");
         ValueWithUnit result = a.hasUnit ? a : b;
@@ -134,7 +134,7 @@ class Parser {
     }
     // Converts `term`, a product, to radians if its unit is degrees. Throws SyntaxError if the product in degrees also
     // contains an angle without a unit, such as pi.
-    ValueWithUnit inRadians(ValueWithUnit term) {
+    ValueWithUnit convertToRadians(ValueWithUnit term) {
         if (!term.isInDegrees) return term;
         if (term.hasUnitlessAngle) failAt(term.unitAt, "the angle is in radians already, as pi is; leave out its unit");
         term.value *= std::numbers::pi / 180;
@@ -169,7 +169,7 @@ class Parser {
         if (take(kPhiLetter)) return {.value = std::numbers::phi};
         skipBlanks();
         if (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) return number();
-        if (at_ < text_.size() && isLetter(text_[at_])) return named();
+        if (at_ < text_.size() && isLetter(text_[at_])) return functionOrConstant();
         fail("a number, a name or '(' is expected");
     }
     static ValueWithUnit pi() { return {.value = std::numbers::pi, .hasUnitlessAngle = true}; }
@@ -181,7 +181,7 @@ class Parser {
         at_ = static_cast<std::size_t>(end - text_.data());
         return {.value = value, .plain = value, .isPlain = true};
     }
-    ValueWithUnit named() {
+    ValueWithUnit functionOrConstant() {
         const std::size_t start = at_;
         while (at_ < text_.size() && isLetter(text_[at_])) ++at_;
         const std::string_view name = text_.substr(start, at_ - start);
@@ -219,20 +219,22 @@ class Parser {
     void skipBlanks() {
         while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
     }
-    std::string hint() const { return isLetter(text_[at_]) || text_[at_] == '(' ? " (a product is written 2*pi)" : ""; }
+    std::string productHint() const {
+        return isLetter(text_[at_]) || text_[at_] == '(' ? " (a product is written 2*pi)" : "";
+    }
     [[noreturn]] void fail(std::string what) const { failAt(at_, std::move(what)); }
     [[noreturn]] static void failAt(std::size_t position, std::string what) {
         throw SyntaxError{position, std::move(what)};
     }
 
     struct NestingGuard {
-        explicit NestingGuard(Parser& owner) : parser(owner) {
+        explicit NestingGuard(ExpressionParser& owner) : parser(owner) {
             if (++parser.depth_ > kMaxDepth) parser.fail("the expression nests too deeply");
         }
         ~NestingGuard() { --parser.depth_; }
         NestingGuard(const NestingGuard&) = delete;
         NestingGuard& operator=(const NestingGuard&) = delete;
-        Parser& parser;
+        ExpressionParser& parser;
     };
 
     std::string_view text_;
@@ -241,20 +243,21 @@ class Parser {
     bool units_;
 };
 
-Error bad(std::string message) { return {ErrorCode::bad_expression, std::move(message)}; }
+Error badExpressionError(std::string message) { return {ErrorCode::bad_expression, std::move(message)}; }
 
-Result<ValueWithUnit> evaluated(std::string_view given, bool units) {
+Result<ValueWithUnit> evaluateExpression(std::string_view given, bool units) {
     const std::string text = text::withPlainBlanks(given);
     if (text.find_first_not_of(" \t") == std::string_view::npos)
-        return bad("a number is expected, such as 0.2 or pi/8");
+        return badExpressionError("a number is expected, such as 0.2 or pi/8");
     if (text.size() > kMaxLength)
-        return bad("an expression may have at most " + std::to_string(kMaxLength) + " characters");
+        return badExpressionError("an expression may have at most " + std::to_string(kMaxLength) + " characters");
     try {
-        const ValueWithUnit term = Parser(text, units).parse();
-        if (!std::isfinite(term.value)) return bad(text::inQuotes(text) + " is not a finite number");
+        const ValueWithUnit term = ExpressionParser(text, units).parse();
+        if (!std::isfinite(term.value)) return badExpressionError(text::inQuotes(text) + " is not a finite number");
         return term;
-    } catch (const Parser::SyntaxError& error) {
-        return bad(text::inQuotes(text) + ", position " + std::to_string(error.position + 1) + ": " + error.what);
+    } catch (const ExpressionParser::SyntaxError& error) {
+        return badExpressionError(text::inQuotes(text) + ", position " + std::to_string(error.position + 1) + ": " +
+                                  error.what);
     }
 }
 
@@ -265,7 +268,7 @@ bool isAngleUnit(std::string_view word) {
 }
 
 Result<double> evaluate(std::string_view text) {
-    const auto term = evaluated(text, false);
+    const auto term = evaluateExpression(text, false);
     if (!term) return term.error();
     return term->value;
 }
@@ -283,7 +286,7 @@ Result<std::vector<double>> evaluateList(std::string_view text) {
 }
 
 Result<double> evaluateAngle(std::string_view text) {
-    const auto term = evaluated(text, true);
+    const auto term = evaluateExpression(text, true);
     if (!term) return term.error();
     if (std::abs(term->plain) > 2 * std::numbers::pi) {
         const std::string number = text::roundedDecimal(term->plain);
@@ -293,8 +296,9 @@ Result<double> evaluateAngle(std::string_view text) {
     return term->value;
 }
 
-Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
-                                            std::string_view examples) {
+Result<geometry::RotationAngles> parsePlanesAndAngles(std::string_view planes,
+                                                      const std::vector<std::string_view>& angles,
+                                                      std::string_view examples) {
     std::vector<std::string_view> names = text::splitAtCommas(planes);
     // An empty name is refused below, because it is not a plane.
     if (planes.empty() || planes.ends_with(',')) names.emplace_back();
@@ -303,17 +307,19 @@ Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::
         const std::string_view name = text::trimmed(written);
         const auto plane = geometry::planeNamed(name);
         if (!plane)
-            return bad("no plane is called " + text::inQuotes(name) + "; the planes are xy, xz, xw, yz, yw, zw");
+            return badExpressionError("no plane is called " + text::inQuotes(name) +
+                                      "; the planes are xy, xz, xw, yz, yw, zw");
         if (std::ranges::find(named, *plane) != named.end())
-            return bad("the plane " + std::string(name) + " is named twice");
+            return badExpressionError("the plane " + std::string(name) + " is named twice");
         named.push_back(*plane);
     }
     if (angles.size() != named.size()) {
         const std::string count = std::to_string(named.size());
-        return bad((named.size() == 1 ? "one plane needs one angle" : count + " planes need " + count + " angles") +
-                   ", not " + std::to_string(angles.size()) + "; write " + std::string(examples));
+        return badExpressionError(
+            (named.size() == 1 ? "one plane needs one angle" : count + " planes need " + count + " angles") + ", not " +
+            std::to_string(angles.size()) + "; write " + std::string(examples));
     }
-    geometry::Turn turn;
+    geometry::RotationAngles turn;
     for (std::size_t i = 0; i < named.size(); ++i) {
         const Result<double> angle = evaluateAngle(angles[i]);
         if (!angle) return angle.error();
@@ -322,11 +328,11 @@ Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::
     return turn;
 }
 
-Result<geometry::Turn> parseTurn(std::string_view text) {
+Result<geometry::RotationAngles> parseTurn(std::string_view text) {
     constexpr std::string_view kExamples = "xw:pi/8 or xw,yz:pi/8,pi/5";
     const std::size_t colon = text.find(':');
     if (colon == std::string_view::npos) {
-        return bad(text::inQuotes(text) + " is not a rotation; write " + std::string(kExamples));
+        return badExpressionError(text::inQuotes(text) + " is not a rotation; write " + std::string(kExamples));
     }
     std::vector<std::string_view> angles;
     std::string_view rest = text.substr(colon + 1);

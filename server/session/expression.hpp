@@ -34,11 +34,12 @@ Result<double> evaluateAngle(std::string_view text);
 /// "xw,yz". `angles` has one expression for evaluateAngle() for each plane. Error messages quote `examples`, which
 /// shows how to write a rotation. Errors: `bad_expression` if a name is not a plane or occurs twice, or if the numbers
 /// of planes and angles differ; the errors of evaluateAngle().
-Result<geometry::Turn> parsePlanesAndAngles(std::string_view planes, const std::vector<std::string_view>& angles,
-                                            std::string_view examples);
+Result<geometry::RotationAngles> parsePlanesAndAngles(std::string_view planes,
+                                                      const std::vector<std::string_view>& angles,
+                                                      std::string_view examples);
 
 /// Parses a rotation from a query or a command-line option, such as "xw,yz:pi/8,0.2". Errors: `bad_expression` if the
 /// text has no colon; the errors of parsePlanesAndAngles().
-Result<geometry::Turn> parseTurn(std::string_view text);
+Result<geometry::RotationAngles> parseTurn(std::string_view text);
 
 }  // namespace oval4d::session

@@ -33,7 +33,7 @@ bool replaceInState(State& state, const slicing::Object& before, const slicing::
         const double ratio = slicing::initialSliceExtent(object) / slicing::initialSliceExtent(state.object);
         slices.spacing *= ratio;
         slices.offset *= ratio;
-    } else if (hasSpanningSpacing(state)) {
+    } else if (slicesSpanObject(state)) {
         slices.spacing = spanningSpacing(object, slices.count);
     }
     const double radius = slicing::infoOf(object).circumradius, reach = kMaxOffset * radius;
@@ -60,11 +60,11 @@ void replaceField(Session& session, const slicing::Object& before, const slicing
     }
 }
 
-std::optional<LoadObject> loadOfFinerLevel(const State& state) {
+std::optional<LoadObject> loadCommandForFinerLevel(const State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source || field->imageLevel.finer == 0) return {};
-    LoadObject load = loadOf(field->name, *field->source);
-    load.finer = FinerLevel{field->imageLevel.level - 1, field->initialLevel};
+    LoadObject load = loadCommandFor(field->name, *field->source);
+    load.finer = FinerImageLevel{field->imageLevel.level - 1, field->initialLevel};
     return load;
 }
 

@@ -27,9 +27,9 @@ void replaceField(Session& session, const slicing::Object& before, const slicing
 
 /// Returns the command that loads the next finer level of the multiscale image that the state shows. Returns an empty
 /// optional if no finer level is to be loaded.
-std::optional<LoadObject> loadOfFinerLevel(const State& state);
+std::optional<LoadObject> loadCommandForFinerLevel(const State& state);
 
-/// Returns a copy of `field` for which loadOfFinerLevel() returns no further level.
+/// Returns a copy of `field` for which loadCommandForFinerLevel() returns no further level.
 slicing::Object withoutFinerLevels(const slicing::Object& field);
 
 }  // namespace oval4d::session

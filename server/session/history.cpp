@@ -17,7 +17,7 @@ State withOrbit(State state, const scene::CameraOrbit& orbit) {
 
 // Returns whether two states are equal apart from the camera. Different transformations of one object to the same frame
 // of reference count as equal.
-bool isSameStep(const State& a, const State& b) {
+bool differOnlyInCamera(const State& a, const State& b) {
     State compared = withOrbit(a, b.look.orbit);
     if (a.source == b.source && a.referenceFrame == b.referenceFrame) compared.object = b.object;
     return compared == b;
@@ -25,16 +25,16 @@ bool isSameStep(const State& a, const State& b) {
 
 // Returns whether the change from `before` to `next` needs an undo step of its own. The end of continuous turning or of
 // playing needs none, because it belongs to the step that started the motion.
-bool isNewStep(State before, const State& next) {
+bool isNewUndoStep(State before, const State& next) {
     before.turning = before.turning && next.turning;
     before.playing = before.playing && next.playing;
-    return !isSameStep(before, next);
+    return !differOnlyInCamera(before, next);
 }
 
 // Appends `state` to `steps`. Replaces the last step if it equals `state` apart from the camera.
 template <typename Steps>
 void addStep(Steps& steps, const State& state) {
-    if (!steps.empty() && isSameStep(steps.back(), state)) steps.pop_back();
+    if (!steps.empty() && differOnlyInCamera(steps.back(), state)) steps.pop_back();
     steps.push_back(state);
 }
 
@@ -42,8 +42,8 @@ void addStep(Steps& steps, const State& state) {
 // current state, with the present camera, and appends the old current state to `to`. Removes this step and all later
 // steps from `from`. Returns false and changes nothing if there is no such step.
 template <typename From, typename To>
-bool moveToLastStep(Session& session, From& from, To& to) {
-    const auto isOther = [&](const State& step) { return !isSameStep(step, session.current); };
+bool stepThroughHistory(Session& session, From& from, To& to) {
+    const auto isOther = [&](const State& step) { return !differOnlyInCamera(step, session.current); };
     const auto found = std::find_if(from.rbegin(), from.rend(), isOther);
     if (found == from.rend()) return false;
     State next = withOrbit(std::move(*found), session.current.look.orbit);
@@ -54,7 +54,7 @@ bool moveToLastStep(Session& session, From& from, To& to) {
     return true;
 }
 
-std::size_t bytesOfFilter(const State& state) {
+std::size_t filterMemoryOf(const State& state) {
     return sizeof(std::uint32_t) * (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size());
 }
 
@@ -70,15 +70,15 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
                std::ranges::any_of(session.loaded, [&](const auto& own) { return own.second == object; });
     };
     for (const State& step : session.undoSteps) {
-        bytes += bytesOfFilter(step);
-        for (const slicing::Object* object : step.objects()) {
+        bytes += filterMemoryOf(step);
+        for (const slicing::Object* object : step.sourceAndObject()) {
             if (!isHeld(*object) && ++steps[slicing::identityOf(*object)] == 1) bytes += unsharedMemory(*object);
         }
     }
     while (bytes > maxBytes && !session.undoSteps.empty()) {
         const State& oldest = session.undoSteps.front();
-        bytes -= bytesOfFilter(oldest);
-        for (const slicing::Object* object : oldest.objects()) {
+        bytes -= filterMemoryOf(oldest);
+        for (const slicing::Object* object : oldest.sourceAndObject()) {
             const auto held = steps.find(slicing::identityOf(*object));
             if (held != steps.end() && --held->second == 0) bytes -= unsharedMemory(*object);
         }
@@ -87,9 +87,9 @@ void limitHistoryBytes(Session& session, std::size_t maxBytes) {
 }
 
 // Makes `next` the current state, without an undo step. `next` must differ from the current state.
-void replaceCurrent(Session& session, State next, const Limits& limits) {
+void replaceCurrentState(Session& session, State next, const Limits& limits) {
     const bool historyGrows = session.current.object != next.object || session.current.source != next.source ||
-                              bytesOfFilter(session.current) > 0;
+                              filterMemoryOf(session.current) > 0;
     session.current = std::move(next);
     ++session.revision;
     if (historyGrows) limitHistoryBytes(session, limits.maxUndoBytes);
@@ -97,25 +97,25 @@ void replaceCurrent(Session& session, State next, const Limits& limits) {
 
 }  // namespace
 
-void commit(Session& session, State next, const Limits& limits) {
+void commitUndoStep(Session& session, State next, const Limits& limits) {
     if (next == session.current) return;
-    if (isNewStep(session.current, next)) {
+    if (isNewUndoStep(session.current, next)) {
         session.current.playing = session.current.playing && next.playing;
         addStep(session.undoSteps, session.current);
         while (session.undoSteps.size() > limits.maxUndo) session.undoSteps.pop_front();
         session.redoSteps.clear();
     }
-    replaceCurrent(session, std::move(next), limits);
+    replaceCurrentState(session, std::move(next), limits);
 }
 
 const State* stateBeforeAmendableStep(const Session& session) {
     return session.undoSteps.empty() || !session.redoSteps.empty() ? nullptr : &session.undoSteps.back();
 }
 
-void amend(Session& session, State next, const Limits& limits) {
-    if (stateBeforeAmendableStep(session) == nullptr) return commit(session, std::move(next), limits);
+void amendUndoStep(Session& session, State next, const Limits& limits) {
+    if (stateBeforeAmendableStep(session) == nullptr) return commitUndoStep(session, std::move(next), limits);
     if (next == session.current) return;
-    replaceCurrent(session, std::move(next), limits);
+    replaceCurrentState(session, std::move(next), limits);
 }
 
 void forgetOlderHalf(Session& session) {
@@ -124,12 +124,12 @@ void forgetOlderHalf(Session& session) {
 }
 
 Result<std::monostate> undo(Session& session) {
-    if (moveToLastStep(session, session.undoSteps, session.redoSteps)) return std::monostate{};
+    if (stepThroughHistory(session, session.undoSteps, session.redoSteps)) return std::monostate{};
     return Error{ErrorCode::nothing_to_undo, "nothing to undo: the session is at its first state"};
 }
 
 Result<std::monostate> redo(Session& session) {
-    if (moveToLastStep(session, session.redoSteps, session.undoSteps)) return std::monostate{};
+    if (stepThroughHistory(session, session.redoSteps, session.undoSteps)) return std::monostate{};
     return Error{ErrorCode::nothing_to_undo, "nothing to redo: nothing has been undone since the last change"};
 }
 

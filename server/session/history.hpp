@@ -20,14 +20,14 @@ namespace oval4d::session {
 /// undo step and removes all redo steps, unless `next` differs only in the camera, or ends continuous turning or
 /// playing. If `next` ends playing and has other changes, undo does not resume playing. Finally removes the oldest undo
 /// steps until the history is within `limits`.
-void commit(Session& session, State next, const Limits& limits);
+void commitUndoStep(Session& session, State next, const Limits& limits);
 
 /// Makes `next` the current state, as a part of the last undo step: undo then returns to the state before that step. If
-/// there is no undo step, or if there are redo steps, works like commit().
-void amend(Session& session, State next, const Limits& limits);
+/// there is no undo step, or if there are redo steps, works like commitUndoStep().
+void amendUndoStep(Session& session, State next, const Limits& limits);
 
-/// Returns the state before the undo step that amend() would extend. Returns null if amend() would do the same as
-/// commit().
+/// Returns the state before the undo step that amendUndoStep() would extend. Returns null if amendUndoStep() would do
+/// the same as commitUndoStep().
 const State* stateBeforeAmendableStep(const Session& session);
 
 /// Removes the older half of the undo steps to free memory.

@@ -57,7 +57,7 @@ void scaleSpacing(State& state, double factor) {
 }
 
 VoidResult showNeighbor(ActionContext& c, int by) {
-    auto object = neighborOf(c.state.source, by, c.loaded, c.loader);
+    auto object = neighborInObjectList(c.state.source, by, c.loaded, c.loader);
     if (!object) return object.error();
     return replaceObject(c.state, std::move(*object), c.loader);
 }
@@ -72,7 +72,7 @@ void toggleView(State& state, scene::View view) {
 
 // Calls `act`, an action that cannot fail, and returns success.
 template <auto act>
-VoidResult always(ActionContext& c) {
+VoidResult succeedAfter(ActionContext& c) {
     act(c);
     return std::monostate{};
 }
@@ -87,11 +87,11 @@ Value nextChoice(Value value) {
 }
 
 // Returns the actions with code of their own. allActions() makes all others from tables.
-std::vector<Action> ownActions() {
+std::vector<KeyAction> individualActions() {
     return {
-        {"rotate", always<[](ActionContext& c) {
-             const geometry::Turn turn(c.plane, c.state.alpha,
-                                       c.isDoubleRotation ? std::optional(c.state.beta) : std::nullopt);
+        {"rotate", succeedAfter<[](ActionContext& c) {
+             const geometry::RotationAngles turn(c.plane, c.state.alpha,
+                                                 c.isDoubleRotation ? std::optional(c.state.beta) : std::nullopt);
              rotate(c.state, c.inverse ? turn.inverse() : turn);
          }>},
         {"repeat",
@@ -107,28 +107,29 @@ std::vector<Action> ownActions() {
              c.state.ongoingTurnToward.reset();
              return std::monostate{};
          }},
-        {"play", always<[](ActionContext& c) { c.state.playing = !c.state.playing; }>},
-        {"focus_right", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
-        {"focus_left", always<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
-        {"focus_zero", always<[](ActionContext& c) {
+        {"play", succeedAfter<[](ActionContext& c) { c.state.playing = !c.state.playing; }>},
+        {"focus_right", succeedAfter<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus + 1); }>},
+        {"focus_left", succeedAfter<[](ActionContext& c) { moveFocus(c.state, c.state.slices.focus - 1); }>},
+        {"focus_zero", succeedAfter<[](ActionContext& c) {
              moveFocus(c.state, 0);
              c.state.slices.offset = 0;
          }>},
-        {"focus_first", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
-        {"focus_last", always<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
-        {"vertex_next", [](ActionContext& c) { return moveFocusToCritical(c.state, true, c.loader); }, nullptr, true},
-        {"vertex_previous", [](ActionContext& c) { return moveFocusToCritical(c.state, false, c.loader); }, nullptr,
+        {"focus_first", succeedAfter<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).first); }>},
+        {"focus_last", succeedAfter<[](ActionContext& c) { moveFocus(c.state, nonemptySlices(c.state).second); }>},
+        {"vertex_next", [](ActionContext& c) { return moveFocusToNextCritical(c.state, true, c.loader); }, nullptr,
          true},
-        {"spacing_smaller", always<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
-        {"spacing_larger", always<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
+        {"vertex_previous", [](ActionContext& c) { return moveFocusToNextCritical(c.state, false, c.loader); }, nullptr,
+         true},
+        {"spacing_smaller", succeedAfter<[](ActionContext& c) { scaleSpacing(c.state, 1 / kSpacingFactor); }>},
+        {"spacing_larger", succeedAfter<[](ActionContext& c) { scaleSpacing(c.state, kSpacingFactor); }>},
         {"slices_fewer",
-         always<[](ActionContext& c) { setSliceCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
-        {"slices_more", always<[](ActionContext& c) {
+         succeedAfter<[](ActionContext& c) { setSliceCount(c.state, std::max(c.state.slices.count - 2, 1)); }>},
+        {"slices_more", succeedAfter<[](ActionContext& c) {
              if (c.state.slices.count + 2 <= c.limits.maxSlices) setSliceCount(c.state, c.state.slices.count + 2);
          }>},
         {"polytope_next", [](ActionContext& c) { return showNeighbor(c, 1); }, nullptr, true},
         {"polytope_previous", [](ActionContext& c) { return showNeighbor(c, -1); }, nullptr, true},
-        {"view", always<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
+        {"view", succeedAfter<[](ActionContext& c) { toggleView(c.state, scene::View::single); }>},
         {"undo", nullptr, undo},
         {"redo", nullptr, redo},
     };
@@ -136,7 +137,7 @@ std::vector<Action> ownActions() {
 
 // Adds the actions that increase and decrease the number of a setting by a step (see KeySteps).
 template <typename Row>
-void addSteps(const Row& setting, std::vector<Action>& actions) {
+void addSteps(const Row& setting, std::vector<KeyAction>& actions) {
     const auto add = [&](const std::string& ending, auto next) {
         actions.push_back({std::string(setting.name.text) + ending, [setting, next](ActionContext& c) -> VoidResult {
                                double& value = setting.ofState(c.state);
@@ -158,9 +159,9 @@ void addSteps(const Row& setting, std::vector<Action>& actions) {
     }
 }
 
-std::vector<Action> allActions() {
-    std::vector<Action> actions = ownActions();
-    for (const scene::NamedPart& part : scene::kParts) {
+std::vector<KeyAction> allActions() {
+    std::vector<KeyAction> actions = individualActions();
+    for (const scene::NamedPicturePart& part : scene::kParts) {
         actions.push_back({std::string(part.name), [flag = part.flag](ActionContext& c) -> VoidResult {
                                bool& isShown = c.state.look.parts.*flag;
                                isShown = !isShown;
@@ -187,7 +188,7 @@ std::vector<Action> allActions() {
     }
     for (const scene::ViewRow& row : scene::kViews) {
         // The view `oval` has no action of its own, because the actions of all other views lead back to it. The action
-        // "view" of ownActions() toggles the view `single`.
+        // "view" of individualActions() toggles the view `single`.
         if (row.value == scene::View::oval || row.value == scene::View::single) continue;
         actions.push_back({std::string(row.name), [to = row.value](ActionContext& c) -> VoidResult {
                                toggleView(c.state, to);
@@ -200,7 +201,7 @@ std::vector<Action> allActions() {
             using SettingValueType = std::remove_cvref_t<decltype(setting.ofState(std::declval<State&>()))>;
             if constexpr (text::HasChoices<SettingValueType> && !std::is_same_v<SettingValueType, scene::View>) {
                 actions.push_back({std::string(setting.name.text), [setting](ActionContext& c) -> VoidResult {
-                                       Set set;
+                                       ChangeSettings set;
                                        setting.ofSet(set) = nextChoice(setting.ofState(c.state));
                                        return applySet(c.state, set, c.loaded, c.limits, c.loader);
                                    }});
@@ -212,8 +213,8 @@ std::vector<Action> allActions() {
 
 }  // namespace
 
-std::span<const Action> keyActions() {
-    static const std::vector<Action> actions = allActions();
+std::span<const KeyAction> keyActions() {
+    static const std::vector<KeyAction> actions = allActions();
     return actions;
 }
 

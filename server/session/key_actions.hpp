@@ -23,7 +23,7 @@ struct ActionContext {
 
 /// An action that a key triggers. Exactly one of the two functions is set. `onState` changes a copy of the current
 /// state. If it succeeds, the caller commits the copy to the session. `onSession` changes the session itself.
-struct Action {
+struct KeyAction {
     std::string name;  ///< the value of "action" in protocol/keymap.json
     std::function<Result<std::monostate>(ActionContext&)> onState = nullptr;
     std::function<Result<std::monostate>(Session&)> onSession = nullptr;
@@ -39,6 +39,6 @@ struct Action {
 /// - for each other setting that is an enumeration, an action with the name of the setting that selects the next
 ///   value;
 /// - for each setting with KeySteps, two actions that increase and decrease the number by a step.
-std::span<const Action> keyActions();
+std::span<const KeyAction> keyActions();
 
 }  // namespace oval4d::session

@@ -19,7 +19,7 @@ bool isDigit(const std::string& key) { return key.size() == 1 && key[0] >= '0' &
 
 // Normalizes a key. An uppercase letter becomes the lowercase letter with Shift. Keys other than letters and digits
 // lose Shift, because the character of such a key already depends on Shift.
-Key normalized(Key key) {
+KeyPress normalized(KeyPress key) {
     if (key.key == "Space" || key.key == "Spacebar") key.key = " ";
     if (isUpper(key.key)) {
         key.key[0] = static_cast<char>(key.key[0] - 'A' + 'a');
@@ -32,13 +32,13 @@ Key normalized(Key key) {
 
 // A row of the key table in protocol/keymap.json.
 struct KeyTableRow {
-    Key key;
+    KeyPress key;
     std::string first;  // the first key of a sequence of two keys, where `key` is the second; else empty
-    Binding binding{};
+    KeyBinding binding{};
     bool client = false;  // whether only the client handles this key
 };
 
-std::vector<KeyTableRow> readTable() {
+std::vector<KeyTableRow> readKeyTable() {
     std::vector<KeyTableRow> table;
     const nlohmann::json keymap = nlohmann::json::parse(protocol_data::embeddedFile("keymap.json"));
     for (const nlohmann::json& row : keymap.at("keys")) {
@@ -56,7 +56,7 @@ std::vector<KeyTableRow> readTable() {
         }
         const std::string action = row.at("action");
         const auto actions = keyActions();
-        const auto at = std::ranges::find(actions, action, &Action::name);
+        const auto at = std::ranges::find(actions, action, &KeyAction::name);
         if (at == actions.end()) throw std::logic_error("keymap.json: no action is called " + action);
         entry.binding.action = &*at;
         if (row.contains("planes")) {
@@ -73,17 +73,17 @@ std::vector<KeyTableRow> readTable() {
     return table;
 }
 
-const std::vector<KeyTableRow>& table() {
-    static const std::vector<KeyTableRow> entries = readTable();
+const std::vector<KeyTableRow>& keyTable() {
+    static const std::vector<KeyTableRow> entries = readKeyTable();
     return entries;
 }
 
 }  // namespace
 
-Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending) {
-    const Key wanted = normalized(key);
+Result<std::optional<KeyBinding>> bindingOf(const KeyPress& key, std::string& pending) {
+    const KeyPress wanted = normalized(key);
     bool begins = false;
-    for (const KeyTableRow& entry : table()) {
+    for (const KeyTableRow& entry : keyTable()) {
         const bool same =
             entry.key.key == wanted.key && entry.key.shift == wanted.shift && entry.key.ctrl == wanted.ctrl;
         if (same && entry.first == pending) {
@@ -106,7 +106,7 @@ Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending) {
     }
     if (begins) {
         pending = wanted.key;
-        return std::optional<Binding>{};
+        return std::optional<KeyBinding>{};
     }
     return Error{ErrorCode::unknown_key, "the key " + text::inQuotes((key.ctrl ? "Ctrl-" : "") + key.key) +
                                              " has no meaning; the key table lists all keys (get keymap)"};

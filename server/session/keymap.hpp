@@ -12,8 +12,8 @@
 namespace oval4d::session {
 
 /// The action that a key triggers, and the action's arguments.
-struct Binding {
-    const Action* action = nullptr;
+struct KeyBinding {
+    const KeyAction* action = nullptr;
     geometry::Plane plane = geometry::Plane::xy;
     bool isDoubleRotation = false;  ///< whether to rotate also by the angle beta, in the perpendicular plane
     bool inverse = false;           ///< whether to turn in the opposite direction
@@ -23,6 +23,6 @@ struct Binding {
 /// key of a sequence in progress; empty if there is none. The function updates `pending`: the first g of "gg" sets it
 /// to "g", and a key with an action clears it. A key that does not continue the sequence acts as if no sequence had
 /// begun. Error: `unknown_key`, also for keys that only the client handles; `pending` is then unchanged.
-Result<std::optional<Binding>> bindingOf(const Key& key, std::string& pending);
+Result<std::optional<KeyBinding>> bindingOf(const KeyPress& key, std::string& pending);
 
 }  // namespace oval4d::session

@@ -40,7 +40,7 @@ constexpr std::size_t kMaxName = 64;  // maximum length of an object's name, in 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
 // Returns the number of characters of a UTF-8 text.
-std::size_t characters(std::string_view text) {
+std::size_t characterCount(std::string_view text) {
     constexpr unsigned kContinuation = 0x80, kMask = 0xC0;
     return static_cast<std::size_t>(
         std::ranges::count_if(text, [](char c) { return (static_cast<unsigned>(c) & kMask) != kContinuation; }));
@@ -50,7 +50,7 @@ std::size_t characters(std::string_view text) {
 std::string firstCharacters(std::string_view text, std::size_t count) {
     std::size_t end = 0;
     for (std::size_t length = 0; end < text.size(); ++end) {
-        length += characters(text.substr(end, 1));
+        length += characterCount(text.substr(end, 1));
         if (length > count) break;
     }
     return std::string(text.substr(0, end));
@@ -59,7 +59,7 @@ std::string firstCharacters(std::string_view text, std::size_t count) {
 bool isCloudKeyword(std::string_view word) { return text::normalizedName(word) == "cloud"; }
 
 Error errorOf(const FileError& error) {
-    return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::message(error)};
+    return {error.tooLarge ? ErrorCode::too_large : ErrorCode::bad_polytope, text_files::fileErrorText(error)};
 }
 
 // Appends a warning if the object has a new origin because it was far from the origin of its file.
@@ -73,8 +73,8 @@ void warnOfMove(const geometry::Centering& wanted, const glm::dvec4& originInFil
 
 polytopes::ImportLimits importLimits(const Limits& limits) { return {limits.maxVertices, limits.maxHullCells}; }
 
-Result<ObjectWithWarnings> polytopeFrom(std::variant<polytopes::ImportedPolytope, FileError> imported,
-                                        const LoadObject& load) {
+Result<ObjectWithWarnings> objectFromImport(std::variant<polytopes::ImportedPolytope, FileError> imported,
+                                            const LoadObject& load) {
     if (const auto* error = std::get_if<FileError>(&imported)) return errorOf(*error);
     auto& [polytope, warnings] = std::get<polytopes::ImportedPolytope>(imported);
     warnOfMove(load.center, polytope.originInFile, warnings);
@@ -127,11 +127,11 @@ ObjectWithWarnings readSurface(std::string_view text, const LoadObject& load, co
 // Reads a 4OFF file: a polytope, or a surface if the file lists no cells.
 Result<ObjectWithWarnings> readOff(const LoadObject& load, const Limits& limits) {
     try {
-        const std::string text = text_files::plainText(load.data);
+        const std::string text = text_files::decodePlainText(load.data);
         if (!polytopes::listsCells(text)) return readSurface(text, load, limits);
-        return polytopeFrom(
-            polytopes::importPlainText(polytopes::FileFormat::off4, text, load.name, importLimits(limits), load.center),
-            load);
+        return objectFromImport(polytopes::importPlainText(polytopes::PolytopeFileFormat::off4, text, load.name,
+                                                           importLimits(limits), load.center),
+                                load);
     } catch (const FileError& error) {
         return errorOf(error);
     }
@@ -139,9 +139,9 @@ Result<ObjectWithWarnings> readOff(const LoadObject& load, const Limits& limits)
 
 // Reads a list of points, and returns their convex hull.
 Result<ObjectWithWarnings> readHull(const LoadObject& load, const Limits& limits) {
-    return polytopeFrom(polytopes::importPolytope(polytopes::FileFormat::points, load.data, load.name,
-                                                  importLimits(limits), load.center),
-                        load);
+    return objectFromImport(polytopes::importPolytope(polytopes::PolytopeFileFormat::points, load.data, load.name,
+                                                      importLimits(limits), load.center),
+                            load);
 }
 
 // Reads a point cloud: an optional keyword CLOUD, then a table of points with optional radii.
@@ -153,9 +153,9 @@ Result<ObjectWithWarnings> readCloud(const LoadObject& load, const Limits& limit
         radii.push_back(row.radius);
     };
     try {
-        std::string text = text_files::plainText(load.data);
+        std::string text = text_files::decodePlainText(load.data);
         // Replace the keyword by blanks, but keep the comments above it: they may name the columns of the table.
-        if (const std::string_view word = text_files::Tokenizer(text).next(); isCloudKeyword(word))
+        if (const std::string_view word = text_files::Tokenizer(text).nextWord(); isCloudKeyword(word))
             text.replace(static_cast<std::size_t>(word.data() - text.data()), word.size(), word.size(), ' ');
         auto warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices, .radii = true}, add);
         const glm::dvec4 center = geometry::newOriginFor(load.center, points);
@@ -188,7 +188,7 @@ Result<fields::FileContents> contentsOf(const LoadObject& load) {
         return Error{ErrorCode::bad_field, "the data are not Base64 (RFC 4648, with padding)"};
     }
     bytes.resize(size);
-    return fields::FileContents::of(std::move(bytes));
+    return fields::FileContents::ofBytes(std::move(bytes));
 }
 
 Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& limits) {
@@ -198,7 +198,7 @@ Result<ObjectWithWarnings> readArrayFile(const LoadObject& load, const Limits& l
 }
 
 // Returns an error if a maximum of the box is less than the minimum. The error message calls the box `name`.
-std::optional<Error> checkOrder(const fields::Box& box, std::string_view name) {
+std::optional<Error> checkBoxEndsOrder(const fields::Box& box, std::string_view name) {
     for (int axis = 0; axis < 4; ++axis) {
         if (box.min[axis] <= box.max[axis]) continue;
         return Error{ErrorCode::out_of_range, "the ends of the " + std::string(name) + " along " + "xyzw"[axis] +
@@ -207,9 +207,9 @@ std::optional<Error> checkOrder(const fields::Box& box, std::string_view name) {
     return {};
 }
 
-// Returns the error of checkOrder(), or an error if the box has no extent along an axis with several samples.
+// Returns the error of checkBoxEndsOrder(), or an error if the box has no extent along an axis with several samples.
 std::optional<Error> checkBox(const fields::Box& box, const fields::Shape& shape) {
-    if (auto error = checkOrder(box, "box")) return error;
+    if (auto error = checkBoxEndsOrder(box, "box")) return error;
     for (int axis = 0; axis < 4; ++axis) {
         const bool wide = shape.at(static_cast<std::size_t>(axis)) > 1;
         if (wide && box.min[axis] == box.max[axis])
@@ -238,9 +238,10 @@ std::vector<std::string> warningsOfRounding(const fields::Box& box) {
 
 // Makes a field from the array that `read` returns for `options`, and sets the field's second function.
 template <typename Read>
-Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name, fields::FieldReadOptions options,
-                                      const SecondFunctionSource& second) {
-    if (auto error = options.region ? checkOrder(*options.region, "region") : std::nullopt) return std::move(*error);
+Result<ObjectWithWarnings> makeFieldFrom(const Read& read, const std::string& name, fields::FieldReadOptions options,
+                                         const SecondFunctionSource& second) {
+    if (auto error = options.region ? checkBoxEndsOrder(*options.region, "region") : std::nullopt)
+        return std::move(*error);
     Result<fields::FieldArray> array = read(options);
     if (!array) return array.error();
     if (options.box) array->units = {};  // the units in the file apply to the file's box only
@@ -267,28 +268,28 @@ Result<ObjectWithWarnings> objectFrom(const Read& read, const std::string& name,
 
 /// A file format, its name in `load` messages, and its reader. Formats of arrays have no rows here: see
 /// fields::fieldFormats().
-struct FormatRow {
+struct LoadFormatRow {
     std::string_view name, title;  ///< `name` is used in messages, and `title` in the texts of errors
     Result<ObjectWithWarnings> (*read)(const LoadObject& load, const Limits& limits);
     bool buildsHull;
 };
-constexpr auto kFormats = std::to_array<FormatRow>({
+constexpr auto kFormats = std::to_array<LoadFormatRow>({
     {"off", "off (4OFF)", readOff, false},
     {"points", "points", readHull, true},
     {"cloud", "cloud", readCloud, false},
     {kFormula, kFormula, readFormulaText, false},
 });
-constexpr FormatRow kArrayFormat{"", "", readArrayFile, false};
+constexpr LoadFormatRow kArrayFormat{"", "", readArrayFile, false};
 
-const FormatRow* formatNamed(std::string_view name) {
+const LoadFormatRow* formatNamed(std::string_view name) {
     if (isArrayFormat(name)) return &kArrayFormat;
-    const auto row = std::ranges::find(kFormats, name, &FormatRow::name);
+    const auto row = std::ranges::find(kFormats, name, &LoadFormatRow::name);
     return row == kFormats.end() ? nullptr : &*row;
 }
 
-Error unsupported(std::string_view format) {
+Error unsupportedFormatError(std::string_view format) {
     std::vector<std::string_view> allowed;
-    for (const FormatRow& row : kFormats) allowed.push_back(row.title);
+    for (const LoadFormatRow& row : kFormats) allowed.push_back(row.title);
     for (const std::string_view name : arrayFormatNames()) allowed.push_back(name);
     return {ErrorCode::unsupported_format, "the format " + text::inQuotes(format) +
                                                " cannot be read; allowed formats: " + text::commaSeparated(allowed)};
@@ -307,11 +308,11 @@ Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limi
         }
         return readSeries(files, load, optionsForReading(load, limits));
     }
-    const FormatRow* row = formatNamed(load.format);
-    return row == nullptr ? Result<ObjectWithWarnings>(unsupported(load.format)) : row->read(load, limits);
+    const LoadFormatRow* row = formatNamed(load.format);
+    return row == nullptr ? Result<ObjectWithWarnings>(unsupportedFormatError(load.format)) : row->read(load, limits);
 }
 
-LoadObject loadOf(const std::string& name, const fields::FileSource& source) {
+LoadObject loadCommandFor(const std::string& name, const fields::FieldFileSource& source) {
     const auto& [dataName, format, axes, variable, secondFormula, secondVariable, box, region] = source;
     LoadObject load{name, format, {}};
     load.dataName = dataName;
@@ -335,12 +336,12 @@ Result<ObjectWithWarnings> readFormula(const LoadObject& load) {
 
 Result<ObjectWithWarnings> readArray(const fields::FileContents& file, const std::string& name,
                                      const fields::FieldReadOptions& options, const SecondFunctionSource& second) {
-    return objectFrom([&](const auto& of) { return fields::readField(file, of); }, name, options, second);
+    return makeFieldFrom([&](const auto& of) { return fields::readField(file, of); }, name, options, second);
 }
 
 Result<ObjectWithWarnings> readZarr(const fields::FolderFileReader& folder, const std::string& name,
                                     const fields::FieldReadOptions& options, const SecondFunctionSource& second) {
-    return objectFrom([&](const auto& of) { return fields::readZarr(folder, of); }, name, options, second);
+    return makeFieldFrom([&](const auto& of) { return fields::readZarr(folder, of); }, name, options, second);
 }
 
 fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits& limits,
@@ -358,15 +359,15 @@ fields::FieldReadOptions optionsForReading(const LoadObject& load, const Limits&
 
 Result<ObjectWithWarnings> readSeries(std::span<const fields::FileContents> files, const LoadObject& load,
                                       const fields::FieldReadOptions& options) {
-    return objectFrom([&](const auto& of) { return fields::readSeries(files, of); }, load.name, options,
-                      {load.secondFormula, load.secondVariable});
+    return makeFieldFrom([&](const auto& of) { return fields::readSeries(files, of); }, load.name, options,
+                         {load.secondFormula, load.secondVariable});
 }
 
 std::string_view detectTextFormat(std::string_view text) {
     try {
-        const std::string plain = text_files::plainText(text);
-        if (polytopes::detectFileFormat(plain) == polytopes::FileFormat::off4) return "off";
-        return isCloudKeyword(text_files::Tokenizer(plain).next()) ? "cloud" : "points";
+        const std::string plain = text_files::decodePlainText(text);
+        if (polytopes::detectFileFormat(plain) == polytopes::PolytopeFileFormat::off4) return "off";
+        return isCloudKeyword(text_files::Tokenizer(plain).nextWord()) ? "cloud" : "points";
     } catch (const FileError&) {
         return "points";  // readObject() then reads the text as points and reports the fault
     }
@@ -376,25 +377,25 @@ std::string objectNameFor(std::string_view fileName, const Limits& limits) {
     constexpr std::string_view kSuffix = " (file)";
     std::string name = firstCharacters(text::printable(fileName, fileName.size()), kMaxName);
     if (name.empty()) name = "object";
-    const bool taken = exampleNamed(name) != nullptr ||
-                       std::holds_alternative<polytopes::Design>(polytopes::designNamed(name, limits.maxVertices));
+    const bool taken = exampleNamed(name) != nullptr || std::holds_alternative<polytopes::PolytopeDesign>(
+                                                            polytopes::designNamed(name, limits.maxVertices));
     if (taken) name = firstCharacters(name, kMaxName - kSuffix.size()).append(kSuffix);
     return name;
 }
 
 std::optional<Error> checkLoad(const LoadObject& load, const Limits& limits) {
-    if (load.name.empty() || !text::isUtf8(load.name) || characters(load.name) > kMaxName ||
+    if (load.name.empty() || !text::isUtf8(load.name) || characterCount(load.name) > kMaxName ||
         std::ranges::any_of(load.name, isControl)) {
         return Error{ErrorCode::bad_message, "the name of an object must have 1 to 64 printable characters"};
     }
-    if (std::holds_alternative<polytopes::Design>(polytopes::designNamed(load.name, limits.maxVertices))) {
+    if (std::holds_alternative<polytopes::PolytopeDesign>(polytopes::designNamed(load.name, limits.maxVertices))) {
         return Error{ErrorCode::bad_polytope,
                      text::inQuotes(load.name) + " is a name of the catalogue; choose another"};
     }
     constexpr std::string_view kZarr = "zarr";  // a Zarr folder is recognized by its files, whatever format the command
                                                 // names
     const bool detected = load.isArrayInFiles() && (load.format.empty() || load.format == kZarr);
-    if (!detected && formatNamed(load.format) == nullptr) return unsupported(load.format);
+    if (!detected && formatNamed(load.format) == nullptr) return unsupportedFormatError(load.format);
     const bool array = detected || isArrayFormat(load.format);
     const auto refused = [&](const std::string& what) {
         return Error{ErrorCode::bad_message, what + ", not the format " + text::inQuotes(load.format)};
@@ -423,12 +424,12 @@ bool isArrayFormat(std::string_view format) {
 
 std::vector<std::string_view> arrayFormatNames() {
     std::vector<std::string_view> names;
-    for (const fields::FieldFormat& format : fields::fieldFormats()) names.push_back(format.name);
+    for (const fields::FieldFileFormat& format : fields::fieldFormats()) names.push_back(format.name);
     return names;
 }
 
 bool buildsHull(std::string_view format) {
-    const FormatRow* row = formatNamed(format);
+    const LoadFormatRow* row = formatNamed(format);
     return row != nullptr && row->buildsHull;
 }
 

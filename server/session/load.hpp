@@ -33,7 +33,7 @@ struct ObjectWithWarnings {
 Result<ObjectWithWarnings> readObject(const LoadObject& load, const Limits& limits);
 
 /// Returns the command that reads the field `name` again from its file in the server's data folder.
-LoadObject loadOf(const std::string& name, const fields::FileSource& source);
+LoadObject loadCommandFor(const std::string& name, const fields::FieldFileSource& source);
 
 /// Makes a field from the formula in `load`. Takes less than a millisecond. Warns if the box is so far from 0 that the
 /// surfaces get steps from rounded coordinates. Errors: those of fields::fieldFromFormula().

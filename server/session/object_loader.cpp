@@ -17,7 +17,7 @@ constexpr std::size_t kSmall = 1000;
 
 const Error kLater{ErrorCode::internal, "the object is not available yet"};
 
-std::size_t elementsOf(const slicing::Object& object) {
+std::size_t totalElementCount(const slicing::Object& object) {
     const auto counts = slicing::elementCounts(object);
     return std::accumulate(counts.begin(), counts.end(), std::size_t{0});
 }
@@ -40,7 +40,7 @@ ObjectLoader::ObjectLoader(const Limits& limits, polytopes::PolytopeCache& cache
                            CriticalSearchOptions search)
     : limits_(limits), cache_(&cache), mode_(mode), reader_(std::move(reader)), search_(search) {}
 
-Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
+Result<slicing::Object> ObjectLoader::build(const polytopes::PolytopeDesign& design) {
     try {
         return slicing::Object(cache_->get(design));
     } catch (const polytopes::TooLarge& fault) {
@@ -50,7 +50,7 @@ Result<slicing::Object> ObjectLoader::build(const polytopes::Design& design) {
     }
 }
 
-Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::Design& design) {
+Result<slicing::Object> ObjectLoader::polytopeOf(const polytopes::PolytopeDesign& design) {
     if (mode_ == LoadingMode::immediate) return build(design);
     if (built_ && builtName_ == design.name) return *built_;
     if (auto ready = cache_->find(design)) {
@@ -92,7 +92,7 @@ Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& sourc
     });
     if (made != objectsInFrames_.end()) return made->object;
     ObjectInReferenceFrame wanted{source, frame};
-    if (elementsOf(source) <= kSmall) {
+    if (totalElementCount(source) <= kSmall) {
         wanted.object = slicing::transformedTo(source, frame);
         return objectsInFrames_.emplace_back(std::move(wanted)).object;
     }
@@ -100,8 +100,8 @@ Result<slicing::Object> ObjectLoader::transformedTo(const slicing::Object& sourc
     return kLater;
 }
 
-Result<slicing::CriticalSectionsPtr> ObjectLoader::search(const CriticalSearchArguments& arguments,
-                                                          std::stop_token stop) {
+Result<slicing::CriticalSectionsPtr> ObjectLoader::searchCriticalSections(const CriticalSearchArguments& arguments,
+                                                                          std::stop_token stop) {
     const auto& [object, orientation, settings] = arguments;
     if (search_.cache != nullptr) {
         // Another search may have found the critical sections while this search waited for a thread.
@@ -126,14 +126,14 @@ Result<slicing::CriticalSectionsPtr> ObjectLoader::criticalSections(const State&
             return *critical_;
         }
     }
-    if (mode_ == LoadingMode::immediate || (!isField && elementsOf(state.object) <= kSmall))
-        return search(arguments, {});
+    if (mode_ == LoadingMode::immediate || (!isField && totalElementCount(state.object) <= kSmall))
+        return searchCriticalSections(arguments, {});
     pending_ = std::move(arguments);
     return kLater;
 }
 
 void ObjectLoader::completePending(std::stop_token stop) {
-    if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
+    if (const auto* design = std::get_if<polytopes::PolytopeDesign>(&pending_)) {
         built_ = build(*design);
         builtName_ = design->name;
     } else if (const auto* load = std::get_if<const LoadObject*>(&pending_)) {
@@ -145,7 +145,7 @@ void ObjectLoader::completePending(std::stop_token stop) {
         objectsInFrames_.push_back(
             {wanted->source, wanted->frame, slicing::transformedTo(wanted->source, wanted->frame)});
     } else if (const auto* arguments = std::get_if<CriticalSearchArguments>(&pending_)) {
-        critical_ = search(*arguments, std::move(stop));
+        critical_ = searchCriticalSections(*arguments, std::move(stop));
         searched_ = arguments->object;
     }
     pending_ = std::monostate{};
@@ -169,11 +169,11 @@ std::size_t ObjectLoader::memoryNeeded() const {
     // Counts the memory of the critical values, which is small for a field. Does not count the memory of the search
     // itself, which needs as much as drawing a picture.
     if (const auto* arguments = std::get_if<CriticalSearchArguments>(&pending_))
-        return kFixed + sizeof(slicing::CriticalSection) * elementsOf(arguments->object);
+        return kFixed + sizeof(slicing::CriticalSection) * totalElementCount(arguments->object);
     constexpr std::size_t kPerTransformedElement = 128;
     if (const auto* wanted = std::get_if<ObjectInReferenceFrame>(&pending_))
-        return kPerTransformedElement * elementsOf(wanted->source);
-    const auto* design = std::get_if<polytopes::Design>(&pending_);
+        return kPerTransformedElement * totalElementCount(wanted->source);
+    const auto* design = std::get_if<polytopes::PolytopeDesign>(&pending_);
     if (design == nullptr) return 0;
     const polytopes::ElementCounts counts = polytopes::elementCounts(*design);
     constexpr std::size_t kPerHullPoint = 10240;  // memory for simplices, their neighbors, and the perturbed points
@@ -197,7 +197,7 @@ std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
     constexpr double kElement = 3e-6, kByte = 5e-7, kPointByte = 3e-6, kArrayByte = 5e-9, kTransformedElement = 4e-8,
                      kSearch = 1, kHullPoint = 2e-4;
     double seconds = 2e-4;
-    if (const auto* design = std::get_if<polytopes::Design>(&pending_)) {
+    if (const auto* design = std::get_if<polytopes::PolytopeDesign>(&pending_)) {
         const auto [vertices, edges, faces, cells] = polytopes::elementCounts(*design);
         seconds += kElement * static_cast<double>(vertices + edges + faces + cells) +
                    kHullPoint * static_cast<double>(design->recipe->hullPointCount());
@@ -209,7 +209,7 @@ std::chrono::duration<double> ObjectLoader::estimatedDuration() const {
     } else if (const auto* extension = std::get_if<TimeStepsToAppend>(&pending_)) {
         seconds += kArrayByte * static_cast<double>(slicing::memoryOf(extension->field));
     } else if (const auto* wanted = std::get_if<ObjectInReferenceFrame>(&pending_)) {
-        seconds += kTransformedElement * static_cast<double>(elementsOf(wanted->source));
+        seconds += kTransformedElement * static_cast<double>(totalElementCount(wanted->source));
     } else if (isSearchPending()) {
         seconds += kSearch;
     }

@@ -66,7 +66,7 @@ class ObjectLoader {
 
     /// Returns the polytope of a design (the recipe for a named polytope). Errors: `unknown_polytope` if the polytope
     /// cannot be built; `too_large` if the computation of a convex hull exceeds a limit.
-    Result<slicing::Object> polytopeOf(const polytopes::Design& design);
+    Result<slicing::Object> polytopeOf(const polytopes::PolytopeDesign& design);
 
     /// Returns the object that `load` specifies. `load` must outlive the loader, unless it names an array in the
     /// server's data folder. Errors: the errors of checkLoad() and readObject().
@@ -118,8 +118,9 @@ class ObjectLoader {
         slicing::Object object = {};  // `source` in the coordinates of `frame`; null while pending
     };
 
-    Result<slicing::CriticalSectionsPtr> search(const CriticalSearchArguments& arguments, std::stop_token stop);
-    Result<slicing::Object> build(const polytopes::Design& design);
+    Result<slicing::CriticalSectionsPtr> searchCriticalSections(const CriticalSearchArguments& arguments,
+                                                                std::stop_token stop);
+    Result<slicing::Object> build(const polytopes::PolytopeDesign& design);
 
     Limits limits_;
     polytopes::PolytopeCache* cache_;
@@ -130,8 +131,8 @@ class ObjectLoader {
     struct TimeStepsToAppend {
         slicing::Object field, added;
     };
-    std::variant<std::monostate, polytopes::Design, const LoadObject*, ObjectInReferenceFrame, TimeStepsToAppend,
-                 CriticalSearchArguments>
+    std::variant<std::monostate, polytopes::PolytopeDesign, const LoadObject*, ObjectInReferenceFrame,
+                 TimeStepsToAppend, CriticalSearchArguments>
         pending_;
     // The pending command if it names an array in the server's data folder; else null. `pending_` points to this
     // command.

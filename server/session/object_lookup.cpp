@@ -41,7 +41,7 @@ std::string suggestion(std::string_view name, const LoadedObjects& loaded) {
 
 }  // namespace
 
-std::optional<slicing::Object> loadedOrExample(std::string_view name, const LoadedObjects& loaded) {
+std::optional<slicing::Object> findLoadedOrExample(std::string_view name, const LoadedObjects& loaded) {
     if (const auto own = loaded.find(name); own != loaded.end()) return own->second;
     if (const ExampleField* example = exampleNamed(name)) return slicing::Object(example->field);
     return {};
@@ -49,22 +49,23 @@ std::optional<slicing::Object> loadedOrExample(std::string_view name, const Load
 
 Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& loaded, const Limits& limits,
                                    ObjectLoader& loader) {
-    if (const auto present = loadedOrExample(name, loaded)) return *present;
+    if (const auto present = findLoadedOrExample(name, loaded)) return *present;
     auto named = polytopes::designNamed(name, limits.maxVertices);
-    if (const auto* design = std::get_if<polytopes::Design>(&named)) {
+    if (const auto* design = std::get_if<polytopes::PolytopeDesign>(&named)) {
         auto built = loader.polytopeOf(*design);
         if (built || built.error().code != ErrorCode::unknown_polytope) return built;
-        named = polytopes::NameError{polytopes::NameError::Reason::impossible, built.error().message};
+        named = polytopes::PolytopeNameError{polytopes::PolytopeNameError::Reason::impossible, built.error().message};
     }
-    const auto& error = std::get<polytopes::NameError>(named);
-    if (error.reason == polytopes::NameError::Reason::too_large) return Error{ErrorCode::too_large, error.message};
+    const auto& error = std::get<polytopes::PolytopeNameError>(named);
+    if (error.reason == polytopes::PolytopeNameError::Reason::too_large)
+        return Error{ErrorCode::too_large, error.message};
     return Error{ErrorCode::unknown_polytope,
                  "no polytope is called " + text::inQuotes(name) +
                      (error.message.empty() ? suggestion(name, loaded) : ": " + error.message)};
 }
 
-Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const LoadedObjects& loaded,
-                                   ObjectLoader& loader) {
+Result<slicing::Object> neighborInObjectList(const slicing::Object& object, int by, const LoadedObjects& loaded,
+                                             ObjectLoader& loader) {
     std::vector<slicing::Object> own;
     for (const ExampleField& example : exampleFields()) {
         if (!loaded.contains(example.name)) own.emplace_back(example.field);

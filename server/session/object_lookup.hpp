@@ -17,12 +17,12 @@ Result<slicing::Object> findObject(std::string_view name, const LoadedObjects& l
 
 /// Returns the loaded object called `name`. If there is none, returns the example field with this name; without such a
 /// field, an empty optional.
-std::optional<slicing::Object> loadedOrExample(std::string_view name, const LoadedObjects& loaded);
+std::optional<slicing::Object> findLoadedOrExample(std::string_view name, const LoadedObjects& loaded);
 
 /// Returns the object before (`by` = −1) or after (`by` = 1) `object` in the cyclic list of catalogue entries, example
 /// fields and loaded objects. If the list does not contain `object`, returns the last example field for −1, and the
 /// first catalogue entry for 1. Errors: the errors of ObjectLoader::polytopeOf().
-Result<slicing::Object> neighborOf(const slicing::Object& object, int by, const LoadedObjects& loaded,
-                                   ObjectLoader& loader);
+Result<slicing::Object> neighborInObjectList(const slicing::Object& object, int by, const LoadedObjects& loaded,
+                                             ObjectLoader& loader);
 
 }  // namespace oval4d::session

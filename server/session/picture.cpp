@@ -4,7 +4,8 @@
 
 namespace oval4d::session {
 
-void writePicture(const State& state, scene::Viewport viewport, slicing::Quality quality, scene::PictureRequest& out) {
+void writePictureRequest(const State& state, scene::Viewport viewport, slicing::Quality quality,
+                         scene::PictureRequest& out) {
     // All members are named, so a new member of State makes this line fail to compile. Members that affect pictures
     // must be copied to the request. The angles of the rotation keys and the motion do not affect pictures.
     const auto& [source, frame, object, orientation, alpha, beta, step, slices, look, turning, lastTurn, ongoing,
@@ -15,9 +16,9 @@ void writePicture(const State& state, scene::Viewport viewport, slicing::Quality
                               quality);
 }
 
-scene::PictureRequest pictureOf(const State& state, scene::Viewport viewport, slicing::Quality quality) {
+scene::PictureRequest pictureRequestOf(const State& state, scene::Viewport viewport, slicing::Quality quality) {
     scene::PictureRequest picture;
-    writePicture(state, viewport, quality, picture);
+    writePictureRequest(state, viewport, quality, picture);
     return picture;
 }
 

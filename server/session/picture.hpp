@@ -6,10 +6,11 @@
 namespace oval4d::session {
 
 /// Writes to `out` what is needed to draw the picture of a state. Overwrites `out` and reuses its memory.
-void writePicture(const State& state, scene::Viewport viewport, slicing::Quality quality, scene::PictureRequest& out);
+void writePictureRequest(const State& state, scene::Viewport viewport, slicing::Quality quality,
+                         scene::PictureRequest& out);
 
-/// Returns the request that writePicture() writes.
-scene::PictureRequest pictureOf(const State& state, scene::Viewport viewport = {},
-                                slicing::Quality quality = slicing::Quality::full);
+/// Returns the request that writePictureRequest() writes.
+scene::PictureRequest pictureRequestOf(const State& state, scene::Viewport viewport = {},
+                                       slicing::Quality quality = slicing::Quality::full);
 
 }  // namespace oval4d::session

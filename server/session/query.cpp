@@ -39,21 +39,21 @@ Result<QueryParameters> objectParameters(const slicing::Object& object) {
         ends.push_back(field->box.min[axis]);
         ends.push_back(field->box.max[axis]);
     }
-    QueryParameters parameters{{std::string(kFormula), field->formula}, {"box", numberList(ends)}};
+    QueryParameters parameters{{std::string(kFormula), field->formula}, {"box", numberListText(ends)}};
     if (field->second) parameters.emplace_back("values", field->second->formula);
     return parameters;
 }
 
 // Returns the rotation from the initial orientation as text, such as "xy,zw:0.1,0.2"; an empty string for no rotation.
 std::string rotationText(const geometry::Rotation& orientation) {
-    const geometry::Turn turn = orientation.turn();
+    const geometry::RotationAngles turn = orientation.turn();
     std::string planes;
     std::vector<double> angles;
     for (const geometry::Plane plane : turn.planes()) {
         planes += (planes.empty() ? "" : ",") + std::string(geometry::name(plane));
         angles.push_back(*turn[plane]);
     }
-    return planes.empty() ? "" : planes + ":" + numberList(angles);
+    return planes.empty() ? "" : planes + ":" + numberListText(angles);
 }
 
 // Parses `Count` numbers or expressions, separated by commas. Error messages call the parameter `name` and describe its
@@ -78,7 +78,7 @@ Result<std::array<double, Count>> parseNumbers(std::string_view name, std::strin
 
 // Returns the error for a name that stateFromQuery() does not accept. The name may be unknown, may be one of `others`
 // (as in stateFromQuery()), or may be allowed only in the queries of pictures or of files.
-Error unknownName(std::string_view name, std::span<const std::string_view> others) {
+Error unknownNameError(std::string_view name, std::span<const std::string_view> others) {
     const auto isIn = [&](std::span<const std::string_view> names) {
         return std::ranges::find(names, name) != names.end();
     };
@@ -90,7 +90,7 @@ Error unknownName(std::string_view name, std::span<const std::string_view> other
     if (isIn(kFileParameters)) return refused("files, and not of pictures");
     std::vector<std::string_view> all{"rotate", "toward", kField, "formula", "values", "box"};
     all.insert(all.end(), others.begin(), others.end());
-    return unknownSetting(name, all);
+    return unknownSettingError(name, all);
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ Result<fields::Box> parseBox(std::string_view text, std::string_view name) {
     return box;
 }
 
-Result<geometry::Centering> parseCenter(std::string_view written) {
+Result<geometry::Centering> parseCentering(std::string_view written) {
     const std::string_view text = text::trimmed(written);
     using OriginChoice = geometry::Centering::OriginChoice;
     if (text == "object") return geometry::Centering{OriginChoice::object};
@@ -118,8 +118,8 @@ Result<geometry::Centering> parseCenter(std::string_view written) {
 Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits, ObjectLoader& loader, State state,
                              std::span<const std::string_view> others) {
     // Apply all settings together, so that the order of a count and a spacing in the query does not matter.
-    Set set;
-    std::vector<geometry::Turn> turns;
+    ChangeSettings set;
+    std::vector<geometry::RotationAngles> turns;
     std::optional<TurnToward> toward;
     LoadObject field{std::string(kFormula), std::string(kFormula), {}};
     for (const auto& [name, written] : query) {
@@ -149,7 +149,7 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
                 toward->number = *index;
             }
         } else if (auto done = parseSetting(name == kField ? kPolytope : std::string_view(name), value, set); !done) {
-            return done.error().code == ErrorCode::unknown_command ? unknownName(name, others) : done.error();
+            return done.error().code == ErrorCode::unknown_command ? unknownNameError(name, others) : done.error();
         }
     }
     const auto has = [&](std::string_view wanted) {
@@ -166,7 +166,7 @@ Result<State> stateFromQuery(const QueryParameters& query, const Limits& limits,
         if (!made) return made.error();
         if (auto done = replaceObject(state, std::move(made->object), loader); !done) return done.error();
     }
-    for (const geometry::Turn& turn : turns) rotate(state, turn);
+    for (const geometry::RotationAngles& turn : turns) rotate(state, turn);
     if (auto done = applySet(state, set, {}, limits, loader); !done) return done.error();
     if (toward) {
         if (auto done = turnToward(state, *toward); !done) return done.error();

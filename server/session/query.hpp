@@ -31,7 +31,7 @@ Result<fields::Box> parseBox(std::string_view text, std::string_view name = "box
 
 /// Parses the point about which an object turns: "object", "origin", or four numbers or expressions, separated by
 /// commas. Errors: `bad_expression`, and the errors of evaluate().
-Result<geometry::Centering> parseCenter(std::string_view written);
+Result<geometry::Centering> parseCentering(std::string_view written);
 
 /// Returns the state that a query describes. Names in the query may be: names that parseSetting() accepts; "field",
 /// another name of "polytope"; "formula", "box" and "values", which describe a field; "rotate", any number of times;

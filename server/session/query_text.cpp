@@ -15,7 +15,7 @@ namespace {
 
 /// Returns a query as it was before a mailer or a forum replaced "&" by "&amp;" or encoded the percent signs again
 /// (%252C).
-std::string repaired(std::string_view query) {
+std::string repairedQuery(std::string_view query) {
     std::string out;
     out.reserve(query.size());
     const auto isHexDigit = [&](std::size_t at) {
@@ -31,28 +31,28 @@ std::string repaired(std::string_view query) {
 
 /// The rules of protocol/address.json: names of parameters to ignore, and names of parameters whose values are not
 /// arithmetic expressions.
-struct SpecialParameters {
+struct QueryParameterRules {
     std::vector<std::string> ignored, texts;
 };
 
-const SpecialParameters& rules() {
-    static const SpecialParameters read = [] {
+const QueryParameterRules& specialParameters() {
+    static const QueryParameterRules read = [] {
         const auto table = nlohmann::json::parse(protocol_data::embeddedFile("address.json"));
-        return SpecialParameters{table.at("ignored"), table.at("texts")};
+        return QueryParameterRules{table.at("ignored"), table.at("texts")};
     }();
     return read;
 }
 
 /// Returns whether to ignore a parameter, because other sites append it to addresses ("utm_source", for example).
-bool isIgnored(std::string_view name) {
-    return std::ranges::any_of(rules().ignored, [&](std::string_view rule) {
+bool isIgnoredParameter(std::string_view name) {
+    return std::ranges::any_of(specialParameters().ignored, [&](std::string_view rule) {
         return rule.ends_with('*') ? name.starts_with(rule.substr(0, rule.size() - 1)) : name == rule;
     });
 }
 
 /// Returns whether `c`, a character beside a "+", can belong to an operand of the "+". For the character on the left,
 /// `parenthesis` must be ')'. For the character on the right, `parenthesis` must be '('.
-bool isOperand(char c, char parenthesis) {
+bool canEndOperand(char c, char parenthesis) {
     const bool isAscii = static_cast<unsigned char>(c) < 0x80;
     return text::isLetter(c) || text::isDigit(c) || c == '.' || c == parenthesis || !isAscii;
 }
@@ -70,15 +70,15 @@ bool startsWithUnit(std::string_view text) {
 /// 0.1+pi/8. A unit is not an operand: in 30+°, the "+" is a blank. Returns an empty optional if a percent escape is
 /// malformed.
 std::optional<std::string> decodedValue(std::string_view written, const std::string& name) {
-    const bool isArithmetic = std::ranges::find(rules().texts, name) == rules().texts.end();
+    const bool isArithmetic = std::ranges::find(specialParameters().texts, name) == specialParameters().texts.end();
     std::string value;
     for (bool isFirst = true;; isFirst = false) {
         const std::size_t plus = written.find('+');
         const auto piece = text::percentDecoded(written.substr(0, plus));
         if (!piece) return {};
         if (!isFirst) {
-            const bool adds = isArithmetic && !value.empty() && isOperand(value.back(), ')') && !piece->empty() &&
-                              isOperand(piece->front(), '(') && !startsWithUnit(*piece);
+            const bool adds = isArithmetic && !value.empty() && canEndOperand(value.back(), ')') && !piece->empty() &&
+                              canEndOperand(piece->front(), '(') && !startsWithUnit(*piece);
             value += adds ? '+' : ' ';
         }
         value += *piece;
@@ -91,7 +91,7 @@ std::optional<std::string> decodedValue(std::string_view written, const std::str
 
 std::optional<QueryParameters> parseQuery(std::string_view text) {
     QueryParameters query;
-    const std::string all = repaired(text);
+    const std::string all = repairedQuery(text);
     for (std::string_view rest = all; !rest.empty();) {
         const std::size_t end = std::min(rest.find('&'), rest.size());
         const std::string_view pair = rest.substr(0, end);
@@ -102,7 +102,7 @@ std::optional<QueryParameters> parseQuery(std::string_view text) {
         if (!name) return {};
         auto value = decodedValue(pair.substr(std::min(equals + 1, pair.size())), *name);
         if (!value) return {};
-        if (!isIgnored(*name)) query.emplace_back(*name, std::move(*value));
+        if (!isIgnoredParameter(*name)) query.emplace_back(*name, std::move(*value));
     }
     return query;
 }

@@ -35,20 +35,20 @@ using VoidResult = Result<std::monostate>;
 
 // Combines the rotations of an undo step into one turn, from the state `before` the step to `next`. `next.lastTurn` is
 // the newest rotation, from `current` to `next`. Returns `before.lastTurn` if the rotations cancel out.
-std::optional<geometry::Turn> turnOfStep(const State& before, const State& current, const State& next) {
+std::optional<geometry::RotationAngles> turnOfStep(const State& before, const State& current, const State& next) {
     constexpr double kSame = 1e-9;
     const geometry::Rotation whole = next.orientation * before.orientation.inverse();
     if (whole.largerAngle() < kSame) return before.lastTurn;
     if (current.lastTurn && next.lastTurn) {
         // Turns in the same planes add up, even beyond half a turn.
-        const geometry::Turn sum = *current.lastTurn + *next.lastTurn;
+        const geometry::RotationAngles sum = *current.lastTurn + *next.lastTurn;
         if (checkTurn(sum) && (geometry::Rotation(sum) * whole.inverse()).largerAngle() < kSame) return sum;
     }
     return whole.turn();
 }
 
 // Moves the focus to and fro along w for `seconds` seconds. State::playing must be true.
-void moveFocusToAndFro(State& state, double seconds) {
+void advancePlayback(State& state, double seconds) {
     const auto [least, most] = slicing::rangeOfW(state.object, state.orientation);
     const double distance = state.playSpeed * seconds * (most - least) / kSecondsFromEndToEnd;
     const double w = state.focusW() + (state.playsDownward ? -distance : distance);
@@ -61,7 +61,7 @@ void moveFocusToAndFro(State& state, double seconds) {
 }
 
 // Returns whether a query parameter describes the connection or the size of a picture, and not the view.
-bool isOfConnection(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
+bool isConnectionParameter(std::string_view name) { return name == "token" || name == "width" || name == "height"; }
 
 // Returns a random rotation; all rotations are equally probable. Its two unit quaternions are uniformly distributed (K.
 // Shoemake, "Uniform random rotations", Graphics Gems III, 1992). The same seed gives the same rotation.
@@ -80,20 +80,20 @@ geometry::Rotation randomRotation(std::optional<std::uint64_t> seed) {
 
 // A class that computes the outcome of a command that may need an object or critical values of w from the loader. Does
 // not change the session.
-class OutcomeOfCommand {
+class CommandOutcomeComputer {
   public:
-    OutcomeOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
+    CommandOutcomeComputer(const Session& session, const Limits& limits, ObjectLoader& loader)
         : session_(session), limits_(limits), loader_(loader) {}
 
-    Result<Outcome> of(const Binding& binding) const {
-        Outcome outcome{session_.current};
+    Result<CommandOutcome> compute(const KeyBinding& binding) const {
+        CommandOutcome outcome{session_.current};
         ActionContext context{outcome.next,  session_.loaded,          limits_,        loader_,
                               binding.plane, binding.isDoubleRotation, binding.inverse};
         if (VoidResult done = binding.action->onState(context); !done) return done.error();
         return outcome;
     }
-    Result<Outcome> of(const Set& command) const {
-        Outcome outcome{session_.current};
+    Result<CommandOutcome> compute(const ChangeSettings& command) const {
+        CommandOutcome outcome{session_.current};
         if (command.formula) {
             outcome.loaded = session_.loaded;
             if (VoidResult done = loadFormula(*command.formula, *outcome.loaded); !done) return done.error();
@@ -103,11 +103,11 @@ class OutcomeOfCommand {
         return outcome;
     }
     // LoadObject::append must be false.
-    Result<Outcome> of(const LoadObject& command) const {
-        if (VoidResult room = checkRoom(session_.loaded, command.name); !room) return room.error();
+    Result<CommandOutcome> compute(const LoadObject& command) const {
+        if (VoidResult room = checkLoadedObjectLimit(session_.loaded, command.name); !room) return room.error();
         const auto reading = loader_.objectFrom(command);
         if (!reading) return reading.error();
-        Outcome outcome{session_.current, session_.loaded};
+        CommandOutcome outcome{session_.current, session_.loaded};
         State& next = outcome.next;
         if (VoidResult done = replaceObject(next, reading->object, loader_); !done) return done.error();
         const State& before = session_.current;
@@ -120,18 +120,18 @@ class OutcomeOfCommand {
                 next.playing = before.playing;
             }
         } else {
-            keepSettingsOfPart(before, command, next);
+            carryOverFieldSettings(before, command, next);
         }
         outcome.loaded->insert_or_assign(command.name, reading->object);
         return outcome;
     }
-    Result<Outcome> of(const ShowLinkedView& command) const {
+    Result<CommandOutcome> compute(const ShowLinkedView& command) const {
         auto query = parseQuery(command.query);
         if (!query) {
             return Error{ErrorCode::bad_expression,
                          "in the query of an address, two hexadecimal digits must follow each %, as in 5%25"};
         }
-        std::erase_if(*query, [](const auto& parameter) { return isOfConnection(parameter.first); });
+        std::erase_if(*query, [](const auto& parameter) { return isConnectionParameter(parameter.first); });
         const auto has = [&](std::string_view name) {
             return std::ranges::find(*query, name, &QueryParameters::value_type::first) != query->end();
         };
@@ -140,10 +140,10 @@ class OutcomeOfCommand {
         if (has("rotate") || has(kPolytope) || has(kField) || has(kFormula)) returnToInitialOrientation(start);
         auto next = stateFromQuery(*query, limits_, loader_, std::move(start));
         if (!next) return next.error();
-        Outcome outcome{std::move(*next)};
+        CommandOutcome outcome{std::move(*next)};
         const auto formula = std::ranges::find(*query, kFormula, &QueryParameters::value_type::first);
         if (formula != query->end()) {
-            if (VoidResult room = checkRoom(session_.loaded, formula->first); !room) return room.error();
+            if (VoidResult room = checkLoadedObjectLimit(session_.loaded, formula->first); !room) return room.error();
             outcome.loaded = session_.loaded;
             outcome.loaded->insert_or_assign(formula->first, outcome.next.source);
         }
@@ -161,7 +161,7 @@ class OutcomeOfCommand {
     }
 
   private:
-    VoidResult checkRoom(const LoadedObjects& loaded, const std::string& name) const {
+    VoidResult checkLoadedObjectLimit(const LoadedObjects& loaded, const std::string& name) const {
         if (loaded.size() < limits_.maxLoaded || loaded.contains(name)) return std::monostate{};
         return Error{ErrorCode::too_many, "a session holds at most " + std::to_string(limits_.maxLoaded) +
                                               " loaded objects; load under a name that is in use to replace one"};
@@ -170,14 +170,14 @@ class OutcomeOfCommand {
     // Adds the field of a formula to `loaded`, unless `loaded` or the example fields have the same field with this
     // name.
     VoidResult loadFormula(const LoadObject& load, LoadedObjects& loaded) const {
-        if (const auto present = loadedOrExample(load.name, loaded)) {
+        if (const auto present = findLoadedOrExample(load.name, loaded)) {
             const fields::Field* const field = slicing::fieldIn(*present);
             const std::string second = field != nullptr && field->second ? field->second->formula : "";
             if (field != nullptr && field->formula == load.data && second == load.secondFormula &&
                 field->box == load.box)
                 return std::monostate{};
         }
-        if (VoidResult room = checkRoom(loaded, load.name); !room) return room;
+        if (VoidResult room = checkLoadedObjectLimit(loaded, load.name); !room) return room;
         const auto reading = loader_.objectFrom(load);
         if (!reading) return reading.error();
         loaded.insert_or_assign(load.name, reading->object);
@@ -196,7 +196,7 @@ class CommandApplier {
     CommandApplier(Session& session, const Limits& limits, ObjectLoader& loader, ComputedOutcome computed)
         : session_(session), limits_(limits), outcome_(session, limits, loader), computed_(std::move(computed)) {}
 
-    VoidResult operator()(const Key& key) {
+    VoidResult operator()(const KeyPress& key) {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
         if (!binding) return binding.error();
@@ -211,32 +211,32 @@ class CommandApplier {
         // During continuous turning, the orientation also changes between the commands of a step. turnOfStep() cannot
         // be used then, because it compares orientations.
         if (before != nullptr && !next.turning) next.lastTurn = turnOfStep(*before, session_.current, next);
-        (command.continues ? amend : commit)(session_, std::move(next), limits_);
+        (command.continues ? amendUndoStep : commitUndoStep)(session_, std::move(next), limits_);
         return std::monostate{};
     }
     VoidResult operator()(const TurnToward& command) {
         State next = session_.current;
         if (VoidResult done = turnToward(next, command); !done) return done;
-        commit(session_, std::move(next), limits_);
+        commitUndoStep(session_, std::move(next), limits_);
         return std::monostate{};
     }
     VoidResult operator()(const TurnAtRandom& command) {
         State next = session_.current;
         next.orientation = randomRotation(command.seed);
         next.ongoingTurnToward.reset();
-        commit(session_, std::move(next), limits_);
+        commitUndoStep(session_, std::move(next), limits_);
         return std::monostate{};
     }
-    VoidResult operator()(const Set& command) { return finish(outcomeOf(command), command.continues); }
+    VoidResult operator()(const ChangeSettings& command) { return storeOutcome(outcomeOf(command), command.continues); }
     VoidResult operator()(const LoadObject& command) {
-        return command.append ? append(command) : finish(outcomeOf(command), command.continues);
+        return command.append ? append(command) : storeOutcome(outcomeOf(command), command.continues);
     }
     VoidResult operator()(const Undo& /*command*/) { return undo(session_); }
     VoidResult operator()(const Redo& /*command*/) { return redo(session_); }
-    VoidResult operator()(const Reset& /*command*/) {
+    VoidResult operator()(const ResetOrientationAndFocus& /*command*/) {
         State next = session_.current;
         resetOrientationAndFocus(next);
-        commit(session_, std::move(next), limits_);
+        commitUndoStep(session_, std::move(next), limits_);
         return std::monostate{};
     }
     VoidResult operator()(const CommandLine& command) {
@@ -244,17 +244,19 @@ class CommandApplier {
         if (!parsed) return parsed.error();
         return std::visit(*this, *parsed);
     }
-    VoidResult operator()(const ShowLinkedView& command) { return finish(outcomeOf(command), false); }
+    VoidResult operator()(const ShowLinkedView& command) { return storeOutcome(outcomeOf(command), false); }
 
   private:
-    Result<Outcome> outcomeOf(const auto& command) { return computed_ ? std::move(*computed_) : outcome_.of(command); }
+    Result<CommandOutcome> outcomeOf(const auto& command) {
+        return computed_ ? std::move(*computed_) : outcome_.compute(command);
+    }
 
     // Stores the outcome of a command in the session, or returns its error. `continues` says whether undo treats the
     // command and the previous command as one step.
-    VoidResult finish(Result<Outcome> outcome, bool continues) {
+    VoidResult storeOutcome(Result<CommandOutcome> outcome, bool continues) {
         if (!outcome) return outcome.error();
         if (outcome->loaded) session_.loaded = std::move(*outcome->loaded);
-        (continues ? amend : commit)(session_, std::move(outcome->next), limits_);
+        (continues ? amendUndoStep : commitUndoStep)(session_, std::move(outcome->next), limits_);
         return std::monostate{};
     }
 
@@ -268,37 +270,37 @@ class CommandApplier {
         return std::monostate{};
     }
 
-    VoidResult press(const Binding& binding) {
+    VoidResult press(const KeyBinding& binding) {
         if (binding.action->onSession != nullptr) return binding.action->onSession(session_);
-        return finish(outcomeOf(binding), false);
+        return storeOutcome(outcomeOf(binding), false);
     }
 
     Session& session_;
     const Limits& limits_;
-    const OutcomeOfCommand outcome_;
+    const CommandOutcomeComputer outcome_;
     ComputedOutcome computed_;
 };
 
 // A visitor that computes the outcome of a command, so that the loader notes what the command needs. Returns an empty
 // outcome for commands that need nothing from the loader, and for appended time steps.
-class NeedsOfCommand {
+class CommandNeedsFinder {
   public:
-    NeedsOfCommand(const Session& session, const Limits& limits, ObjectLoader& loader)
+    CommandNeedsFinder(const Session& session, const Limits& limits, ObjectLoader& loader)
         : session_(session), outcome_(session, limits, loader) {}
 
-    ComputedOutcome operator()(const Key& key) const {
+    ComputedOutcome operator()(const KeyPress& key) const {
         std::string pending = session_.pendingKey;
         const auto binding = bindingOf(key, pending);
         if (!binding || !*binding || !(*binding)->action->mayNeedLoading) return {};
-        return outcome_.of(**binding);
+        return outcome_.compute(**binding);
     }
-    ComputedOutcome operator()(const Set& command) const {
+    ComputedOutcome operator()(const ChangeSettings& command) const {
         // A formula needs nothing from the loader, because its field is made at once.
         if (!command.object && !command.pace && !command.follow && !command.boost) return {};
-        return outcome_.of(command);
+        return outcome_.compute(command);
     }
     ComputedOutcome operator()(const LoadObject& command) const {
-        if (!command.append) return outcome_.of(command);
+        if (!command.append) return outcome_.compute(command);
         static_cast<void>(outcome_.extendedField(command));
         return {};
     }
@@ -306,17 +308,17 @@ class NeedsOfCommand {
         const auto parsed = parseCommandLine(command.line, session_.current);
         return parsed ? std::visit(*this, *parsed) : ComputedOutcome();
     }
-    ComputedOutcome operator()(const ShowLinkedView& command) const { return outcome_.of(command); }
+    ComputedOutcome operator()(const ShowLinkedView& command) const { return outcome_.compute(command); }
     ComputedOutcome operator()(const Rotate& /*command*/) const { return {}; }
     ComputedOutcome operator()(const TurnToward& /*command*/) const { return {}; }
     ComputedOutcome operator()(const TurnAtRandom& /*command*/) const { return {}; }
     ComputedOutcome operator()(const Undo& /*command*/) const { return {}; }
     ComputedOutcome operator()(const Redo& /*command*/) const { return {}; }
-    ComputedOutcome operator()(const Reset& /*command*/) const { return {}; }
+    ComputedOutcome operator()(const ResetOrientationAndFocus& /*command*/) const { return {}; }
 
   private:
     const Session& session_;
-    const OutcomeOfCommand outcome_;
+    const CommandOutcomeComputer outcome_;
 };
 
 }  // namespace
@@ -342,7 +344,7 @@ double spanningSpacing(const slicing::Object& object, int count) {
 
 bool needsLoading(const Session& session, const Command& command, const Limits& limits, ObjectLoader& loader,
                   ComputedOutcome& outcome) {
-    outcome = std::visit(NeedsOfCommand(session, limits, loader), command);
+    outcome = std::visit(CommandNeedsFinder(session, limits, loader), command);
     if (loader.isPending()) outcome.reset();  // it only contains the error that something is missing
     return loader.isPending();
 }
@@ -364,14 +366,14 @@ std::size_t unsharedMemory(const slicing::Object& object) {
     return shared ? 0 : slicing::memoryOf(object);
 }
 
-std::size_t ownObjectMemory(const Session& session) {
+std::size_t unsharedMemoryOfObjects(const Session& session) {
     std::map<const void*, const slicing::Object*> objects;
     const auto add = [&](const slicing::Object& object) { objects.try_emplace(slicing::identityOf(object), &object); };
     auto addAll = [&, last = static_cast<const State*>(nullptr)](const State& state) mutable {
         const State* previous = std::exchange(last, &state);
         // Most states have the same objects as the previous state. Skip them, because they have been added already.
         if (previous != nullptr && previous->object == state.object && previous->source == state.source) return;
-        for (const slicing::Object* object : state.objects()) add(*object);
+        for (const slicing::Object* object : state.sourceAndObject()) add(*object);
     };
     addAll(session.current);
     for (const auto& [name, object] : session.loaded) add(object);
@@ -382,7 +384,7 @@ std::size_t ownObjectMemory(const Session& session) {
     return bytes;
 }
 
-void advance(Session& session, double seconds) {
+void advanceMotionBy(Session& session, double seconds) {
     State& state = session.current;
     const auto moving = [&state] {
         return std::tuple(state.orientation, state.ongoingTurnToward, state.slices, state.playsDownward);
@@ -402,7 +404,7 @@ void advance(Session& session, double seconds) {
         state.orientation =
             geometry::Rotation(state.lastTurn->scaled(kRotationRepeatsPerSecond * seconds)) * state.orientation;
     }
-    if (state.playing) moveFocusToAndFro(state, seconds);
+    if (state.playing) advancePlayback(state, seconds);
     if (before != moving()) ++session.revision;
 }
 

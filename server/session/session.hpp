@@ -43,9 +43,9 @@ struct HyperplaneSettings {
 void visitStoredMembers(serialization::ReadOrWritten<HyperplaneSettings> auto& slices, auto& visit) {
     auto& [count, spacing, focus, offset] = slices;
     visit.member(0, count);
-    visit.member(1, spacing, geometry::Range::finite());
+    visit.member(1, spacing, geometry::NumberRange::ofFiniteNumbers());
     visit.member(2, focus);
-    visit.addedMember(3, offset, geometry::Range::finite());
+    visit.memberAddedLater(3, offset, geometry::NumberRange::ofFiniteNumbers());
 }
 
 /// A turn in progress, which the command TurnToward has started. The object turns to the orientation `goal` along the
@@ -60,17 +60,17 @@ struct OngoingTurnToward {
 void visitStoredMembers(serialization::ReadOrWritten<OngoingTurnToward> auto& turn, auto& visit) {
     auto& [goal, seconds] = turn;
     visit.rotation(0, goal);
-    visit.member(2, seconds, geometry::Range::positiveUpTo(OngoingTurnToward::kMaxSeconds));
+    visit.member(2, seconds, geometry::NumberRange::positiveUpTo(OngoingTurnToward::kMaxSeconds));
 }
 
 /// Everything that determines a picture, except the viewport, the drawing quality and the viewer's color scheme. Undo
 /// restores all members except the camera's orbit.
 struct State {
     /// The range of alpha and beta, in radians.
-    static constexpr geometry::Range kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};
+    static constexpr geometry::NumberRange kAngleRange{-2 * std::numbers::pi, 2 * std::numbers::pi};
     /// The range of step, in radians.
-    static constexpr geometry::Range kStepRange{1e-9, 2 * std::numbers::pi};
-    static constexpr geometry::Range kPlaySpeedRange{1.0 / 16, 16};  ///< the range of playSpeed
+    static constexpr geometry::NumberRange kStepRange{1e-9, 2 * std::numbers::pi};
+    static constexpr geometry::NumberRange kPlaySpeedRange{1.0 / 16, 16};  ///< the range of playSpeed
 
     slicing::Object source;  ///< the object as built or loaded, in its own coordinates; never null
     geometry::ReferenceFrame referenceFrame;
@@ -81,13 +81,14 @@ struct State {
     double step;         ///< by how much the keys k, j, K and J change alpha or beta, in radians
     HyperplaneSettings slices;
     scene::Look look;
-    bool turning = false;                    ///< whether the object turns continuously, by repeating `lastTurn`
-    std::optional<geometry::Turn> lastTurn;  ///< the last rotation, which the keys '.' and space repeat; empty if none
-    /// The turn that the command TurnToward has started, until it reaches its goal in advance(). Empty if there is
-    /// none, and always empty while `turning` is true.
+    bool turning = false;  ///< whether the object turns continuously, by repeating `lastTurn`
+    std::optional<geometry::RotationAngles>
+        lastTurn;  ///< the last rotation, which the keys '.' and space repeat; empty if none
+    /// The turn that the command TurnToward has started, until it reaches its goal in advanceMotionBy(). Empty if there
+    /// is none, and always empty while `turning` is true.
     std::optional<OngoingTurnToward> ongoingTurnToward;
-    /// Whether advance() moves the focus to and fro between the lowest and the highest w of the object. Ends when a
-    /// command sets the focus or the offset.
+    /// Whether advanceMotionBy() moves the focus to and fro between the lowest and the highest w of the object. Ends
+    /// when a command sets the focus or the offset.
     bool playing = false;
     /// The direction in which the focus moves, or will move once `playing` becomes true.
     bool playsDownward = false;
@@ -95,7 +96,7 @@ struct State {
     double playSpeed = 1;
 
     /// Returns pointers to `source` and `object`. Both are the same object if `referenceFrame` is the default frame.
-    std::array<const slicing::Object*, 2> objects() const { return {&source, &object}; }
+    std::array<const slicing::Object*, 2> sourceAndObject() const { return {&source, &object}; }
     /// Returns the hyperplanes that `slices` describes.
     geometry::Hyperplanes hyperplanes() const;
     /// Returns the w of the focus slice, in units of the object.
@@ -115,20 +116,20 @@ void visitStoredMembers(serialization::ReadOrWritten<State> auto& state, auto& v
            playsDownward, playSpeed] = state;
     visit.object(0, source);
     visit.rotation(1, orientation);
-    visit.array(3, [&state](auto& angles) {
+    visit.nestedArray(3, [&state](auto& angles) {
         angles.member(0, state.alpha, State::kAngleRange);
         angles.member(1, state.beta, State::kAngleRange);
-        angles.member(2, state.step, geometry::Range::positiveUpTo(State::kStepRange.most));
+        angles.member(2, state.step, geometry::NumberRange::positiveUpTo(State::kStepRange.most));
     });
     visit.member(4, slices);
     visit.member(5, look);
     visit.member(6, turning);
     visit.member(7, lastTurn);
-    visit.addedMember(8, ongoing);
-    visit.addedMember(9, frame);
-    visit.addedMember(10, playing);
-    visit.addedMember(11, playsDownward);
-    visit.addedMember(12, playSpeed, State::kPlaySpeedRange);
+    visit.memberAddedLater(8, ongoing);
+    visit.memberAddedLater(9, frame);
+    visit.memberAddedLater(10, playing);
+    visit.memberAddedLater(11, playsDownward);
+    visit.memberAddedLater(12, playSpeed, State::kPlaySpeedRange);
 }
 
 /// Returns the initial state of a session: the 5-cell in the position of Kageyama's paper.
@@ -185,7 +186,7 @@ void visitStoredMembers(serialization::ReadOrWritten<Session> auto& session, aut
 std::size_t unsharedMemory(const slicing::Object& object);
 
 /// Returns the memory of a session's objects in bytes: the sum of unsharedMemory() over all different objects.
-std::size_t ownObjectMemory(const Session& session);
+std::size_t unsharedMemoryOfObjects(const Session& session);
 
 /// Returns the memory of a session's history in bytes, without the objects.
 std::size_t historyMemoryWithoutObjects(const Session& session);
@@ -193,12 +194,12 @@ std::size_t historyMemoryWithoutObjects(const Session& session);
 class ObjectLoader;
 
 /// The effect of a command on a session: the new state and the new loaded objects.
-struct Outcome {
+struct CommandOutcome {
     State next;
     std::optional<LoadedObjects> loaded = {};  ///< empty if the loaded objects stay the same
 };
 /// The outcome of a command, or the error of the command; empty if not computed yet.
-using ComputedOutcome = std::optional<Result<Outcome>>;
+using ComputedOutcome = std::optional<Result<CommandOutcome>>;
 
 /// Returns whether a command needs an object, or critical values of w, that `loader` does not have yet. If true, this
 /// object or search is pending in `loader`. The caller must then call ObjectLoader::completePending(), and call
@@ -225,6 +226,6 @@ inline constexpr double kSecondsFromEndToEnd = 8;
 /// the focus plays between the lowest and the highest w of the turned object; at an end, it stops at this end and
 /// reverses. Adds no undo step, because one undo step covers the whole motion. Increases the revision only if the state
 /// changes.
-void advance(Session& session, double seconds);
+void advanceMotionBy(Session& session, double seconds);
 
 }  // namespace oval4d::session

@@ -27,7 +27,7 @@ struct SettingName {
 inline constexpr std::string_view kRadians = " radians";
 
 /// The rule of a setting that may have every value of its type.
-struct AcceptsAnyValue {};
+struct AnyValueRule {};
 /// The steps by which keys change the number of a setting called NAME, within its range. By default, no keys change the
 /// number.
 struct KeySteps {
@@ -39,18 +39,18 @@ struct KeySteps {
     double State::* amount = nullptr;
 };
 /// The rule of a numeric setting: only numbers in `range` are accepted.
-struct NumberInRange {
+struct NumberRangeRule {
     std::string_view what;  ///< the subject of the error message, such as "the eye"
-    geometry::Range range;
+    geometry::NumberRange range;
     std::string_view unit{};  ///< the unit that the error message states after the range, such as " circumradii"
     KeySteps keys = {};
 };
 /// The rule of a setting that applySet() checks and changes with specific code, not with the table.
-struct CheckedByApplySet {};
+struct CheckedByApplySetRule {};
 
 /// The value of Setting::ofState for settings that are not read from a state. Such settings change other settings or
 /// the motion.
-struct NotInState {};
+struct NoStateValue {};
 
 /// The occasion on which a setting returns to its initial value.
 enum class ResetOccasion : std::uint8_t {
@@ -59,14 +59,14 @@ enum class ResetOccasion : std::uint8_t {
     by_reset_or_another_object,  ///< when another object is shown, and after the command `reset`
 };
 
-/// A setting. `ofSet` returns a reference to the setting's value in a Set (a std::optional). `ofState` returns the
-/// setting's value in a State: by reference if the value is one member of the State, else by value. If by value, the
-/// rule must be CheckedByApplySet.
+/// A setting. `ofSet` returns a reference to the setting's value in a ChangeSettings (a std::optional). `ofState`
+/// returns the setting's value in a State: by reference if the value is one member of the State, else by value. If by
+/// value, the rule must be CheckedByApplySetRule.
 template <typename OfSet, typename OfState, typename Rule>
 struct Setting {
-    static constexpr bool kIsInState = !std::is_same_v<OfState, NotInState>;
-    static constexpr bool kHasRange = std::is_same_v<Rule, NumberInRange>;
-    static constexpr bool kIsCheckedByApplySet = std::is_same_v<Rule, CheckedByApplySet>;
+    static constexpr bool kIsInState = !std::is_same_v<OfState, NoStateValue>;
+    static constexpr bool kHasRange = std::is_same_v<Rule, NumberRangeRule>;
+    static constexpr bool kIsCheckedByApplySet = std::is_same_v<Rule, CheckedByApplySetRule>;
 
     SettingName name;
     OfSet ofSet;
@@ -94,80 +94,86 @@ void forEachSetting(const Visitor& visit) {
         return [members...](auto& state) -> auto& { return (state.*....*members); };
     };
     using enum ResetOccasion;
-    // Visits a setting that applySet() checks and changes with specific code. `member` is its member of Set.
-    const auto visitWithOwnCode = [&](const SettingName& name, auto Set::* member, auto ofState, ResetOccasion setBack,
-                                      bool forFields = false) {
+    // Visits a setting that applySet() checks and changes with specific code. `member` is its member of ChangeSettings.
+    const auto visitWithOwnCode = [&](const SettingName& name, auto ChangeSettings::* member, auto ofState,
+                                      ResetOccasion setBack, bool forFields = false) {
         const auto ofSet = [member](auto& set) -> auto& { return set.*member; };
-        visit(Setting{name, ofSet, ofState, CheckedByApplySet{}, setBack, forFields});
+        visit(Setting{name, ofSet, ofState, CheckedByApplySetRule{}, setBack, forFields});
     };
-    // Visits a setting that applySet() only stores, if `rule` allows the value. Its new value is in Set::plain.
+    // Visits a setting that applySet() only stores, if `rule` allows the value. Its new value is in
+    // ChangeSettings::plain.
     const auto visitPlain = [&](const SettingName& name, auto ofState, auto rule, ResetOccasion setBack,
                                 bool forFields = false) {
         using Value = std::remove_cvref_t<decltype(ofState(std::declval<State&>()))>;
-        const auto ofSet = [text = name.text](auto& set) -> auto& { return set.plain.template of<Value>(text); };
+        const auto ofSet = [text = name.text](auto& set) -> auto& { return set.plain.template valueOf<Value>(text); };
         visit(Setting{name, ofSet, ofState, rule, setBack, forFields});
     };
 
     const auto frame = &State::referenceFrame;
-    visitWithOwnCode({"pace"}, &Set::pace, at(frame, &geometry::ReferenceFrame::pace), never);
-    visitWithOwnCode({"follow"}, &Set::follow, at(frame, &geometry::ReferenceFrame::follow), never);
-    visitWithOwnCode({"boost"}, &Set::boost, at(frame, &geometry::ReferenceFrame::boost), never);
+    visitWithOwnCode({"pace"}, &ChangeSettings::pace, at(frame, &geometry::ReferenceFrame::pace), never);
+    visitWithOwnCode({"follow"}, &ChangeSettings::follow, at(frame, &geometry::ReferenceFrame::follow), never);
+    visitWithOwnCode({"boost"}, &ChangeSettings::boost, at(frame, &geometry::ReferenceFrame::boost), never);
     visitPlain({"alpha"}, at(&State::alpha),
-               NumberInRange{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}}, never);
+               NumberRangeRule{"alpha", State::kAngleRange, kRadians, {.amount = &State::step}}, never);
     visitPlain({"beta"}, at(&State::beta),
-               NumberInRange{"beta", State::kAngleRange, kRadians, {.amount = &State::step}}, never);
-    visitPlain({"step"}, at(&State::step), NumberInRange{"the step", State::kStepRange, kRadians}, never);
+               NumberRangeRule{"beta", State::kAngleRange, kRadians, {.amount = &State::step}}, never);
+    visitPlain({"step"}, at(&State::step), NumberRangeRule{"the step", State::kStepRange, kRadians}, never);
 
     const auto slices = &State::slices;
-    visitWithOwnCode({"slices", "slices", "count"}, &Set::count, at(slices, &HyperplaneSettings::count), never);
-    visitWithOwnCode({"spacing", "slices"}, &Set::spacing, at(slices, &HyperplaneSettings::spacing), never);
-    visitWithOwnCode({"focus", "slices"}, &Set::focus, at(slices, &HyperplaneSettings::focus),
+    visitWithOwnCode({"slices", "slices", "count"}, &ChangeSettings::count, at(slices, &HyperplaneSettings::count),
+                     never);
+    visitWithOwnCode({"spacing", "slices"}, &ChangeSettings::spacing, at(slices, &HyperplaneSettings::spacing), never);
+    visitWithOwnCode({"focus", "slices"}, &ChangeSettings::focus, at(slices, &HyperplaneSettings::focus),
                      by_reset_or_another_object);
-    visitWithOwnCode({"offset", "slices"}, &Set::offset, at(slices, &HyperplaneSettings::offset),
+    visitWithOwnCode({"offset", "slices"}, &ChangeSettings::offset, at(slices, &HyperplaneSettings::offset),
                      by_reset_or_another_object);
-    visitWithOwnCode({"w", "slices"}, &Set::focusW, NotInState{}, never);
+    visitWithOwnCode({"w", "slices"}, &ChangeSettings::focusW, NoStateValue{}, never);
     visitWithOwnCode(
-        {"point"}, &Set::focusPoint, [](const State& state) { return state.focusPointInFile(); }, by_another_object);
+        {"point"}, &ChangeSettings::focusPoint, [](const State& state) { return state.focusPointInFile(); },
+        by_another_object);
 
     const auto look = &State::look;
-    visitPlain({"view"}, at(look, &Look::view), AcceptsAnyValue{}, never);
-    visitWithOwnCode({"turning"}, &Set::turning, NotInState{}, never);
-    visitWithOwnCode({"playing"}, &Set::playing, NotInState{}, never);
+    visitPlain({"view"}, at(look, &Look::view), AnyValueRule{}, never);
+    visitWithOwnCode({"turning"}, &ChangeSettings::turning, NoStateValue{}, never);
+    visitWithOwnCode({"playing"}, &ChangeSettings::playing, NoStateValue{}, never);
     visitPlain({"speed"}, at(&State::playSpeed),
-               NumberInRange{"the speed", State::kPlaySpeedRange, "", {.perDoubling = 1}}, never);
+               NumberRangeRule{"the speed", State::kPlaySpeedRange, "", {.perDoubling = 1}}, never);
     const auto orbit = &Look::orbit;
     using Orbit = scene::CameraOrbit;
     visitPlain({"azimuth", "camera"}, at(look, orbit, &Orbit::azimuth),
-               NumberInRange{"the camera's azimuth", Orbit::kAngleRange, kRadians}, never);
+               NumberRangeRule{"the camera's azimuth", Orbit::kAngleRange, kRadians}, never);
     visitPlain({"elevation", "camera"}, at(look, orbit, &Orbit::elevation),
-               NumberInRange{"the camera's elevation", Orbit::kAngleRange, kRadians}, never);
-    visitPlain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom), NumberInRange{"the camera's zoom", Orbit::kZoomRange},
-               never);
-    visitPlain({"color"}, at(look, &Look::coloring), AcceptsAnyValue{}, never);
-    visitPlain({"background"}, at(look, &Look::background), AcceptsAnyValue{}, never);
+               NumberRangeRule{"the camera's elevation", Orbit::kAngleRange, kRadians}, never);
+    visitPlain({"zoom", "camera"}, at(look, orbit, &Orbit::zoom),
+               NumberRangeRule{"the camera's zoom", Orbit::kZoomRange}, never);
+    visitPlain({"color"}, at(look, &Look::coloring), AnyValueRule{}, never);
+    visitPlain({"background"}, at(look, &Look::background), AnyValueRule{}, never);
     visitPlain({"thickness"}, at(look, &Look::thickness),
-               NumberInRange{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}}, never);
+               NumberRangeRule{"the thickness", Look::kThicknessRange, "", {.perDoubling = 4}}, never);
     visitPlain({"opacity"}, at(look, &Look::opacity),
-               NumberInRange{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}}, never);
+               NumberRangeRule{"the opacity", Look::kOpacityRange, "", {.perDoubling = 4}}, never);
     const auto projection = &Look::projection;
     using Projection = scene::ProjectionSettings;
-    visitPlain({"projection"}, at(look, projection, &Projection::kind), AcceptsAnyValue{}, never);
+    visitPlain({"projection"}, at(look, projection, &Projection::kind), AnyValueRule{}, never);
     visitPlain({"eye"}, at(look, projection, &Projection::eye),
-               NumberInRange{"the eye", Projection::kEyeRange, " circumradii"}, never);
+               NumberRangeRule{"the eye", Projection::kEyeRange, " circumradii"}, never);
     const auto field = &Look::field;
-    visitWithOwnCode({"levels"}, &Set::levels, at(look, field, &slicing::FieldSettings::levels), by_another_object,
+    visitWithOwnCode({"levels"}, &ChangeSettings::levels, at(look, field, &slicing::FieldSettings::levels),
+                     by_another_object, true);
+    visitWithOwnCode({"inside"}, &ChangeSettings::inside, at(look, field, &slicing::FieldSettings::inside),
+                     by_another_object, true);
+    visitPlain({"caps"}, at(look, &Look::caps), AnyValueRule{}, never, true);
+    visitWithOwnCode({"fog"}, &ChangeSettings::fog, at(look, field, &slicing::FieldSettings::fog), by_another_object,
                      true);
-    visitWithOwnCode({"inside"}, &Set::inside, at(look, field, &slicing::FieldSettings::inside), by_another_object,
-                     true);
-    visitPlain({"caps"}, at(look, &Look::caps), AcceptsAnyValue{}, never, true);
-    visitWithOwnCode({"fog"}, &Set::fog, at(look, field, &slicing::FieldSettings::fog), by_another_object, true);
     const auto cellTypes = &Look::cellTypes;
-    visitWithOwnCode({"hidden"}, &Set::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden), by_another_object);
-    visitWithOwnCode({"faded"}, &Set::faded, at(look, cellTypes, &scene::CellTypeFilter::faded), by_another_object);
-    visitWithOwnCode({"highlight"}, &Set::highlight, at(look, &Look::highlight), by_another_object);
+    visitWithOwnCode({"hidden"}, &ChangeSettings::hidden, at(look, cellTypes, &scene::CellTypeFilter::hidden),
+                     by_another_object);
+    visitWithOwnCode({"faded"}, &ChangeSettings::faded, at(look, cellTypes, &scene::CellTypeFilter::faded),
+                     by_another_object);
+    visitWithOwnCode({"highlight"}, &ChangeSettings::highlight, at(look, &Look::highlight), by_another_object);
 
-    for (const scene::NamedPart& part : scene::kParts)
-        visitPlain({part.name, "shown"}, at(look, &Look::parts, part.flag), AcceptsAnyValue{}, never);
+    for (const scene::NamedPicturePart& part : scene::kParts)
+        visitPlain({part.name, "shown"}, at(look, &Look::parts, part.flag), AnyValueRule{}, never);
 }
 
 }  // namespace oval4d::session

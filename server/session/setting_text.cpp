@@ -18,32 +18,32 @@ namespace oval4d::session {
 
 namespace {
 
-std::vector<std::string_view> names() {
+std::vector<std::string_view> collectSettingNames() {
     std::vector<std::string_view> all{kPolytope};
     forEachSetting([&](const auto& setting) { all.push_back(setting.name.text); });
     return all;
 }
 
-Error refusal(ErrorCode code, std::string message) { return {code, std::move(message)}; }
+Error makeError(ErrorCode code, std::string message) { return {code, std::move(message)}; }
 
 // A visitor that parses `text` as the value of the setting `name`, for each type of values.
-struct ValueReader {
+struct SettingValueParser {
     std::string_view name, text;
     bool isAngle = false;  // whether the value is an angle, which may have a unit
 
     Result<std::monostate> operator()(std::optional<double>& into) const {
         const auto value = isAngle ? evaluateAngle(text) : evaluate(text);
-        if (!value) return refusal(value.error().code, std::string(name) + ": " + value.error().message);
+        if (!value) return makeError(value.error().code, std::string(name) + ": " + value.error().message);
         into = *value;
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<int>& into) const {
         const auto value = evaluate(text);
-        if (!value) return refusal(value.error().code, std::string(name) + ": " + value.error().message);
+        if (!value) return makeError(value.error().code, std::string(name) + ": " + value.error().message);
         constexpr double kMaxMagnitude = 1'000'000'000;
         if (*value != std::trunc(*value) || std::abs(*value) > kMaxMagnitude) {
-            return refusal(ErrorCode::out_of_range,
-                           std::string(name) + " must be a whole number, not " + text::inQuotes(text));
+            return makeError(ErrorCode::out_of_range,
+                             std::string(name) + " must be a whole number, not " + text::inQuotes(text));
         }
         into = static_cast<int>(*value);
         return std::monostate{};
@@ -52,8 +52,8 @@ struct ValueReader {
         const bool yes = text == "on" || text == "true" || text == "yes" || text == "1";
         const bool no = text == "off" || text == "false" || text == "no" || text == "0";
         if (!yes && !no)
-            return refusal(ErrorCode::bad_expression,
-                           std::string(name) + " must be on or off, not " + text::inQuotes(text));
+            return makeError(ErrorCode::bad_expression,
+                             std::string(name) + " must be on or off, not " + text::inQuotes(text));
         into = yes;
         return std::monostate{};
     }
@@ -70,8 +70,8 @@ struct ValueReader {
     template <typename Vector>
     Result<std::monostate> readVector(std::ptrdiff_t size, std::string_view form, std::optional<Vector>& into) const {
         if (std::ranges::count(text, ',') != size - 1) {
-            return refusal(ErrorCode::bad_expression,
-                           std::string(name) + " must be " + std::string(form) + ", not " + text::inQuotes(text));
+            return makeError(ErrorCode::bad_expression,
+                             std::string(name) + " must be " + std::string(form) + ", not " + text::inQuotes(text));
         }
         const auto list = readNumbers();
         if (!list) return list.error();
@@ -79,7 +79,7 @@ struct ValueReader {
         return std::monostate{};
     }
     Result<std::monostate> operator()(std::optional<std::string>& into) const {
-        if (text.empty()) return refusal(ErrorCode::bad_expression, std::string(name) + " must be a name");
+        if (text.empty()) return makeError(ErrorCode::bad_expression, std::string(name) + " must be a name");
         into = std::string(text);
         return std::monostate{};
     }
@@ -105,11 +105,12 @@ struct ValueReader {
         const std::size_t first = word.find(':');
         const std::size_t second = first == std::string_view::npos ? first : word.find(':', first + 1);
         const auto malformed = [&] {
-            return refusal(ErrorCode::bad_expression,
-                           std::string(name) +
-                               " must be off, or points value:opacity or value:opacity:RRGGBB without blanks, such as "
-                               "0:0.8,1:0.2:ff8800,2:0, not " +
-                               text::inQuotes(text));
+            return makeError(
+                ErrorCode::bad_expression,
+                std::string(name) +
+                    " must be off, or points value:opacity or value:opacity:RRGGBB without blanks, such as "
+                    "0:0.8,1:0.2:ff8800,2:0, not " +
+                    text::inQuotes(text));
         };
         if (first == std::string_view::npos) return malformed();
         slicing::FogControlPoint point;
@@ -117,7 +118,7 @@ struct ValueReader {
             word.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
         for (const auto& [part, into] : {std::pair(word.substr(0, first), &point.value), {opacity, &point.opacity}}) {
             const auto value = evaluate(part);
-            if (!value) return refusal(value.error().code, std::string(name) + ": " + value.error().message);
+            if (!value) return makeError(value.error().code, std::string(name) + ": " + value.error().message);
             *into = *value;
         }
         if (second == std::string_view::npos) return point;
@@ -129,7 +130,7 @@ struct ValueReader {
     }
     Result<std::vector<double>> readNumbers() const {
         auto list = evaluateList(text);
-        if (!list) return refusal(list.error().code, std::string(name) + ": " + list.error().message);
+        if (!list) return makeError(list.error().code, std::string(name) + ": " + list.error().message);
         return list;
     }
     template <oval4d::text::HasChoices Enum>
@@ -137,9 +138,9 @@ struct ValueReader {
         const auto& choices = choicesOf(Enum{});
         into = oval4d::text::valueNamed(choices, text);
         if (into) return std::monostate{};
-        return refusal(ErrorCode::bad_expression, std::string(name) + " must be " +
-                                                      oval4d::text::alternatives(oval4d::text::namesOf(choices)) +
-                                                      ", not " + oval4d::text::inQuotes(text));
+        return makeError(ErrorCode::bad_expression, std::string(name) + " must be " +
+                                                        oval4d::text::joinedWithOr(oval4d::text::namesOf(choices)) +
+                                                        ", not " + oval4d::text::inQuotes(text));
     }
     Result<std::monostate> operator()(std::optional<std::optional<slicing::Element>>& into) const {
         if (text == "none") {
@@ -148,7 +149,7 @@ struct ValueReader {
         }
         const std::size_t colon = text.find(':');
         if (colon == std::string_view::npos) {
-            return refusal(
+            return makeError(
                 ErrorCode::bad_expression,
                 std::string(name) + " must be none or an element such as cell:17, not " + oval4d::text::inQuotes(text));
         }
@@ -161,14 +162,14 @@ struct ValueReader {
     }
     Result<std::monostate> operator()(std::optional<CellTypeList>& into) const {
         auto types = parseCellTypes(text);
-        if (!types) return refusal(types.error().code, std::string(name) + ": " + types.error().message);
+        if (!types) return makeError(types.error().code, std::string(name) + ": " + types.error().message);
         into = std::move(*types);
         return std::monostate{};
     }
 };
 
 template <typename Range, typename Function>
-std::string joined(const Range& range, Function&& textOf) {
+std::string joinedByCommas(const Range& range, Function&& textOf) {
     std::string text;
     for (const auto& each : range) {
         if (!text.empty()) text += ',';
@@ -177,22 +178,22 @@ std::string joined(const Range& range, Function&& textOf) {
     return text;
 }
 
-// A visitor that returns the text of a value, in the form that ValueReader reads.
-struct ValueWriter {
+// A visitor that returns the text of a value, in the form that SettingValueParser reads.
+struct SettingValueFormatter {
     bool isAngle = false;
 
     std::string operator()(double value) const { return text::shortestDecimal(value) + (isAngle ? "rad" : ""); }
     std::string operator()(int value) const { return std::to_string(value); }
     std::string operator()(bool value) const { return value ? "on" : "off"; }
     std::string operator()(const std::string& name) const { return name; }
-    std::string operator()(const glm::dvec4& v) const { return numberList(std::array{v.x, v.y, v.z, v.w}); }
-    std::string operator()(const glm::dvec3& v) const { return numberList(std::array{v.x, v.y, v.z}); }
-    std::string operator()(const std::vector<double>& numbers) const { return numberList(numbers); }
+    std::string operator()(const glm::dvec4& v) const { return numberListText(std::array{v.x, v.y, v.z, v.w}); }
+    std::string operator()(const glm::dvec3& v) const { return numberListText(std::array{v.x, v.y, v.z}); }
+    std::string operator()(const std::vector<double>& numbers) const { return numberListText(numbers); }
     std::string operator()(const std::vector<slicing::FogControlPoint>& points) const {
-        return points.empty() ? "off" : joined(points, fogPoint);
+        return points.empty() ? "off" : joinedByCommas(points, fogPoint);
     }
     std::string operator()(const CellTypeList& types) const {
-        return types.empty() ? "none" : joined(types, [](std::uint32_t type) { return std::to_string(type); });
+        return types.empty() ? "none" : joinedByCommas(types, [](std::uint32_t type) { return std::to_string(type); });
     }
     std::string operator()(const std::optional<slicing::Element>& element) const {
         if (!element) return "none";
@@ -216,48 +217,48 @@ struct ValueWriter {
 
 }  // namespace
 
-Result<std::monostate> parseSetting(std::string_view name, std::string_view written, Set& set) {
-    if (name == kPolytope) return ValueReader{name, written}(set.object);
+Result<std::monostate> parseSetting(std::string_view name, std::string_view written, ChangeSettings& set) {
+    if (name == kPolytope) return SettingValueParser{name, written}(set.object);
     const std::string_view given = text::trimmed(written);
     // People call the view `strip` a row, as its key does; the table of views has no aliases, because views are stored.
     const std::string_view value = name == "view" && given == "row" ? "strip" : given;
     std::optional<Result<std::monostate>> parsed;
     forEachSetting([&](const auto& setting) {
-        if (setting.name.text == name) parsed = ValueReader{name, value, setting.isAngle()}(setting.ofSet(set));
+        if (setting.name.text == name) parsed = SettingValueParser{name, value, setting.isAngle()}(setting.ofSet(set));
     });
     if (parsed) return *parsed;
-    return unknownSetting(name);
+    return unknownSettingError(name);
 }
 
-Error unknownSetting(std::string_view name, std::span<const std::string_view> others) {
-    std::vector<std::string_view> all = names();
+Error unknownSettingError(std::string_view name, std::span<const std::string_view> others) {
+    std::vector<std::string_view> all = collectSettingNames();
     all.insert(all.end(), others.begin(), others.end());
-    return refusal(ErrorCode::unknown_command, "no setting is called " + text::inQuotes(name) +
-                                                   text::didYouMean(name, all) + "; the settings are " +
-                                                   text::commaSeparated(all));
+    return makeError(ErrorCode::unknown_command, "no setting is called " + text::inQuotes(name) +
+                                                     text::didYouMean(name, all) + "; the settings are " +
+                                                     text::commaSeparated(all));
 }
 
-QueryParameters settingTexts(const Set& set) {
+QueryParameters settingTexts(const ChangeSettings& set) {
     QueryParameters texts;
     if (set.object) texts.emplace_back(kPolytope, *set.object);
     forEachSetting([&](const auto& setting) {
         if (const auto& value = setting.ofSet(set))
-            texts.emplace_back(setting.name.text, ValueWriter{setting.isAngle()}(*value));
+            texts.emplace_back(setting.name.text, SettingValueFormatter{setting.isAngle()}(*value));
     });
     return texts;
 }
 
-std::string settingNames() { return text::commaSeparated(names()); }
+std::string settingNames() { return text::commaSeparated(collectSettingNames()); }
 
-std::string numberList(std::span<const double> numbers) { return joined(numbers, text::shortestDecimal); }
+std::string numberListText(std::span<const double> numbers) { return joinedByCommas(numbers, text::shortestDecimal); }
 
 Result<slicing::ElementKind> parseElementKind(std::string_view written) {
     const std::string_view text = text::trimmed(written);
     const auto kind = text::valueNamed(slicing::kElementKinds, text);
     if (kind) return *kind;
-    return refusal(
+    return makeError(
         ErrorCode::bad_expression,
-        "an element is " + text::alternatives(text::namesOf(slicing::kElementKinds)) + ", not " + text::inQuotes(text));
+        "an element is " + text::joinedWithOr(text::namesOf(slicing::kElementKinds)) + ", not " + text::inQuotes(text));
 }
 
 Result<std::size_t> parseElementIndex(std::string_view written) {
@@ -265,8 +266,8 @@ Result<std::size_t> parseElementIndex(std::string_view written) {
     std::uint32_t index = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), index);
     if (error == std::errc{} && end == text.data() + text.size()) return std::size_t{index};
-    return refusal(ErrorCode::bad_expression,
-                   "the number of an element must be a whole number from 0, not " + text::inQuotes(text));
+    return makeError(ErrorCode::bad_expression,
+                     "the number of an element must be a whole number from 0, not " + text::inQuotes(text));
 }
 
 }  // namespace oval4d::session

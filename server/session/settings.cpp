@@ -23,7 +23,7 @@ namespace oval4d::session {
 namespace {
 
 // Returns the error for a value outside its range. The message states angles in radians and in degrees.
-Error outOfRange(std::string_view name, const geometry::Range& range, std::string_view unit, double value) {
+Error outOfRangeError(std::string_view name, const geometry::NumberRange& range, std::string_view unit, double value) {
     std::string allowed = text::outsideBoundsText(range.least, range.most, unit, value);
     if (unit == kRadians) {
         const auto degrees = [](double radians) {
@@ -38,22 +38,23 @@ Error outOfRange(std::string_view name, const geometry::Range& range, std::strin
 
 // Stores `value` in `into`; does nothing if `value` is empty. Error: `out_of_range` if the value is not in `range`. The
 // error message contains `name` and `unit`.
-Result<std::monostate> put(std::string_view name, std::optional<double> value, const geometry::Range& range,
-                           double& into, std::string_view unit = "") {
+Result<std::monostate> storeIfInRange(std::string_view name, std::optional<double> value,
+                                      const geometry::NumberRange& range, double& into, std::string_view unit = "") {
     if (!value) return std::monostate{};
-    if (!range.contains(*value)) return outOfRange(name, range, unit, *value);
+    if (!range.contains(*value)) return outOfRangeError(name, range, unit, *value);
     into = *value;
     return std::monostate{};
 }
 
 // Changes the frame of reference. Errors: `out_of_range`; the error of changeReferenceFrame().
-Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoader& loader) {
+Result<std::monostate> setReferenceFrame(State& state, const ChangeSettings& set, ObjectLoader& loader) {
     using geometry::ReferenceFrame;
     ReferenceFrame frame = state.referenceFrame;
-    if (auto done = put("the pace", set.pace, ReferenceFrame::kPaceRange, frame.pace); !done) return done;
+    if (auto done = storeIfInRange("the pace", set.pace, ReferenceFrame::kPaceRange, frame.pace); !done) return done;
     for (int axis = 0; axis < 3 && set.follow; ++axis) {
         const std::string name = std::string("the velocity to follow along ") + "xyz"[axis];
-        if (auto done = put(name, (*set.follow)[axis], ReferenceFrame::kFollowRange, frame.follow[axis]); !done)
+        if (auto done = storeIfInRange(name, (*set.follow)[axis], ReferenceFrame::kFollowRange, frame.follow[axis]);
+            !done)
             return done;
     }
     if (set.boost) {
@@ -68,7 +69,7 @@ Result<std::monostate> setReferenceFrame(State& state, const Set& set, ObjectLoa
     return changeReferenceFrame(state, frame, loader);
 }
 
-Result<std::monostate> setSlices(State& state, const Set& set, const Limits& limits) {
+Result<std::monostate> setHyperplaneSettings(State& state, const ChangeSettings& set, const Limits& limits) {
     if (set.count) {
         if (*set.count < 1 || *set.count > limits.maxSlices || *set.count % 2 == 0) {
             return Error{ErrorCode::out_of_range, "the number of slices must be odd and from 1 to " +
@@ -78,43 +79,46 @@ Result<std::monostate> setSlices(State& state, const Set& set, const Limits& lim
         setSliceCount(state, *set.count);
     }
     const double radius = slicing::infoOf(state.object).circumradius;
-    if (auto done = put("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius}, state.slices.spacing);
+    if (auto done = storeIfInRange("the spacing", set.spacing, {kMinSpacing * radius, kMaxSpacing * radius},
+                                   state.slices.spacing);
         !done) {
         return done;
     }
     if (set.focus) {
         if (*set.focus < -kMaxFocus || *set.focus > kMaxFocus) {
-            return outOfRange("the focus", {-double{kMaxFocus}, double{kMaxFocus}}, "", *set.focus);
+            return outOfRangeError("the focus", {-double{kMaxFocus}, double{kMaxFocus}}, "", *set.focus);
         }
         state.slices.focus = *set.focus;
     }
     if (set.focus || set.offset || set.focusW || set.focusPoint) state.playing = false;
     const double reach = kMaxOffset * radius;
     const glm::dvec4& origin = slicing::infoOf(state.object).originInFile;
-    const auto around = [&](double middle) { return geometry::Range{middle - reach, middle + reach}; };
+    const auto around = [&](double middle) { return geometry::NumberRange{middle - reach, middle + reach}; };
     if (set.focusPoint) {
         // If `focus`, `offset` or `focusW` is present, the w of the point is neither used nor checked.
         const bool placed = set.focus || set.offset || set.focusW;
         glm::dvec4 point = origin;
         for (int axis = 0; axis < (placed ? 3 : 4); ++axis) {
             const std::string name = std::string("the point's ") + "xyzw"[axis];
-            if (auto done = put(name, (*set.focusPoint)[axis], around(origin[axis]), point[axis]); !done) return done;
+            if (auto done = storeIfInRange(name, (*set.focusPoint)[axis], around(origin[axis]), point[axis]); !done)
+                return done;
         }
-        // Clamp the point, because the bounds in around() are rounded for an object far from the origin of its file.
+        // Far from the origin of the file, around() rounds its bounds, origin ± reach. A point may then be accepted
+        // although its distance from the origin of the object is slightly more than `reach`.
         point = glm::clamp(point - origin, -reach, reach);
         state.look.focusPoint = glm::dvec3(point);
         if (!placed) moveFocusTo(state, point.w);
     }
     if (set.focusW) {
         double w = 0;
-        if (auto done = put("w", set.focusW, around(origin.w), w); !done) return done;
+        if (auto done = storeIfInRange("w", set.focusW, around(origin.w), w); !done) return done;
         moveFocusTo(state, w - origin.w);
     }
-    return put("the offset", set.offset, around(0), state.slices.offset);
+    return storeIfInRange("the offset", set.offset, around(0), state.slices.offset);
 }
 
 // Changes the levels, the inside and the fog of a field. Error: `out_of_range`, also if the object is not a field.
-Result<std::monostate> setField(State& state, const Set& set) {
+Result<std::monostate> setFieldSettings(State& state, const ChangeSettings& set) {
     if (!set.levels && !set.inside && !set.fog) return std::monostate{};
     if (slicing::fieldIn(state.object) == nullptr) {
         return Error{ErrorCode::out_of_range, "the " + slicing::infoOf(state.object).name +
@@ -122,7 +126,7 @@ Result<std::monostate> setField(State& state, const Set& set) {
     }
     state.look.field.inside = set.inside.value_or(state.look.field.inside);
     if (set.fog) {
-        if (!isTransferFunction(*set.fog)) {
+        if (!isValidTransferFunction(*set.fog)) {
             return Error{ErrorCode::out_of_range,
                          "the fog must be off, or " + std::to_string(slicing::kMinFogControlPoints) + " to " +
                              std::to_string(slicing::kMaxFogControlPoints) +
@@ -149,7 +153,7 @@ Result<std::monostate> setField(State& state, const Set& set) {
 
 // Resets the settings that `occasion` resets to their values in `initial`. Omits settings that are not stored in one
 // member of State, such as `point`.
-void setBack(State& state, ResetOccasion occasion, const State& initial) {
+void resetSettings(State& state, ResetOccasion occasion, const State& initial) {
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kIsInState) {
             if constexpr (std::is_lvalue_reference_v<decltype(setting.ofState(state))>) {
@@ -161,7 +165,7 @@ void setBack(State& state, ResetOccasion occasion, const State& initial) {
 
 }  // namespace
 
-bool isTransferFunction(std::span<const slicing::FogControlPoint> points) {
+bool isValidTransferFunction(std::span<const slicing::FogControlPoint> points) {
     constexpr std::uint32_t kWhite = 0xffffff;
     if (points.empty()) return true;
     return points.size() >= slicing::kMinFogControlPoints && points.size() <= slicing::kMaxFogControlPoints &&
@@ -200,18 +204,18 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
         state.look.coloring = scene::Coloring::cell;
     State initial = initialState();
     if (field != nullptr) initial.look.field = initialFieldSettings(*field);
-    setBack(state, ResetOccasion::by_another_object, initial);
+    resetSettings(state, ResetOccasion::by_another_object, initial);
     state.look.focusPoint = initial.look.focusPoint;  // setBack() has omitted the setting `point`
     state.source = std::move(source);
     state.object = std::move(object);
     return std::monostate{};
 }
 
-void keepSettingsOfPart(const State& before, const LoadObject& load, State& next) {
+void carryOverFieldSettings(const State& before, const LoadObject& load, State& next) {
     const fields::Field* const field = slicing::fieldIn(before.source);
     if (field == nullptr || !field->source || field->name != load.name || slicing::fieldIn(next.source) == nullptr)
         return;
-    const fields::FileSource& source = *field->source;
+    const fields::FieldFileSource& source = *field->source;
     if (source.dataName != load.dataName || source.format != load.format || source.axes != load.axes ||
         source.variable != load.variable || source.secondFormula != load.secondFormula ||
         source.secondVariable != load.secondVariable)
@@ -231,10 +235,10 @@ void returnToInitialOrientation(State& state) {
 
 void resetOrientationAndFocus(State& state) {
     returnToInitialOrientation(state);
-    setBack(state, ResetOccasion::by_reset_or_another_object, initialState());
+    resetSettings(state, ResetOccasion::by_reset_or_another_object, initialState());
 }
 
-bool hasSpanningSpacing(const State& state) {
+bool slicesSpanObject(const State& state) {
     constexpr double kSame = 1e-9;
     const double spanning = spanningSpacing(state.object, state.slices.count);
     return std::abs(state.slices.spacing - spanning) <= kSame * spanning;
@@ -244,7 +248,7 @@ Result<std::monostate> changeReferenceFrame(State& state, const geometry::Refere
     if (frame == state.referenceFrame) return std::monostate{};
     auto image = loader.transformedTo(state.source, frame);
     if (!image) return image.error();
-    const bool spans = hasSpanningSpacing(state);
+    const bool spans = slicesSpanObject(state);
     const double w = state.focusW();
     state.referenceFrame = frame;
     state.object = std::move(*image);
@@ -272,8 +276,8 @@ void setSliceCount(State& state, int count) {
     state.slices.count = count;
 }
 
-Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
-                                ObjectLoader& loader) {
+Result<std::monostate> applySet(State& state, const ChangeSettings& set, const LoadedObjects& loaded,
+                                const Limits& limits, ObjectLoader& loader) {
     if (set.object) {
         auto object = findObject(*set.object, loaded, limits, loader);
         if (!object) return object.error();
@@ -293,19 +297,20 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
         if (auto valid = checkTurn(*set.lastTurn); !valid) return valid;
         state.lastTurn = set.lastTurn;
     }
-    if (auto done = setSlices(state, set, limits); !done) return done;
+    if (auto done = setHyperplaneSettings(state, set, limits); !done) return done;
     Result<std::monostate> plain = std::monostate{};
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kHasRange) {
-            const NumberInRange& rule = setting.rule;
-            if (plain) plain = put(rule.what, setting.ofSet(set), rule.range, setting.ofState(state), rule.unit);
+            const NumberRangeRule& rule = setting.rule;
+            if (plain)
+                plain = storeIfInRange(rule.what, setting.ofSet(set), rule.range, setting.ofState(state), rule.unit);
         } else if constexpr (!Row::kIsCheckedByApplySet) {
             setting.ofState(state) = setting.ofSet(set).value_or(setting.ofState(state));
         }
     });
     if (!plain) return plain;
     if (auto done = applyCellTypeVisibility(state, set); !done) return done;
-    if (auto done = setField(state, set); !done) return done;
+    if (auto done = setFieldSettings(state, set); !done) return done;
     if (set.highlight) {
         if (*set.highlight) {
             if (auto valid = checkElement(state.object, **set.highlight); !valid) return valid;
@@ -321,8 +326,8 @@ Result<std::monostate> applySet(State& state, const Set& set, const LoadedObject
     return std::monostate{};
 }
 
-Set settingsOf(const State& state) {
-    Set set;
+ChangeSettings settingsOf(const State& state) {
+    ChangeSettings set;
     forEachSetting([&]<typename Row>(const Row& setting) {
         if constexpr (Row::kIsInState) {
             if (!setting.forFields || slicing::fieldIn(state.object) != nullptr)
@@ -332,11 +337,11 @@ Set settingsOf(const State& state) {
     return set;
 }
 
-Result<std::monostate> checkTurn(const geometry::Turn& turn) {
+Result<std::monostate> checkTurn(const geometry::RotationAngles& turn) {
     for (const geometry::Plane plane : turn.planes()) {
         const double angle = *turn[plane];
         if (!(std::abs(angle) <= kMaxAngle)) {
-            return outOfRange("an angle", {-kMaxAngle, kMaxAngle}, kRadians, angle);
+            return outOfRangeError("an angle", {-kMaxAngle, kMaxAngle}, kRadians, angle);
         }
     }
     return std::monostate{};
@@ -353,7 +358,7 @@ Result<std::monostate> checkElement(const slicing::Object& object, const slicing
                                               std::to_string(element.index)};
 }
 
-void rotate(State& state, const geometry::Turn& turn) {
+void rotate(State& state, const geometry::RotationAngles& turn) {
     state.orientation = geometry::Rotation(turn) * state.orientation;
     state.lastTurn = turn;
     state.ongoingTurnToward.reset();
@@ -425,7 +430,7 @@ void moveFocusTo(State& state, double w) {
     state.slices.offset = w - state.slices.focus * spacing;
 }
 
-Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoader& loader) {
+Result<std::monostate> moveFocusToNextCritical(State& state, bool upward, ObjectLoader& loader) {
     std::optional<double> w;
     if (slicing::fieldIn(state.object) == nullptr) {
         w = slicing::nextVertexHeight(state.object, state.orientation, state.focusW(), upward);

@@ -15,7 +15,7 @@ inline constexpr double kMaxAngle = 1e6;
 /// Returns whether these control points are valid as FieldSettings::fog. There may be none, or kMinFogControlPoints …
 /// kMaxFogControlPoints points (both in slicing). Their values must increase within ±slicing::kMaxLevel, their
 /// opacities must be 0 … 1, and their colors must have 24 bits.
-bool isTransferFunction(std::span<const slicing::FogControlPoint> points);
+bool isValidTransferFunction(std::span<const slicing::FogControlPoint> points);
 
 /// Returns the initial settings of a field: its level (isovalue), the side of the level that is inside, and no fog.
 slicing::FieldSettings initialFieldSettings(const fields::Field& field);
@@ -38,7 +38,7 @@ Result<std::monostate> replaceObject(State& state, slicing::Object source, Objec
 /// replaceObject(). `next` gets the field settings and the hidden and faded cell types of `before`. Levels that still
 /// have their initial values are not kept, because each part has initial levels of its own. Does nothing after any
 /// other load.
-void keepSettingsOfPart(const State& before, const LoadObject& load, State& next);
+void carryOverFieldSettings(const State& before, const LoadObject& load, State& next);
 
 /// Resets the orientation to the initial one, and ends all motion.
 void returnToInitialOrientation(State& state);
@@ -47,7 +47,7 @@ void returnToInitialOrientation(State& state);
 void resetOrientationAndFocus(State& state);
 
 /// Returns whether the spacing of the slices is spanningSpacing(), apart from rounding.
-bool hasSpanningSpacing(const State& state);
+bool slicesSpanObject(const State& state);
 
 /// Shows the object in another frame of reference. Does nothing if the state already has this frame. The members of
 /// `frame` must be within the bounds in geometry::ReferenceFrame. If the spacing is spanningSpacing(), as it is
@@ -64,21 +64,21 @@ void setSliceCount(State& state, int count);
 /// Applies the settings that are present in `set`. After an error, some of these settings may have been applied, so
 /// callers must pass a copy of the state. Errors: the errors of findObject(); `not_a_rotation`; `out_of_range`;
 /// `nothing_to_undo` if `set` starts continuous turning, but there is no last rotation to repeat.
-Result<std::monostate> applySet(State& state, const Set& set, const LoadedObjects& loaded, const Limits& limits,
-                                ObjectLoader& loader);
+Result<std::monostate> applySet(State& state, const ChangeSettings& set, const LoadedObjects& loaded,
+                                const Limits& limits, ObjectLoader& loader);
 
 /// Returns the settings of a state. applySet() with these settings makes another state with the same object equal to
 /// `state`, except for the orientation, the last rotation and the motion.
-Set settingsOf(const State& state);
+ChangeSettings settingsOf(const State& state);
 
 /// Returns the error `out_of_range` unless the angles of a rotation are finite and within ±kMaxAngle.
-Result<std::monostate> checkTurn(const geometry::Turn& turn);
+Result<std::monostate> checkTurn(const geometry::RotationAngles& turn);
 
 /// Returns the error `out_of_range` if the object does not have the element.
 Result<std::monostate> checkElement(const slicing::Object& object, const slicing::Element& element);
 
 /// Rotates the object, stores the rotation as State::lastTurn, and ends a turn toward an element.
-void rotate(State& state, const geometry::Turn& turn);
+void rotate(State& state, const geometry::RotationAngles& turn);
 
 /// Starts to turn the object until an element points to +w; with TurnToward::immediately, turns the object at once.
 /// Without TurnToward::number, slicing::elementToTurnTo() chooses an element of the kind TurnToward::element: the
@@ -102,6 +102,6 @@ void moveFocusTo(State& state, double w);
 /// field, this is the next critical w (see slicing::findCriticalSections()). In other objects, it is the w of the next
 /// vertex (see slicing::nextVertexHeight()). Does nothing if there is none. Error: the error of `loader` if the search
 /// is deferred.
-Result<std::monostate> moveFocusToCritical(State& state, bool upward, ObjectLoader& loader);
+Result<std::monostate> moveFocusToNextCritical(State& state, bool upward, ObjectLoader& loader);
 
 }  // namespace oval4d::session

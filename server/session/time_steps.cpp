@@ -55,14 +55,14 @@ Result<slicing::Object> appendTimeSteps(const slicing::Object& field, const slic
                                                " moments are allowed (--max-field-bytes), but the field would have " +
                                                std::to_string(grown.shape[3]) + "; it stays as it was"};
     grown.box = boxWithTimeSteps(before->array->box(), old[3], grown.shape[3]);
-    grown.samples = before->array->storage().followedBy(appended->array->samples());
+    grown.samples = before->array->storage().withAppended(appended->array->samples());
     grown.units = before->units;
     grown.quantity = before->quantity;
     auto made = fields::fieldFromArray(before->name, grown);
     if (!made) return made.error();
     std::optional<Error> fault;
     if (hasArray) {
-        grown.samples = second->array->storage().followedBy(values->array->samples());
+        grown.samples = second->array->storage().withAppended(values->array->samples());
         grown.quantity = second->quantity;
         fault = fields::setSecondArray(*made, grown, second->variable);
     } else if (second != nullptr) {

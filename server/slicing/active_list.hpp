@@ -13,11 +13,11 @@ namespace oval4d::slicing {
 /// Lists the elements of a polytope (its edges, its 2-faces or its cells) that the current hyperplane cuts, while a
 /// caller steps through parallel hyperplanes. The hyperplanes are numbered from 0 by ascending w. Each element is cut
 /// by the hyperplanes of one range of indices [from, to). Call clear(), then add() for each element, then
-/// sortByFirstHyperplane() once, then activateAt() for the hyperplanes in ascending order. Reuses its memory.
+/// sortByFirstHyperplane() once, then advanceTo() for the hyperplanes in ascending order. Reuses its memory.
 ///
 /// The loops of this class do not branch on whether an element is cut. Processors cannot predict such a branch, and a
 /// misprediction takes longer than the work that the branch would avoid.
-class ActiveList {
+class ActiveElementList {
   public:
     /// An element, and the index of the first hyperplane above it that no longer cuts it.
     struct CutElement {
@@ -41,16 +41,16 @@ class ActiveList {
         count_ += one;
     }
     /// Sorts the elements by the first hyperplane that cuts them. Must be called once, after all calls of add().
-    /// `steps` lists the indices of the hyperplanes for which activateAt() will be called, in ascending order. `steps`
+    /// `steps` lists the indices of the hyperplanes for which advanceTo() will be called, in ascending order. `steps`
     /// must include the first hyperplane of every element.
     void sortByFirstHyperplane(std::span<const int> steps);
 
     /// Makes the hyperplane with the index `step` the current one. Must be called for each index that was passed to
     /// sortByFirstHyperplane(), in ascending order. Returns the elements for which `step` is the first hyperplane that
     /// cuts them.
-    std::span<const CutElement> activateAt(int step);
+    std::span<const CutElement> advanceTo(int step);
     /// Returns the elements that the current hyperplane cuts.
-    std::span<const CutElement> active() const { return {active_.data(), activeCount_}; }
+    std::span<const CutElement> activeElements() const { return {active_.data(), activeCount_}; }
     /// Returns the number of elements that the current hyperplane cuts.
     std::uint32_t size() const { return activeCount_; }
 
@@ -74,7 +74,7 @@ class ActiveList {
     std::uint32_t count_ = 0, activeCount_ = 0, begun_ = 0;
 };
 
-inline void ActiveList::sortByFirstHyperplane(std::span<const int> steps) {
+inline void ActiveElementList::sortByFirstHyperplane(std::span<const int> steps) {
     sorted_.resize(count_);
     active_.resize(count_);
     std::uint32_t* end = end_.data();
@@ -84,9 +84,9 @@ inline void ActiveList::sortByFirstHyperplane(std::span<const int> steps) {
         sorted_[end[unsorted.from]++] = unsorted.element;
 }
 
-inline void ActiveList::removeEnded(int step) {
+inline void ActiveElementList::removeEnded(int step) {
     CutElement* kept = active_.data();
-    for (const CutElement& element : active()) {
+    for (const CutElement& element : activeElements()) {
         const std::int32_t to = element.to;
         *kept = element;
         kept += to > step ? 1 : 0;
@@ -94,7 +94,7 @@ inline void ActiveList::removeEnded(int step) {
     activeCount_ = static_cast<std::uint32_t>(kept - active_.data());
 }
 
-inline std::span<const ActiveList::CutElement> ActiveList::activateAt(int step) {
+inline std::span<const ActiveElementList::CutElement> ActiveElementList::advanceTo(int step) {
     removeEnded(step);
     const std::span begun(sorted_.data() + begun_, end_[step] - begun_);
     begun_ = end_[step];

@@ -60,9 +60,10 @@ bool CellComplexSlicer::cutConvex(const polytopes::Polytope& polytope, SliceSet&
     return convexSlicer_.cut(polytope, {below_, upTo_, anyOnPlane_}, touching_, out);
 }
 
-// Finds the hyperplanes that touch the polytope from one side: they contain vertices, but no vertices lie on one of
-// their sides. Cuts the slices in these hyperplanes by cutGeneral(), and sets touching_ to them. Returns false if there
-// are more than two such hyperplanes.
+// Finds the hyperplanes that touch the polytope (its supporting hyperplanes): each contains at least one vertex, and
+// all other vertices lie in it or on one side of it. Cuts the slices in these hyperplanes by cutGeneral(), and sets
+// touching_ to the slices. Returns false if there are more than two such hyperplanes, which happens only if hyperplanes
+// are closer together than the tolerance.
 bool CellComplexSlicer::cutTangentPlanes(const geometry::CellComplex& complex, SliceSet& out) {
     const std::int32_t firstAbove = *std::min_element(upTo_.begin(), upTo_.end());
     const std::int32_t lastBelow = *std::max_element(below_.begin(), below_.end());
@@ -135,7 +136,7 @@ void CellComplexSlicer::cutEdges(const geometry::CellComplex& complex, SliceSet&
         const std::int32_t to = std::max(below_[a], below_[b]);
         if (from < to) addToDifferences(out.vertexBegin, from, to);
     }
-    const std::uint32_t total = toRangeBegins(out.vertexBegin);
+    const std::uint32_t total = differencesToRangeBegins(out.vertexBegin);
     out.vertices.resize(total);
     out.vertexSource.resize(total);
     vertexPoint_.resize(vertices);
@@ -195,7 +196,7 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
             least = std::min(least, rankSum_[*vertex]);
             most = std::max(most, rankSum_[*vertex]);
         }
-        const PlaneRange above{least / 2, most / 2};
+        const HyperplaneRange above{least / 2, most / 2};
         const std::int32_t leastUpTo = (least + 1) / 2;
         const std::int32_t mostUpTo = (most + 1) / 2;
         faceSpan_[f] = {leastUpTo, above.to};
@@ -213,7 +214,7 @@ void CellComplexSlicer::cutFaces(const geometry::CellComplex& complex, SliceSet&
 // The vertex loop of a convex 2-face ascends through each level once, and descends through it once. Returns false, and
 // adds nothing, if the loop ascends through a level more than once: rounding errors can cause this if the 2-face nearly
 // lies in a hyperplane.
-bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above) {
+bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, HyperplaneRange above) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
     std::int32_t ascents = 0;
@@ -238,8 +239,8 @@ bool CellComplexSlicer::cutConvexFace(const geometry::CellComplex& complex, std:
 // line in which the hyperplane cuts the plane of the 2-face. The i-th crossing where the loop ascends is then paired
 // with the i-th crossing where it descends. Where the resulting segments overlap, the 2-face covers the line more than
 // once.
-void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above,
-                                         const SliceSet& out) {
+void CellComplexSlicer::cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face,
+                                         HyperplaneRange above, const SliceSet& out) {
     const auto loop = complex.faces[face];
     const auto loopEdges = complex.faceEdges[face];
     for (std::int32_t k = above.from; k < above.to; ++k) {
@@ -318,7 +319,7 @@ void CellComplexSlicer::numberEdges(const geometry::CellComplex& complex, SliceS
     for (const FaceCrossing& crossing : faceCrossings_) {
         if (crossing.edge == kNewEdge) addToDifferences(out.edgeBegin, crossing.plane, crossing.plane + 1);
     }
-    const std::uint32_t total = toRangeBegins(out.edgeBegin);
+    const std::uint32_t total = differencesToRangeBegins(out.edgeBegin);
     out.edges.resize(total);
     out.edgeSource.resize(total);
     sliceEdgeOf_.resize(edges);
@@ -351,7 +352,7 @@ void CellComplexSlicer::cutCells(const geometry::CellComplex& complex, SliceSet&
     cellSpan_.resize(cells);
     for (std::uint32_t c = 0; c < cells; ++c) {
         const auto faces = complex.cells[c];
-        PlaneRange span = faceSpan_[faces[0]];
+        HyperplaneRange span = faceSpan_[faces[0]];
         for (const std::uint32_t f : faces) {
             span = {std::min(span.from, faceSpan_[f].from), std::max(span.to, faceSpan_[f].to)};
         }
@@ -365,12 +366,12 @@ void CellComplexSlicer::cutCells(const geometry::CellComplex& complex, SliceSet&
     coinciding_.begin(static_cast<std::uint32_t>(out.edges.size()));
     next_.assign(slotPoint_.size(), kNone);
     nextEdge_.resize(slotPoint_.size());
-    if (cells > 0) addLyingFaces(complex, out);
+    if (cells > 0) addFacesInHyperplanes(complex, out);
     for (std::uint32_t c = 0; c < cells; ++c) {
         if (cellSpan_[c].from < cellSpan_[c].to || !lowestSectionCollapses_[c]) traceCell(complex, c);
     }
-    if (coinciding_.any()) removeCoincidingEdges(out);
-    placeLoops(out);
+    if (coinciding_.anyCoincide()) removeCoincidingEdges(out);
+    writeLoops(out);
 }
 
 // Must be called after numberEdges().
@@ -391,7 +392,7 @@ bool CellComplexSlicer::lowestSectionCollapses(const geometry::CellComplex& comp
 // of its 2-face in this cell, so the end of a segment is the start of the next one. Links each segment to the next,
 // then follows the links to find the closed loops.
 void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uint32_t cell) {
-    const PlaneRange span = cellSpan_[cell];
+    const HyperplaneRange span = cellSpan_[cell];
     starts_.clear();
     for (std::uint32_t at = complex.cells.begin[cell]; at < complex.cells.begin[cell + 1]; ++at) {
         const std::uint32_t f = complex.cells.items[at];
@@ -399,7 +400,7 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
         for (std::uint32_t i = faceCrossingBegin_[f]; i < faceCrossingBegin_[f + 1]; ++i) {
             const FaceCrossing& crossing = faceCrossings_[i];
             if (crossing.plane < span.from && lowestSectionCollapses_[cell])
-                continue;  // the cell only touches this hyperplane: see addLyingFaces()
+                continue;  // the cell only touches this hyperplane: see addFacesInHyperplanes()
             const std::uint32_t from = outward ? crossing.up : crossing.down;
             next_[from] = outward ? crossing.down : crossing.up;
             nextEdge_[from] = crossing.edge;
@@ -417,7 +418,8 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
         if (loop.size >= 3) {
             loops_.push_back(loop);
         } else {
-            if (loop.size == 2) coinciding_.join(loopCorners_[loop.begin][1], loopCorners_[loop.begin + 1][1]);
+            if (loop.size == 2)
+                coinciding_.markCoinciding(loopCorners_[loop.begin][1], loopCorners_[loop.begin + 1][1]);
             loopCorners_.resize(loop.begin);
         }
     }
@@ -427,7 +429,7 @@ void CellComplexSlicer::traceCell(const geometry::CellComplex& complex, std::uin
 // exactly one of its two cells stands on it, above the hyperplane, or if one of its cells lies in the hyperplane, on
 // top of the complex. In both cases, the slice face has the orientation that the 2-face has in this one cell. If the
 // complex only touches the hyperplane in this 2-face, the 2-face is the whole slice.
-void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out) {
+void CellComplexSlicer::addFacesInHyperplanes(const geometry::CellComplex& complex, const SliceSet& out) {
     touchingFaces_.clear();
     bounded_.assign(out.planes.count, false);
     upward_.assign(complex.cells.size(), std::nullopt);
@@ -443,7 +445,7 @@ void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, cons
         std::array<bool, 2> bounds{};
         for (std::size_t i = 0; i < 2; ++i) {
             const std::uint32_t cell = complex.faceCells[f].at(i);
-            const PlaneRange span = cellSpan_[cell];
+            const HyperplaneRange span = cellSpan_[cell];
             standsOnFace.at(i) = span.from > plane && span.to > plane && lowestSectionCollapses_[cell];
             bounds.at(i) = standsOnFace.at(i) || (span.from > plane && span.to <= plane && isUpward(cell));
         }
@@ -453,7 +455,7 @@ void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, cons
         }
         for (std::size_t i = 0; i < 2; ++i) {
             // The loop of a 2-face is counterclockwise seen from outside its second cell: see CellComplex::faceCells.
-            if (bounds.at(i)) addLyingFace(complex, f, i == 1);
+            if (bounds.at(i)) addFaceInHyperplane(complex, f, i == 1);
         }
     }
     for (const std::uint32_t f : touchingFaces_) {
@@ -462,11 +464,11 @@ void CellComplexSlicer::addLyingFaces(const geometry::CellComplex& complex, cons
             const bool stands = cellSpan_[cell].from > lyingIn_[f] && lowestSectionCollapses_[cell];
             alone = alone && (stands || cellSpan_[cell].to <= lyingIn_[f]);
         }
-        if (alone && !bounded_[lyingIn_[f]]) addLyingFace(complex, f, true);
+        if (alone && !bounded_[lyingIn_[f]]) addFaceInHyperplane(complex, f, true);
     }
 }
 
-void CellComplexSlicer::addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward) {
+void CellComplexSlicer::addFaceInHyperplane(const geometry::CellComplex& complex, std::uint32_t face, bool forward) {
     const auto loop = complex.faces[face];
     const std::size_t n = loop.size();
     bounded_[lyingIn_[face]] = true;
@@ -520,7 +522,7 @@ void CellComplexSlicer::removeCoincidingEdges(SliceSet& out) {
 }
 
 // Writes the faces of loops_ to `out`, sorted by hyperplane.
-void CellComplexSlicer::placeLoops(SliceSet& out) {
+void CellComplexSlicer::writeLoops(SliceSet& out) {
     out.faceBegin.assign(out.planes.count + 1, 0);
     cornerCursor_.assign(out.planes.count + 1, 0);
     for (const FaceLoop& loop : loops_) {
@@ -528,8 +530,8 @@ void CellComplexSlicer::placeLoops(SliceSet& out) {
         cornerCursor_[loop.plane] += loop.size;
         cornerCursor_[loop.plane + 1] -= loop.size;
     }
-    const std::uint32_t total = toRangeBegins(out.faceBegin);
-    const std::uint32_t corners = toRangeBegins(cornerCursor_);
+    const std::uint32_t total = differencesToRangeBegins(out.faceBegin);
+    const std::uint32_t corners = differencesToRangeBegins(cornerCursor_);
     out.faceSource.resize(total);
     out.cornerBegin.resize(total + 1);
     out.cornerBegin[total] = corners;

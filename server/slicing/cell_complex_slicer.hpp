@@ -45,7 +45,7 @@ class CellComplexSlicer {
     static constexpr std::uint32_t kNewEdge = 0xfffffffeU;
 
     // A range of hyperplanes: those with the indices in [from, to). The range is empty if to ≤ from.
-    struct PlaneRange {
+    struct HyperplaneRange {
         std::int32_t from, to;
     };
     // A segment in which a 2-face crosses the level just above the hyperplane with the index `plane`. The segment runs
@@ -92,8 +92,8 @@ class CellComplexSlicer {
     void cutOnePlane(const geometry::CellComplex& complex, SliceSet& all, std::int32_t plane, SliceSet& single);
     void cutEdges(const geometry::CellComplex& complex, SliceSet& out);
     void cutFaces(const geometry::CellComplex& complex, SliceSet& out);
-    bool cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above);
-    void cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, PlaneRange above,
+    bool cutConvexFace(const geometry::CellComplex& complex, std::uint32_t face, HyperplaneRange above);
+    void cutNonconvexFace(const geometry::CellComplex& complex, std::uint32_t face, HyperplaneRange above,
                           const SliceSet& out);
     // Sets lowestEdges_ to the edges of the 2-face `face` that lie in the hyperplane with the index `plane`. This
     // hyperplane must contain the lowest vertices of the 2-face.
@@ -112,12 +112,12 @@ class CellComplexSlicer {
     // The cell only touches H if each segment becomes an edge of the complex or a point. Returns false if a segment
     // stays inside a 2-face: the cell then nearly lies in H, and the slice in H includes a section of the cell.
     bool lowestSectionCollapses(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
-    void addLyingFaces(const geometry::CellComplex& complex, const SliceSet& out);
-    void addLyingFace(const geometry::CellComplex& complex, std::uint32_t face, bool forward);
+    void addFacesInHyperplanes(const geometry::CellComplex& complex, const SliceSet& out);
+    void addFaceInHyperplane(const geometry::CellComplex& complex, std::uint32_t face, bool forward);
     bool hasUpwardNormal(const geometry::CellComplex& complex, std::uint32_t cell, const SliceSet& out) const;
     void traceCell(const geometry::CellComplex& complex, std::uint32_t cell);
     void removeCoincidingEdges(SliceSet& out);
-    void placeLoops(SliceSet& out);
+    void writeLoops(SliceSet& out);
 
     ConvexSlicer convexSlicer_;
     // The slices in the at most two hyperplanes that touch the polytope from one side.
@@ -144,7 +144,7 @@ class CellComplexSlicer {
     std::vector<std::uint32_t> faceCrossingBegin_;
     // Per 2-face or cell of the complex: the range of the hyperplanes strictly between its lowest and its highest
     // vertex.
-    std::vector<PlaneRange> faceSpan_, cellSpan_;
+    std::vector<HyperplaneRange> faceSpan_, cellSpan_;
     std::vector<std::int32_t> lyingIn_;  // per 2-face: the hyperplane in which all of the 2-face lies, or kNoPlane
     std::vector<bool> lowestSectionCollapses_;  // per cell: the result of the function lowestSectionCollapses()
     CoincidingEdges coinciding_;                // the groups of slice edges that coincide

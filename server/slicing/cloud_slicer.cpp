@@ -38,7 +38,7 @@ void CloudSlicer::slice(const geometry::PointCloud& cloud, const geometry::Rotat
     }
     for (std::size_t i = 1; i < next_.size(); ++i) next_[i] += next_[i - 1];
 
-    SliceCounts size;
+    SliceElementCounts size;
     size.vertices = next_.back();
     out.resize(size);
     for (int i = 0; i <= planes.count; ++i) out.setSliceBegin(i, {next_[static_cast<std::size_t>(i)], 0, 0, 0});

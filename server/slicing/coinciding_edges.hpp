@@ -20,7 +20,7 @@ class CoincidingEdges {
         any_ = false;
     }
     /// Records that the edges `a` and `b` coincide. They may be the same edge, or may already be known to coincide.
-    void join(std::uint32_t a, std::uint32_t b) {
+    void markCoinciding(std::uint32_t a, std::uint32_t b) {
         if (a == b) return;  // in almost all slices, every call ends here, and first_ is never filled
         if (!any_) {
             first_.resize(edges_);
@@ -31,7 +31,7 @@ class CoincidingEdges {
         first_[std::max(one, other)] = std::min(one, other);
     }
     /// Returns whether any two edges coincide.
-    bool any() const { return any_; }
+    bool anyCoincide() const { return any_; }
     /// Returns the least index in the group of edges that coincide with `edge`, including `edge` itself. Requires that
     /// any() is true.
     std::uint32_t representativeOf(std::uint32_t edge) {

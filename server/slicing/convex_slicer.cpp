@@ -25,22 +25,22 @@ bool ConvexSlicer::cut(const polytopes::Polytope& polytope, PlanesBelowVertices 
                        std::span<SliceSet* const> touching, SliceSet& out) {
     if (!planesBelow.anyOnPlane && isWorthTwoCores(polytope, out.planes.count))
         return cutInTwoSweeps(polytope, planesBelow, out);
-    Sweep& sweep = lower_.sweep;
+    HyperplaneSweep& sweep = lower_.sweep;
     if (!sweep.begin(polytope, planesBelow, out.planes.count)) return false;
-    SliceCounts size = sweep.maxSize();
+    SliceElementCounts size = sweep.maxSliceCounts();
     for (const SliceSet* slice : touching) {
         if (slice != nullptr) size = size + slice->totalCounts();
     }
     out.resize(size);
-    SliceCounts end;
+    SliceElementCounts end;
     if (!sweep.cut(polytope, touching, 0, end, out)) return false;
     out.finishSlices(end);
     return true;
 }
 
 // Cuts the slices in the lower and in the upper half of the hyperplanes at the same time, on two cores. Requires that
-// no vertex lies in a hyperplane. Then Sweep::maxSize() is exact, so that the position in `out` where the upper half
-// begins is known before cutting.
+// no vertex lies in a hyperplane. Then HyperplaneSweep::maxSliceCounts() is exact, so that the position in `out` where
+// the upper half begins is known before cutting.
 bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out) {
     const auto [least, most] = std::minmax_element(planesBelow.below.begin(), planesBelow.below.end());
     const std::int32_t middle = (*least + *most) / 2;
@@ -59,8 +59,8 @@ bool ConvexSlicer::cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBel
     };
     if (!invoke([&] { begin(lower_, 0, middle); }, [&] { begin(upper_, middle, out.planes.count); })) return false;
     lower_.end = {};
-    upper_.end = lower_.sweep.maxSize();
-    out.resize(lower_.sweep.maxSize() + upper_.sweep.maxSize());
+    upper_.end = lower_.sweep.maxSliceCounts();
+    out.resize(lower_.sweep.maxSliceCounts() + upper_.sweep.maxSliceCounts());
     if (!invoke([&] { cut(lower_, 0); }, [&] { cut(upper_, middle); })) return false;
     out.finishSlices(upper_.end);
     return true;

@@ -14,9 +14,9 @@
 
 namespace oval4d::slicing {
 
-/// Slices convex polytopes with a sweep of a hyperplane (see Sweep). If a polytope is large and none of its vertices
-/// lies in a hyperplane, sweeps through the lower and the upper half of the hyperplanes in parallel, on two cores.
-/// Reuses its memory.
+/// Slices convex polytopes with a sweep of a hyperplane (see HyperplaneSweep). If a polytope is large and none of its
+/// vertices lies in a hyperplane, sweeps through the lower and the upper half of the hyperplanes in parallel, on two
+/// cores. Reuses its memory.
 class ConvexSlicer {
   public:
     /// If `forkJoin` is not null, the slicer may use it to work on two cores; `forkJoin` must outlive this object. If
@@ -25,8 +25,8 @@ class ConvexSlicer {
 
     /// Slices `polytope` and writes the slices to `out`, whose `planes` and `rotatedVertices` must be set.
     /// `planesBelow` says how many of these hyperplanes lie below each rotated vertex. If the polytope touches
-    /// hyperplanes from one side, `touching` must contain the slices in these hyperplanes (see Sweep::cut()); otherwise
-    /// it may be empty.
+    /// hyperplanes from one side, `touching` must contain the slices in these hyperplanes (see HyperplaneSweep::cut());
+    /// otherwise it may be empty.
     ///
     /// Returns false, and leaves `out` unusable, if rounding errors in the vertices make a hyperplane cut a 2-face in
     /// several segments or a cell in several polygons. The caller must then use a method for nonconvex polytopes.
@@ -36,9 +36,10 @@ class ConvexSlicer {
   private:
     // The sweep through the lower or upper half of the hyperplanes, and its results.
     struct HalfSweep {
-        Sweep sweep;
+        HyperplaneSweep sweep;
         std::vector<std::int32_t> below;  // per vertex: the number of hyperplanes of this half below it
-        SliceCounts end;     // where the slices of this half end in the output; before sweep.cut(), where they begin
+        SliceElementCounts
+            end;             // where the slices of this half end in the output; before sweep.cut(), where they begin
         bool sound = false;  // what the last call of sweep.begin() or sweep.cut() returned
     };
     bool cutInTwoSweeps(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, SliceSet& out);

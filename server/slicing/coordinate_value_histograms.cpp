@@ -23,7 +23,7 @@ static_assert(CoordinateValueHistograms::kRows < kNoRow);
 
 // Returns the number of points at which `function` is evaluated. A slower function is evaluated at fewer points, so
 // that the evaluation always takes about the same time.
-std::size_t pointCount(const fields::ScalarFunction& function) {
+std::size_t histogramPointCount(const fields::ScalarFunction& function) {
     constexpr double kTime = 2e7;  // the time for all evaluations, in nanoseconds
     const double count = kTime / std::max(function.cost().value, 1.0);
     constexpr auto kLeast = static_cast<double>(CoordinateValueHistograms::kMinPoints);
@@ -33,24 +33,24 @@ std::size_t pointCount(const fields::ScalarFunction& function) {
 
 }  // namespace
 
-void CoordinateValueHistograms::measure(const fields::Field& field, const geometry::Rotation& orientation,
+void CoordinateValueHistograms::compute(const fields::Field& field, const geometry::Rotation& orientation,
                                         std::span<const double> levels) {
-    if (function_.lock() != field.function || !(box_ == field.box)) sample(field);
+    if (function_.lock() != field.function || !(box_ == field.box)) sampleField(field);
     chooseRange(levels);
-    count(field, orientation);
-    findTones();
+    countValues(field, orientation);
+    computeTones();
 }
 
 // Evaluates the function of `field` at quasirandom points, and sets fullRange_ and typicalRange_ to the ranges of its
 // values.
-void CoordinateValueHistograms::sample(const fields::Field& field) {
-    // The length of each side of the domain, in steps of ScalarFunction::versionForSteps().
+void CoordinateValueHistograms::sampleField(const fields::Field& field) {
+    // The length of each side of the domain, in steps of ScalarFunction::downsampledForSteps().
     constexpr double kResolution = 128;
     const glm::dvec4 size = field.box.max - field.box.min;
     std::array<glm::dvec4, 4> steps{};
     for (int k = 0; k < 4; ++k) steps[static_cast<std::size_t>(k)][k] = size[k] / kResolution;
-    const fields::ScalarFunction& function = field.function->versionForSteps(steps);
-    values_.resize(pointCount(function));
+    const fields::ScalarFunction& function = field.function->downsampledForSteps(steps);
+    values_.resize(histogramPointCount(function));
     UnitCubePoints points;
     for (std::size_t first = 0; first < values_.size(); first += kHistogramBatch) {
         writeQuasirandomPoints(first, points);
@@ -61,10 +61,10 @@ void CoordinateValueHistograms::sample(const fields::Field& field) {
     }
     function_ = field.function;
     box_ = field.box;
-    // NaN equals no number. So chooseRange() will find that the range has changed, and will call assignRows().
+    // NaN equals no number. So chooseRange() will find that the range has changed, and will call assignPointsToRows().
     range_ = {std::numeric_limits<double>::quiet_NaN(), 0};
 
-    const fields::FullAndTypicalRange ranges = fields::rangesOf(values_);
+    const fields::FullAndTypicalRange ranges = fields::fullAndTypicalRange(values_);
     fullRange_ = ranges.full;
     typicalRange_ = ranges.typical;
 }
@@ -83,10 +83,10 @@ void CoordinateValueHistograms::chooseRange(std::span<const double> levels) {
     }
     if (range == range_) return;
     range_ = range;
-    assignRows();
+    assignPointsToRows();
 }
 
-void CoordinateValueHistograms::assignRows() {
+void CoordinateValueHistograms::assignPointsToRows() {
     const double scale = (kRows - 1) / (range_.greatest - range_.least);
     rowOf_.resize(values_.size());
     countedPoints_ = 0;
@@ -98,7 +98,7 @@ void CoordinateValueHistograms::assignRows() {
     }
 }
 
-void CoordinateValueHistograms::count(const fields::Field& field, const geometry::Rotation& orientation) {
+void CoordinateValueHistograms::countValues(const fields::Field& field, const geometry::Rotation& orientation) {
     // The next two loops complete toSteps. It then maps the unit cube, centered at the origin, to the rotated domain.
     // The unit along each axis is 1 / kPointWeight of a column, so that the domain extends from −kReach to +kReach.
     constexpr float kReach = (kPanel - 1) * kPointWeight / 2.0F;
@@ -135,7 +135,7 @@ void CoordinateValueHistograms::count(const fields::Field& field, const geometry
     }
 }
 
-void CoordinateValueHistograms::findTones() {
+void CoordinateValueHistograms::computeTones() {
     tones_.resize(weights_.size());
     const std::uint32_t most = *std::ranges::max_element(weights_);
     const float unit = most > 0 ? 255.0F / std::cbrt(static_cast<float>(most)) : 0;

@@ -23,8 +23,8 @@ namespace oval4d::slicing {
 /// Four two-dimensional histograms of a rotated field, one for each of the axes x, y, z and w. Each histogram shows how
 /// much of the domain has a given coordinate along the axis and a given value of the field. The histograms form one
 /// table with kRows rows and kColumns columns. The table has a panel of kPanel columns for each axis. The first and the
-/// last column of a panel stand for the ends of the domain. The first row stands for the greatest value of range(), and
-/// the last row for the least.
+/// last column of a panel stand for the ends of the domain. The first row stands for the greatest value of
+/// valueRange(), and the last row for the least.
 ///
 /// The field is sampled at quasirandom points of the domain (see fields::writeQuasirandomPoints()). While only the
 /// rotation or the levels change, its function is not evaluated again. Reuses its memory between measurements.
@@ -42,20 +42,20 @@ class CoordinateValueHistograms {
 
     using Range = fields::ValueRange;
 
-    /// Computes the histograms of a field rotated by `orientation`. After this call, range() includes those `levels`
-    /// that lie between the least and the greatest value of the field at the sampled points.
-    void measure(const fields::Field& field, const geometry::Rotation& orientation, std::span<const double> levels);
+    /// Computes the histograms of a field rotated by `orientation`. After this call, valueRange() includes those
+    /// `levels` that lie between the least and the greatest value of the field at the sampled points.
+    void compute(const fields::Field& field, const geometry::Rotation& orientation, std::span<const double> levels);
 
     /// Returns the interval of values that the rows represent. The interval contains the values at the sampled points
     /// except outliers, such as values near a pole. It is extended to levels that lie among the outliers. Values
     /// outside the interval are not counted.
-    Range range() const { return range_; }
+    Range valueRange() const { return range_; }
 
     /// Returns, for each axis, half the extent of the rotated domain, in the object's units. Along the axis, the domain
     /// extends from −reach, in the first column of the panel, to +reach, in the last column.
     const std::array<double, 4>& reach() const { return reach_; }
 
-    /// Returns the number of sampled points whose values are in range(). In each panel, the sum of the weights is
+    /// Returns the number of sampled points whose values are in valueRange(). In each panel, the sum of the weights is
     /// kPointWeight times this number.
     std::size_t countedPoints() const { return countedPoints_; }
 
@@ -73,11 +73,11 @@ class CoordinateValueHistograms {
     }
 
   private:
-    void sample(const fields::Field& field);
+    void sampleField(const fields::Field& field);
     void chooseRange(std::span<const double> levels);
-    void assignRows();
-    void count(const fields::Field& field, const geometry::Rotation& orientation);
-    void findTones();
+    void assignPointsToRows();
+    void countValues(const fields::Field& field, const geometry::Rotation& orientation);
+    void computeTones();
 
     std::weak_ptr<const fields::ScalarFunction> function_;  // the function whose values on box_ are in values_
     fields::Box box_;

@@ -10,8 +10,8 @@ void DegeneracyCollapse::begin(const polytopes::Polytope& polytope, PlanesBelowV
     sliceEdge_.assign(polytope.edges.size(), kNone);
 }
 
-SliceCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at,
-                                         SliceCounts size, SliceSet& out) {
+SliceElementCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, int plane, SliceElementCounts at,
+                                                SliceElementCounts size, SliceSet& out) {
     plane_ = plane;
     size.vertices = collapseVertices(polytope, at, size.vertices, out);
     size.edges = collapseEdges(polytope, at, size.edges, out);
@@ -19,7 +19,7 @@ SliceCounts DegeneracyCollapse::collapse(const polytopes::Polytope& polytope, in
     return size;
 }
 
-std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& polytope, SliceCounts at,
+std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& polytope, SliceElementCounts at,
                                                    std::uint32_t count, SliceSet& out) {
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     auto* vertices = out.vertices.data() + at.vertices;
@@ -45,7 +45,7 @@ std::uint32_t DegeneracyCollapse::collapseVertices(const polytopes::Polytope& po
     return kept;
 }
 
-std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polytope, SliceCounts at,
+std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polytope, SliceElementCounts at,
                                                 std::uint32_t count, SliceSet& out) {
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
@@ -74,8 +74,8 @@ std::uint32_t DegeneracyCollapse::collapseEdges(const polytopes::Polytope& polyt
     return kept;
 }
 
-void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size,
-                                       SliceSet& out) {
+void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, SliceElementCounts at,
+                                       SliceElementCounts& size, SliceSet& out) {
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto* vertexSource = out.vertexSource.data() + at.vertices;
@@ -101,7 +101,7 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
             ++to;
         }
         if (to - begin < 3) {
-            if (to - begin == 2) coinciding_.join(cornerEdges[begin], cornerEdges[begin + 1]);
+            if (to - begin == 2) coinciding_.markCoinciding(cornerEdges[begin], cornerEdges[begin + 1]);
             to = begin;
             continue;
         }
@@ -111,10 +111,10 @@ void DegeneracyCollapse::collapseFaces(const polytopes::Polytope& polytope, Slic
     }
     size.faces = kept;
     size.corners = to - at.corners;
-    if (coinciding_.any()) removeCoincidingEdges(at, size, out);
+    if (coinciding_.anyCoincide()) removeCoincidingEdges(at, size, out);
 }
 
-void DegeneracyCollapse::removeCoincidingEdges(SliceCounts at, SliceCounts& size, SliceSet& out) {
+void DegeneracyCollapse::removeCoincidingEdges(SliceElementCounts at, SliceElementCounts& size, SliceSet& out) {
     auto* sliceEdges = out.edges.data() + at.edges;
     auto* edgeSource = out.edgeSource.data() + at.edges;
     newEdge_.resize(size.edges);

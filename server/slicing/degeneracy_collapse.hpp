@@ -37,18 +37,19 @@ class DegeneracyCollapse {
     /// Moves a slice from just above the hyperplane with the index `plane` down into the hyperplane, in place. The
     /// slice begins at position `at` in `out` and has the size `size`. All of its vertices must have been cut from
     /// edges, its edges from 2-faces, and its faces from cells. Returns the new size of the slice.
-    SliceCounts collapse(const polytopes::Polytope& polytope, int plane, SliceCounts at, SliceCounts size,
-                         SliceSet& out);
+    SliceElementCounts collapse(const polytopes::Polytope& polytope, int plane, SliceElementCounts at,
+                                SliceElementCounts size, SliceSet& out);
 
   private:
     static constexpr std::uint32_t kNone = 0xffffffffU;
 
-    std::uint32_t collapseVertices(const polytopes::Polytope& polytope, SliceCounts at, std::uint32_t count,
+    std::uint32_t collapseVertices(const polytopes::Polytope& polytope, SliceElementCounts at, std::uint32_t count,
                                    SliceSet& out);
-    std::uint32_t collapseEdges(const polytopes::Polytope& polytope, SliceCounts at, std::uint32_t count,
+    std::uint32_t collapseEdges(const polytopes::Polytope& polytope, SliceElementCounts at, std::uint32_t count,
                                 SliceSet& out);
-    void collapseFaces(const polytopes::Polytope& polytope, SliceCounts at, SliceCounts& size, SliceSet& out);
-    void removeCoincidingEdges(SliceCounts at, SliceCounts& size, SliceSet& out);
+    void collapseFaces(const polytopes::Polytope& polytope, SliceElementCounts at, SliceElementCounts& size,
+                       SliceSet& out);
+    void removeCoincidingEdges(SliceElementCounts at, SliceElementCounts& size, SliceSet& out);
     std::uint32_t edgeInHyperplane(const polytopes::Polytope& polytope, std::uint32_t face,
                                    std::array<std::uint32_t, 2> ends) const;
     std::uint32_t faceInHyperplane(const polytopes::Polytope& polytope, std::uint32_t cell, std::size_t corners) const;

@@ -67,9 +67,9 @@ void visitVertices(const Elements& object, const Element& element, Visit visit) 
 // Tells which elements contain a given element, or are contained in it. An element contains another one if it contains
 // all vertices of the other one.
 template <typename Elements>
-class Incidence {
+class IncidenceTest {
   public:
-    Incidence(const Elements& object, const Element& element) : object_(object), element_(element) {
+    IncidenceTest(const Elements& object, const Element& element) : object_(object), element_(element) {
         isOwn_.resize(verticesOf(object).size());
         visitVertexNumbers(object, element, [&](std::uint32_t v) { isOwn_[v] = true; });
         own_ = static_cast<std::size_t>(std::ranges::count(isOwn_, true));
@@ -133,11 +133,11 @@ class OrthonormalBasis {
     std::size_t size_ = 0;
 };
 
-// Returns the result of directionOf(). `points` is a buffer, which is overwritten. A caller with many elements passes
-// the same buffer for all of them, so that memory is allocated only once.
+// Returns the result of elementDirectionOf(). `points` is a buffer, which is overwritten. A caller with many elements
+// passes the same buffer for all of them, so that memory is allocated only once.
 template <typename Elements>
-glm::dvec4 directionIn(const Elements& object, const Element& element, const glm::dvec4& preferred,
-                       std::vector<glm::dvec4>& points) {
+glm::dvec4 elementDirectionIn(const Elements& object, const Element& element, const glm::dvec4& preferred,
+                              std::vector<glm::dvec4>& points) {
     const double tolerance = 1e-6 * object.circumradius;
     points.clear();
     visitVertices(object, element, [&](const glm::dvec4& v) { points.push_back(v); });
@@ -250,7 +250,7 @@ void measureSize(const CellComplex& p, const Element& element, const glm::dmat4&
 }
 
 // Returns the direction that `orientation` turns to +w, in the object's own coordinates.
-glm::dvec4 ownDirectionOfW(const geometry::Rotation& orientation) { return orientation.inverse()({0, 0, 0, 1}); }
+glm::dvec4 wDirectionInObject(const geometry::Rotation& orientation) { return orientation.inverse()({0, 0, 0, 1}); }
 
 }  // namespace
 
@@ -258,20 +258,20 @@ std::size_t elementCount(const Object& object, ElementKind kind) {
     return elementCounts(object).at(static_cast<std::size_t>(kind));
 }
 
-glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
+glm::dvec4 elementDirectionOf(const Object& object, const Element& element, const glm::dvec4& preferred) {
     std::vector<glm::dvec4> points;
-    return visitElements([&](const auto& elements) { return directionIn(elements, element, preferred, points); },
+    return visitElements([&](const auto& elements) { return elementDirectionIn(elements, element, preferred, points); },
                          object);
 }
 
 geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation) {
-    const glm::dvec4 own = directionOf(object, element, ownDirectionOfW(orientation));
+    const glm::dvec4 own = elementDirectionOf(object, element, wDirectionInObject(orientation));
     return geometry::Rotation::between(orientation(own), {0, 0, 0, 1});
 }
 
 std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                        const std::optional<Element>& incident) {
-    const glm::dvec4 w = ownDirectionOfW(orientation);
+    const glm::dvec4 w = wDirectionInObject(orientation);
     std::vector<std::size_t> candidates(elementCount(object, kind));
     std::iota(candidates.begin(), candidates.end(), std::size_t{0});
     double best = -2;
@@ -279,11 +279,12 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
     std::vector<glm::dvec4> points;
     const auto findNearest = [&](const auto& elements) {
         if (incident) {
-            Incidence isIncident(elements, *incident);
+            IncidenceTest isIncident(elements, *incident);
             std::erase_if(candidates, [&](std::size_t i) { return !isIncident(Element{kind, i}); });
         }
         for (std::size_t i = 0; i < candidates.size(); ++i) {
-            const double cosine = glm::dot(w, glm::normalize(directionIn(elements, {kind, candidates[i]}, w, points)));
+            const double cosine =
+                glm::dot(w, glm::normalize(elementDirectionIn(elements, {kind, candidates[i]}, w, points)));
             // Elements at the same angle from +w are equally near. The first of them is chosen, so that rounding does
             // not decide.
             constexpr double kSame = 1e-9;
@@ -304,7 +305,7 @@ std::optional<Element> elementToTurnTo(const Object& object, ElementKind kind, c
 std::vector<bool> elementsCutBy(const Object& object, ElementKind kind, const geometry::Rotation& orientation,
                                 const geometry::Hyperplanes& plane) {
     std::vector<bool> isCut(elementCount(object, kind));
-    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    const glm::dvec4 direction = wDirectionInObject(orientation);
     const auto cutComplex = [&](const CellComplex& complex) {
         const double w = plane.w(0), slack = kOnPlaneTolerance * complex.circumradius;
         std::vector<double> distances;  // per vertex: its distance from the hyperplane, positive above the hyperplane
@@ -346,7 +347,8 @@ void findPartsShowing(const Object& object, const Element& element, PartsShowing
 namespace {
 
 // Returns the product of the units of the axes along which the vertices of an element of a field's box differ.
-std::string unitOfSize(const Object& object, const fields::Field& field, std::span<const std::uint32_t> vertices) {
+std::string unitOfElementSize(const Object& object, const fields::Field& field,
+                              std::span<const std::uint32_t> vertices) {
     std::vector<std::string> units;
     for (int axis = 0; axis < 4; ++axis) {
         double least = field.box.max[axis], most = field.box.min[axis];
@@ -379,7 +381,7 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
     out.center /= static_cast<double>(vertices.size());
     const fields::Field* const field = fieldIn(object);
     const glm::dmat4 toFile = field == nullptr ? glm::dmat4(1) : field->toFunction;
-    if (field != nullptr) out.unit = unitOfSize(object, *field, vertices);
+    if (field != nullptr) out.unit = unitOfElementSize(object, *field, vertices);
     visitElements(Overloaded{[&](const CellComplex& complex) { measureSize(complex, element, toFile, out); },
                              [](const PointCloud& /*cloud*/) {}},
                   object);
@@ -388,7 +390,7 @@ ElementMeasurements measureElement(const Object& object, const Element& element)
 
 std::pair<double, double> rangeOfW(const Object& object, const geometry::Rotation& orientation,
                                    const Element& element) {
-    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    const glm::dvec4 direction = wDirectionInObject(orientation);
     double least = std::numeric_limits<double>::max(), most = -least;
     const auto include = [&](const glm::dvec4& v) {
         const double w = glm::dot(direction, v);
@@ -407,9 +409,9 @@ std::string nameOfFace(const Object& object, std::size_t face) {
     return polytopes::nameOfPolygon(corners);
 }
 
-std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same) {
+std::vector<VertexGroupAtW> groupHeights(std::vector<double> heights, double same) {
     std::ranges::sort(heights);
-    std::vector<HeightGroup> groups;
+    std::vector<VertexGroupAtW> groups;
     for (auto first = heights.begin(); first != heights.end();) {
         auto last = first + 1;
         while (last != heights.end() && *last - *(last - 1) <= same) ++last;
@@ -420,8 +422,8 @@ std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same) 
     return groups;
 }
 
-std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rotation& orientation) {
-    const glm::dvec4 direction = ownDirectionOfW(orientation);
+std::vector<VertexGroupAtW> vertexHeights(const Object& object, const geometry::Rotation& orientation) {
+    const glm::dvec4 direction = wDirectionInObject(orientation);
     std::vector<double> heights;
     const auto add = [&](const std::vector<glm::dvec4>& vertices) {
         heights.reserve(vertices.size());
@@ -434,7 +436,7 @@ std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rot
 std::optional<double> nextVertexHeight(const Object& object, const geometry::Rotation& orientation, double w,
                                        bool upward) {
     const double slack = kOnPlaneTolerance * infoOf(object).circumradius;
-    const glm::dvec4 direction = ownDirectionOfW(orientation);
+    const glm::dvec4 direction = wDirectionInObject(orientation);
     std::optional<double> next;
     const auto consider = [&](const std::vector<glm::dvec4>& vertices) {
         for (const glm::dvec4& v : vertices) {

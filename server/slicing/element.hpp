@@ -52,14 +52,14 @@ std::size_t elementCount(const Object& object, ElementKind kind);
 /// vector perpendicular to the span: the one closest in direction to `preferred`, or any one if `preferred` lies in the
 /// span. The length of the result is arbitrary, but not 0. Requires that `preferred` is not 0, and that element.index <
 /// elementCount(object, element.kind).
-glm::dvec4 directionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
+glm::dvec4 elementDirectionOf(const Object& object, const Element& element, const glm::dvec4& preferred);
 
 /// Returns the rotation by the smallest angle that turns the direction of the element to +w if it is applied after
-/// `orientation`. The direction of the element is the result of directionOf(), where `preferred` is the direction that
-/// `orientation` turns to +w. Requires element.index < elementCount(object, element.kind).
+/// `orientation`. The direction of the element is the result of elementDirectionOf(), where `preferred` is the
+/// direction that `orientation` turns to +w. Requires element.index < elementCount(object, element.kind).
 geometry::Rotation rotationToW(const Object& object, const Element& element, const geometry::Rotation& orientation);
 
-/// Returns the element of kind `kind` whose direction (see directionOf()) is closest to +w after rotation by
+/// Returns the element of kind `kind` whose direction (see elementDirectionOf()) is closest to +w after rotation by
 /// `orientation`. If `incident` is given, considers only elements that contain `incident` or are contained in it; among
 /// elements of the kind of `incident`, considers only `incident` itself. If the closest element already points to +w,
 /// returns instead the considered element with the next greater index or, after the last one, the first. Therefore a
@@ -151,17 +151,17 @@ std::optional<double> nextVertexHeight(const Object& object, const geometry::Rot
 
 /// A group of vertices whose w coordinates are equal, apart from rounding errors: the mean of these coordinates, and
 /// the number of vertices.
-struct HeightGroup {
+struct VertexGroupAtW {
     double w = 0;
     std::size_t vertexCount = 0;
 };
 
 /// Returns the w coordinates of the vertices of the object, rotated by `orientation`, in ascending order. Successive
 /// coordinates that differ by at most kOnPlaneTolerance circumradii form one group (see groupHeights()).
-std::vector<HeightGroup> vertexHeights(const Object& object, const geometry::Rotation& orientation);
+std::vector<VertexGroupAtW> vertexHeights(const Object& object, const geometry::Rotation& orientation);
 
 /// Sorts w coordinates, and groups successive coordinates that differ by at most `same`. The w of a group is the mean
 /// of its coordinates.
-std::vector<HeightGroup> groupHeights(std::vector<double> heights, double same);
+std::vector<VertexGroupAtW> groupHeights(std::vector<double> heights, double same);
 
 }  // namespace oval4d::slicing

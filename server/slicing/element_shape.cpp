@@ -19,7 +19,7 @@ using geometry::CellComplex;
 using geometry::PointCloud;
 
 // Returns the index of `number` in a sorted list that contains it.
-std::uint32_t indexIn(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
+std::uint32_t indexInSorted(const std::vector<std::uint32_t>& sorted, std::uint32_t number) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(sorted, number) - sorted.begin());
 }
 
@@ -38,7 +38,9 @@ double addVertices(const std::vector<glm::dvec4>& vertices, const std::vector<st
 // edges in the complex; `out` must already contain these vertices.
 void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std::uint32_t>& vertices,
                   const std::vector<std::uint32_t>& edges, SliceSet& out) {
-    const auto pointOf = [&](std::uint32_t v) { return out.vertices[indexIn(vertices, v)] - out.vertices.front(); };
+    const auto pointOf = [&](std::uint32_t v) {
+        return out.vertices[indexInSorted(vertices, v)] - out.vertices.front();
+    };
     // First, each loop whose entry in cellSigns is −1 is reversed. Then the loops of all 2-faces have the same
     // direction in the hyperplane, as seen from outside the cell. The direction depends on which side of the cell faces
     // toward +w. To find it, these loops are divided into triangles with the corners a, b and c. The direction is
@@ -55,8 +57,8 @@ void addCellFaces(const CellComplex& p, std::size_t cell, const std::vector<std:
         const std::size_t n = loop.size();
         const bool forward = (p.cellSigns[at] > 0) == (volume >= 0);
         for (std::size_t i = 0; i < n; ++i) {
-            out.corners.push_back(indexIn(vertices, loop[forward ? i : (n - i) % n]));
-            out.cornerEdges.push_back(indexIn(edges, p.faceEdges[face][forward ? i : n - 1 - i]));
+            out.corners.push_back(indexInSorted(vertices, loop[forward ? i : (n - i) % n]));
+            out.cornerEdges.push_back(indexInSorted(edges, p.faceEdges[face][forward ? i : n - 1 - i]));
         }
         out.faceSource.push_back(static_cast<std::uint32_t>(p.cells.size()) + face);
         out.cornerBegin.push_back(static_cast<std::uint32_t>(out.corners.size()));
@@ -77,7 +79,7 @@ double addShape(const CellComplex& p, const Element& element, const PartsShowing
         if (source < faces) continue;
         edges.push_back(source - faces);
         const auto [a, b] = p.edges[edges.back()];
-        out.edges.push_back({indexIn(vertices, a), indexIn(vertices, b)});
+        out.edges.push_back({indexInSorted(vertices, a), indexInSorted(vertices, b)});
         out.edgeSource.push_back(source);
     }
     if (element.kind == ElementKind::cell) addCellFaces(p, element.index, vertices, edges, out);

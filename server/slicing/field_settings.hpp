@@ -27,8 +27,8 @@ struct FogControlPoint {
 };
 void visitStoredMembers(serialization::ReadOrWritten<FogControlPoint> auto& point, auto& visit) {
     auto& [value, opacity, color] = point;
-    visit.member(0, value, geometry::Range::absoluteUpTo(kMaxLevel));
-    visit.member(1, opacity, geometry::Range{0, 1});
+    visit.member(0, value, geometry::NumberRange::ofAbsoluteValuesUpTo(kMaxLevel));
+    visit.member(1, opacity, geometry::NumberRange{0, 1});
     visit.member(2, color);
 }
 
@@ -39,7 +39,7 @@ inline constexpr std::size_t kMinFogControlPoints = 2, kMaxFogControlPoints = 8;
 /// and the fog in the slices.
 struct FieldSettings {
     std::vector<double> levels{0};  ///< 1 … kMaxLevels different numbers
-    fields::Inside inside = fields::Inside::below;
+    fields::BodySide inside = fields::BodySide::below;
     /// The control points of the transfer function of fog: none if there is no fog, otherwise kMinFogControlPoints …
     /// kMaxFogControlPoints points with strictly ascending values.
     std::vector<FogControlPoint> fog = {};
@@ -47,9 +47,9 @@ struct FieldSettings {
 };
 void visitStoredMembers(serialization::ReadOrWritten<FieldSettings> auto& field, auto& visit) {
     auto& [levels, inside, fog] = field;
-    visit.member(0, levels, geometry::Range::absoluteUpTo(kMaxLevel));
+    visit.member(0, levels, geometry::NumberRange::ofAbsoluteValuesUpTo(kMaxLevel));
     visit.member(1, inside);
-    visit.addedMember(2, fog);
+    visit.memberAddedLater(2, fog);
 }
 
 }  // namespace oval4d::slicing

@@ -18,7 +18,7 @@ namespace {
 
 /// Sets the walls of `section`: one half-space for each facet of the box that is not parallel to the slice's
 /// hyperplane.
-void findWalls(const fields::Box& box, FieldSection& section) {
+void findBoxWalls(const fields::Box& box, FieldSection& section) {
     constexpr double kParallel = 1e-12;
     section.walls.clear();
     for (int axis = 0; axis < 4; ++axis) {
@@ -32,13 +32,13 @@ void findWalls(const fields::Box& box, FieldSection& section) {
 
 /// Returns the vectors from a lattice point to the next points along x, y and z, in the function's coordinates. `step`
 /// is the distance between these points in the slice.
-std::array<glm::dvec4, 3> stepsOf(const FieldSection& section, double step) {
+std::array<glm::dvec4, 3> latticeSteps(const FieldSection& section, double step) {
     return {step * section.axes[0], step * section.axes[1], step * section.axes[2]};
 }
 
 /// Returns a number proportional to the number of points that a surface has on a lattice with the step `step`. A step
 /// of 0 stands for no surface, and gives 0.
-double pointWeight(double step) { return step > 0 ? 1 / (step * step) : 0; }
+double relativePointCount(double step) { return step > 0 ? 1 / (step * step) : 0; }
 
 /// Returns the axis-parallel bounding box of slice number `slice` of the domain. The slice must have vertices.
 std::pair<glm::dvec3, glm::dvec3> boundsOf(const SliceSet& slices, int slice) {
@@ -64,7 +64,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
     // Each slice gets a share of the limits on time and points. The share is proportional to the estimated number of
     // the points of the slice's surfaces.
     double sum = 0;
-    for (const double step : detail.steps) sum += pointWeight(step);
+    for (const double step : detail.steps) sum += relativePointCount(step);
     if (sum == 0) {
         for (SliceSurface& surface : out.surfaces) surface.clear();
         if (!hasFog) return;
@@ -76,7 +76,7 @@ void FieldSlicer::slice(const fields::Field& field, const geometry::Rotation& or
         for (int i = next++; i < planes.count; i = next++) {
             const auto n = static_cast<std::size_t>(i);
             SliceTask task;
-            if (sum > 0) task = {detail.steps[n], pointWeight(detail.steps[n]) / sum, 0};
+            if (sum > 0) task = {detail.steps[n], relativePointCount(detail.steps[n]) / sum, 0};
             if (hasFog) task.fogStep = coarsening * detail.fogSteps[n];
             extractSurfacesAndFog(field, toFunction, settings, detail, task, i, out, worker);
         }
@@ -120,13 +120,14 @@ void FieldSlicer::extractSurfacesAndFog(const fields::Field& field, const glm::d
     if (!extracts && !samples) return;
     FieldSection& section = sections_[worker];
     placeSection(field, toFunction, out.planes.w(slice), section);
-    findWalls(field.box, section);
+    findBoxWalls(field.box, section);
     std::tie(section.min, section.max) = boundsOf(out, slice);
     if (extracts) {
         const SurfaceLimits limits = surfaceLimits(detail.quality);
         const auto maxPoints = static_cast<std::size_t>(task.share * static_cast<double>(limits.points));
         const auto inQuality = [&](const fields::ScalarFunction& function) -> const fields::ScalarFunction& {
-            return detail.quality != Quality::draft ? function : function.versionForSteps(stepsOf(section, task.step));
+            return detail.quality != Quality::draft ? function
+                                                    : function.downsampledForSteps(latticeSteps(section, task.step));
         };
         const fields::ScalarFunction* const second =
             detail.secondValues && field.second != nullptr ? &inQuality(*field.second->function) : nullptr;
@@ -145,8 +146,8 @@ void FieldSlicer::extractSurfacesAndFog(const fields::Field& field, const glm::d
         }
     }
     if (samples) {
-        sampleFog(field.function->versionForSteps(stepsOf(section, task.fogStep)), section, settings.fog.front().value,
-                  settings.fog.back().value, task.fogStep, out.fogs[n]);
+        sampleFog(field.function->downsampledForSteps(latticeSteps(section, task.fogStep)), section,
+                  settings.fog.front().value, settings.fog.back().value, task.fogStep, out.fogs[n]);
     }
     field.function->releasePages();
 }

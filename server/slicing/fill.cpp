@@ -44,9 +44,9 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
     if (end - begin == 1 && !isFlat(face)) {
         fillRoughly(slices, begin, end, out);
     } else {
-        findSides(slices, begin, end);
+        findLoopSides(slices, begin, end);
         const bool known = spendSteps(sides_.size() * sides_.size());
-        if (known) findLevels();
+        if (known) findSweepEvents();
         if (known && spendSteps(sides_.size() * levels_.size())) {
             face.winding = sweep(out);
         } else {
@@ -59,7 +59,7 @@ void FaceFiller::fillFace(const SliceSet& slices, std::size_t slice, std::uint32
 }
 
 // Sets sides_ to the sides of the loops of the current face. The corners of the loops are points_.
-void FaceFiller::findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end) {
+void FaceFiller::findLoopSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end) {
     const auto onPlane = [this](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - faceFrame_.origin, faceFrame_.x), glm::dot(p - faceFrame_.origin, faceFrame_.y));
     };
@@ -114,9 +114,9 @@ void FaceFiller::fillRoughly(const SliceSet& slices, std::uint32_t begin, std::u
     }
 }
 
-// Sets points_ to the corners of the loops, which are the faces begin … end − 1 of `slices`. Finds the plane of the
-// loops from three corners that are far apart. Sets faceFrame_ to this plane, and sets the normal and offset of `out`.
-// Returns false if all corners are collinear.
+// Finds the plane of one face. The loops of the face are the entries begin … end − 1 of the faces of `slices`. Sets
+// points_ to their corners, faceFrame_ to the plane through three corners that are far apart, and the normal and the
+// offset of `out`. Returns false if all corners are collinear.
 bool FaceFiller::findFaceFrame(const SliceSet& slices, std::size_t slice, std::uint32_t begin, std::uint32_t end,
                                FilledFaces::FilledFace& out) {
     points_.clear();
@@ -150,7 +150,7 @@ bool FaceFiller::findFaceFrame(const SliceSet& slices, std::size_t slice, std::u
 
 // Sets levels_: the heights y at which a side begins, ends or crosses another. Sets the levels of the ends of each
 // side. Between two successive levels, no side begins, ends or crosses another.
-void FaceFiller::findLevels() {
+void FaceFiller::findSweepEvents() {
     levels_.clear();
     for (const LoopSide& side : sides_) {
         levels_.push_back(side.low.y);
@@ -202,7 +202,7 @@ int FaceFiller::sweep(FilledFaces& out) {
         for (; next < waiting_.size() && sides_[waiting_[next]].from == strip; ++next) {
             if (sides_[waiting_[next]].to > strip) active_.push_back(waiting_[next]);
         }
-        sortActive((bottom + top) / 2);
+        sortActiveSides((bottom + top) / 2);
 
         arrivals_.clear();
         for (ConvexPiece& piece : open_) {
@@ -221,21 +221,21 @@ int FaceFiller::sweep(FilledFaces& out) {
                 left = i;
                 hasPositiveWinding = winding > 0;
             } else if (winding == 0 && sides_[i].middle - sides_[left].middle > epsilon_) {
-                addSpan(left, i, hasPositiveWinding, bottom);
+                addRegionBetweenSides(left, i, hasPositiveWinding, bottom);
             }
         }
         for (const ConvexPiece& piece : open_) {
-            if (!piece.continued) close(piece, bottom, out);
+            if (!piece.continued) closePiece(piece, bottom, out);
         }
         std::erase_if(open_, [](const ConvexPiece& piece) { return !piece.continued; });
     }
-    for (const ConvexPiece& piece : open_) close(piece, levels_.back(), out);
+    for (const ConvexPiece& piece : open_) closePiece(piece, levels_.back(), out);
     return most;
 }
 
 // Sorts the active sides from left to right at height y. The sides are nearly sorted already, from the previous strip,
 // so insertion sort is fastest.
-void FaceFiller::sortActive(double y) {
+void FaceFiller::sortActiveSides(double y) {
     for (std::size_t i = 0; i < active_.size(); ++i) {
         const std::uint32_t side = active_[i];
         const double x = sides_[side].middle = sides_[side].at(y);
@@ -249,13 +249,14 @@ void FaceFiller::sortActive(double y) {
 // at height `bottom`. Extends an open piece by the region if the piece stays convex, else begins a new piece. Only a
 // piece whose left side arrives at the left end of the region can be extended. There is at most one such piece, except
 // where several sides meet.
-void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom) {
+void FaceFiller::addRegionBetweenSides(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding,
+                                       double bottom) {
     const LoopSide &l = sides_[left], &r = sides_[right];
     const double x = l.at(bottom);
     auto arrival = std::ranges::lower_bound(arrivals_, x - epsilon_, {}, &PieceAtLevel::x);
     for (; arrival != arrivals_.end() && arrival->x <= x + epsilon_; ++arrival) {
         ConvexPiece& piece = open_[arrival->piece];
-        if (piece.continued || piece.hasPositiveWinding != hasPositiveWinding || !canContinue(piece, l, r, bottom))
+        if (piece.continued || piece.hasPositiveWinding != hasPositiveWinding || !canExtendPiece(piece, l, r, bottom))
             continue;
         if (piece.leftSide != left) piece.left.at(piece.leftCount++) = {l.at(bottom), bottom};
         if (piece.rightSide != right) piece.right.at(piece.rightCount++) = {r.at(bottom), bottom};
@@ -277,8 +278,8 @@ void FaceFiller::addSpan(std::uint32_t left, std::uint32_t right, bool hasPositi
 
 // Returns whether the piece can continue upward from height `bottom` along the sides `left` and `right`: whether the
 // piece stays convex, and its chains have room for another corner.
-bool FaceFiller::canContinue(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right,
-                             double bottom) const {
+bool FaceFiller::canExtendPiece(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right,
+                                double bottom) const {
     const LoopSide &l = sides_[piece.leftSide], &r = sides_[piece.rightSide];
     const auto follows = [&](const LoopSide& before, const LoopSide& after, double inward) {
         if (&before == &after) return true;
@@ -290,7 +291,7 @@ bool FaceFiller::canContinue(const ConvexPiece& piece, const LoopSide& left, con
 }
 
 // Completes a piece at height `top` and appends it to `out`, unless the piece is degenerate.
-void FaceFiller::close(const ConvexPiece& piece, double top, FilledFaces& out) const {
+void FaceFiller::closePiece(const ConvexPiece& piece, double top, FilledFaces& out) const {
     const std::size_t first = out.corners.size();
     glm::dvec2 last(0);
     const auto add = [&](const glm::dvec2& p) {

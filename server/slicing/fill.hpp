@@ -97,14 +97,14 @@ class FaceFiller {
                        FilledFaces::FilledFace& out);
     bool isFlat(const FilledFaces::FilledFace& face) const;
     bool spendSteps(std::size_t steps);
-    void findSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end);
-    void findLevels();
+    void findLoopSides(const SliceSet& slices, std::uint32_t begin, std::uint32_t end);
+    void findSweepEvents();
     int sweep(FilledFaces& out);
     void fillRoughly(const SliceSet& slices, std::uint32_t begin, std::uint32_t end, FilledFaces& out) const;
-    void sortActive(double y);
-    void addSpan(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom);
-    bool canContinue(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right, double bottom) const;
-    void close(const ConvexPiece& piece, double top, FilledFaces& out) const;
+    void sortActiveSides(double y);
+    void addRegionBetweenSides(std::uint32_t left, std::uint32_t right, bool hasPositiveWinding, double bottom);
+    bool canExtendPiece(const ConvexPiece& piece, const LoopSide& left, const LoopSide& right, double bottom) const;
+    void closePiece(const ConvexPiece& piece, double top, FilledFaces& out) const;
 
     std::size_t stepsLeft_ = 0;
     double epsilon_ = 0;  // lengths up to this value are treated as 0

@@ -36,14 +36,14 @@ using serialization::ByteWriter;
 
 // Which members of an object a message contains: `stored` are those from which the object can be made again, and `all`
 // are all members (see serialization/stored_members.hpp).
-enum class Members : std::uint8_t { stored, all };
+enum class MemberSelection : std::uint8_t { stored, all };
 
 // Writes the members of an object. The samples of an array are written inline, unless they are in a file and exceed the
 // limit for inline samples (see writeObjectContent()). In that case, the index of their file and their place in this
 // file are written.
 class ObjectWriter {
   public:
-    ObjectWriter(ByteWriter& archive, Members members, MappedFiles& files, std::size_t maxInMemory)
+    ObjectWriter(ByteWriter& archive, MemberSelection members, MappedFiles& files, std::size_t maxInMemory)
         : archive_(archive), members_(members), files_(files), maxInMemory_(maxInMemory) {}
 
     template <typename T, typename... Ranges>
@@ -51,12 +51,12 @@ class ObjectWriter {
         write(value);
     }
     template <typename T, typename... Ranges>
-    void addedMember(std::size_t /*number*/, const T& value, Ranges... /*range*/) {
+    void memberAddedLater(std::size_t /*number*/, const T& value, Ranges... /*range*/) {
         write(value);
     }
     template <typename T>
-    void computedMember(const T& value) {
-        if (members_ == Members::all) write(value);
+    void recomputableMember(const T& value) {
+        if (members_ == MemberSelection::all) write(value);
     }
 
   private:
@@ -93,7 +93,7 @@ class ObjectWriter {
     }
 
     ByteWriter& archive_;
-    const Members members_;
+    const MemberSelection members_;
     MappedFiles& files_;
     std::size_t maxInMemory_;  // how many more samples that are in a file may be written inline
 };
@@ -102,7 +102,7 @@ class ObjectWriter {
 // missing, or if a row of a jagged array does not lie within its items.
 class ObjectReader {
   public:
-    ObjectReader(ByteReader& archive, Members members, const MappedFiles& files)
+    ObjectReader(ByteReader& archive, MemberSelection members, const MappedFiles& files)
         : archive_(archive), members_(members), files_(files) {}
 
     template <typename T, typename... Ranges>
@@ -110,12 +110,12 @@ class ObjectReader {
         read(value);
     }
     template <typename T, typename... Ranges>
-    void addedMember(std::size_t /*number*/, T& value, Ranges... /*range*/) {
+    void memberAddedLater(std::size_t /*number*/, T& value, Ranges... /*range*/) {
         read(value);
     }
     template <typename T>
-    void computedMember(T& value) {
-        if (members_ == Members::all) read(value);
+    void recomputableMember(T& value) {
+        if (members_ == MemberSelection::all) read(value);
     }
 
   private:
@@ -164,7 +164,7 @@ class ObjectReader {
     }
 
     ByteReader& archive_;
-    const Members members_;
+    const MemberSelection members_;
     const MappedFiles& files_;
 };
 
@@ -179,20 +179,20 @@ void writeObject(const Object& object, ObjectWriter& writer) {
 }
 
 // Makes a field from its definition. Throws std::runtime_error if the definition is invalid.
-fields::Field madeFrom(const fields::FieldDefinition& definition) {
+fields::Field makeOrThrow(const fields::FieldDefinition& definition) {
     auto field = fields::fieldFromDefinition(definition);
     if (!field) throw std::runtime_error("an invalid field: " + field.error().message);
     return std::move(*field);
 }
 
 // Writes the kind of an object, as the index of its alternative in the variant Object.
-void writeKind(const Object& object, ByteWriter& archive) { archive(static_cast<std::uint8_t>(object.index())); }
+void writeObjectKind(const Object& object, ByteWriter& archive) { archive(static_cast<std::uint8_t>(object.index())); }
 
 // Reads the kind of an object. Returns an Object with a null pointer of this kind. Callers visit the result to choose
 // the function that reads the rest of the object, so that the code does not compile if a kind has no function. Throws
 // std::runtime_error if the kind is unknown.
 template <typename... Kinds>
-Object readKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> /*kinds*/) {
+Object readObjectKind(ByteReader& archive, std::type_identity<std::variant<Kinds...>> /*kinds*/) {
     const std::array<Object, sizeof...(Kinds)> ofEachKind{Kinds()...};
     std::uint8_t kind = 0;
     archive(kind);
@@ -206,19 +206,19 @@ void encodeObject(const Object& object, std::string& out, MappedFiles& files) {
     out.clear();
     files.clear();
     ByteWriter archive(out);
-    writeKind(object, archive);
-    ObjectWriter writer(archive, Members::all, files, 0);
+    writeObjectKind(object, archive);
+    ObjectWriter writer(archive, MemberSelection::all, files, 0);
     writeObject(object, writer);
 }
 
 Object decodeObject(std::string_view bytes, const MappedFiles& files) {
     ByteReader archive(bytes);
-    const Object kind = readKind(archive, std::type_identity<Object>());
-    ObjectReader reader(archive, Members::all, files);
+    const Object kind = readObjectKind(archive, std::type_identity<Object>());
+    ObjectReader reader(archive, MemberSelection::all, files);
     return std::visit(Overloaded{[&](const FieldPtr& /*null*/) -> Object {
                                      fields::FieldDefinition definition;
                                      visitStoredMembers(definition, reader);
-                                     auto field = std::make_shared<fields::Field>(madeFrom(definition));
+                                     auto field = std::make_shared<fields::Field>(makeOrThrow(definition));
                                      static_cast<geometry::ObjectInfo&>(*field) = std::move(definition.info);
                                      return FieldPtr(std::move(field));
                                  },
@@ -231,15 +231,15 @@ Object decodeObject(std::string_view bytes, const MappedFiles& files) {
 }
 
 void writeObjectContent(const Object& object, ByteWriter& archive, MappedFiles& files, std::size_t maxInMemory) {
-    writeKind(object, archive);
-    ObjectWriter writer(archive, Members::stored, files, maxInMemory);
+    writeObjectKind(object, archive);
+    ObjectWriter writer(archive, MemberSelection::stored, files, maxInMemory);
     writeObject(object, writer);
 }
 
 Object readObjectContent(ByteReader& archive, const std::string& name, std::size_t maxVertices,
                          const MappedFiles& files) {
-    const Object kind = readKind(archive, std::type_identity<Object>());
-    ObjectReader reader(archive, Members::stored, files);
+    const Object kind = readObjectKind(archive, std::type_identity<Object>());
+    ObjectReader reader(archive, MemberSelection::stored, files);
     const auto readMembers = [&](auto& stored) {
         visitStoredMembers(stored, reader);
         if (!std::isfinite(glm::length(stored.originInFile))) throw std::runtime_error("an origin that is not finite");
@@ -291,7 +291,7 @@ Object readObjectContent(ByteReader& archive, const std::string& name, std::size
         fields::FieldDefinition definition;
         visitStoredMembers(definition, reader);
         definition.info.name = name;
-        return std::make_shared<const fields::Field>(madeFrom(definition));
+        return std::make_shared<const fields::Field>(makeOrThrow(definition));
     };
     return std::visit(Overloaded{readPolytope, readCloud, readSurface, readField}, kind);
 }

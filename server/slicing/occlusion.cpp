@@ -33,8 +33,8 @@ glm::dvec2 OcclusionFinder::ProjectedFaceFrame::coordinatesOf(const glm::dvec4& 
     return {glm::dot(from, glm::dvec3(right)), glm::dot(from, glm::dvec3(up))};
 }
 
-bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
-                           const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out) {
+bool OcclusionFinder::findDrawnElements(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
+                                        const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out) {
     complex_ = &complex;
     out.vertices.assign(complex.vertices.size(), false);
     out.edges.assign(complex.edges.size(), false);
@@ -53,8 +53,8 @@ bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const
                                (withFaces ? faces.size() : 0);
     const auto hiding = static_cast<std::size_t>(std::count(roles.hides.begin(), roles.hides.end(), true));
     if (hiding > 0 && tested > steps / hiding) return false;
-    cells_.place(complex, images, roles.hides, steps);
-    if (withFaces) findContourFaces(roles.hides);
+    cells_.setCells(complex, images, roles.hides, steps);
+    if (withFaces) findSilhouetteFaces(roles.hides);
 
     for (const std::uint32_t f : faces) {
         if (cells_.isExhausted()) return false;
@@ -67,7 +67,7 @@ bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const
         if (cells_.isExhausted()) return false;
         const auto [a, b] = complex.edges[e];
         if (mayShowEdge[e] && !out.edges[e]) {
-            cells_.exclude(cells_.cellsOfEdge(e));
+            cells_.excludeCells(cells_.cellsOfEdge(e));
             out.edges[e] = !cells_.isHidden({points[a], points[b]}, cells_.allOccluders());
         }
         if (out.edges[e]) out.vertices[a] = out.vertices[b] = true;
@@ -75,7 +75,7 @@ bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const
     for (std::uint32_t v = 0; v < complex.vertices.size(); ++v) {
         if (cells_.isExhausted()) return false;
         if (!mayShowVertex[v] || out.vertices[v]) continue;
-        cells_.exclude(cells_.cellsOfVertex(v));
+        cells_.excludeCells(cells_.cellsOfVertex(v));
         out.vertices[v] = !cells_.isHidden({points[v], points[v]}, cells_.allOccluders());
     }
     return !cells_.isExhausted();
@@ -85,7 +85,7 @@ bool OcclusionFinder::find(const geometry::CellComplex& complex, std::span<const
 // into the tetrahedra between its center, the centers of its 2-faces and the sides of the 2-faces. Returns the common
 // sign of their volumes, or 0 if the signs differ. If the signs agree, the winding number of the boundary of the cell
 // has this sign at all points of the projection.
-int OcclusionFinder::sideOfCell(std::uint32_t cell) const {
+int OcclusionFinder::orientationSignOfCell(std::uint32_t cell) const {
     const auto centerOf = [this](std::span<const std::uint32_t> loop) {
         glm::dvec3 sum(0);
         for (const std::uint32_t v : loop) sum += glm::dvec3(cells_.points()[v]);
@@ -110,34 +110,34 @@ int OcclusionFinder::sideOfCell(std::uint32_t cell) const {
     return static_cast<int>(positive) - static_cast<int>(negative);
 }
 
-// If the projections of the two cells of a 2-face have the same sign (see sideOfCell()), they lie on its two sides, so
-// that beyond the 2-face the one cell hides what the other one hid before.
-void OcclusionFinder::findContourFaces(const std::vector<bool>& hides) {
+// If the projections of the two cells of a 2-face have the same sign (see orientationSignOfCell()), they lie on its two
+// sides, so that beyond the 2-face the one cell hides what the other one hid before.
+void OcclusionFinder::findSilhouetteFaces(const std::vector<bool>& hides) {
     const geometry::CellComplex& p = *complex_;
-    contourFaces_.clear();
+    silhouetteFaces_.clear();
     std::vector<int> side(p.cells.size(), 0);
     for (const Occluder& occluder : cells_.occluders()) {
-        cells_.spend(p.cells[occluder.cell].size());
-        side[occluder.cell] = sideOfCell(occluder.cell);
+        cells_.countSteps(p.cells[occluder.cell].size());
+        side[occluder.cell] = orientationSignOfCell(occluder.cell);
     }
     for (std::uint32_t f = 0; f < p.faces.size(); ++f) {
         const auto [first, second] = p.faceCells[f];
         if (!hides[first] && !hides[second]) continue;
         if (side[first] != 0 && side[first] == side[second]) continue;
         const glm::dvec4& start = cells_.points()[p.faces[f][0]];
-        ContourFace face{f, {glm::dvec3(start), glm::dvec3(start)}, start.w};
+        SilhouetteFace face{f, {glm::dvec3(start), glm::dvec3(start)}, start.w};
         for (const std::uint32_t v : p.faces[f]) {
             face.box.include(glm::dvec3(cells_.points()[v]));
             face.top = std::max(face.top, cells_.points()[v].w);
         }
-        contourFaces_.push_back(face);
+        silhouetteFaces_.push_back(face);
     }
 }
 
 bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
     const geometry::CellComplex& p = *complex_;
     const auto loop = p.faces[face];
-    cells_.exclude(p.faceCells[face]);
+    cells_.excludeCells(p.faceCells[face]);
     const glm::dvec4& start = cells_.points()[loop[0]];
     Box box{glm::dvec3(start), glm::dvec3(start)};
     double lowest = start.w;
@@ -145,11 +145,11 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
         box.include(glm::dvec3(cells_.points()[v]));
         lowest = std::min(lowest, cells_.points()[v].w);
     }
-    cells_.spend(cells_.occluders().size());
+    cells_.countSteps(cells_.occluders().size());
     candidates_.clear();
     for (std::uint32_t i = 0; i < cells_.occluders().size(); ++i) {
         const Occluder& o = cells_.occluders()[i];
-        if (!cells_.isExcluded(o.cell) && o.top > lowest && o.box.meets(box)) candidates_.push_back(i);
+        if (!cells_.isExcluded(o.cell) && o.top > lowest && o.box.intersects(box)) candidates_.push_back(i);
     }
     if (candidates_.empty()) return false;
     if (!findFaceFrame(loop)) {  // the 2-face is seen edge-on: only its sides can be seen
@@ -165,15 +165,15 @@ bool OcclusionFinder::isFaceHidden(std::uint32_t face) {
         if (isSeenBeside(outline_[i], outline_[(i + 1) % outline_.size()])) return false;
     }
     for (const std::uint32_t i : candidates_) {
-        if (cells_.isExhausted() || isSeenAlongHyperplane(cells_.occluders()[i])) return false;
+        if (cells_.isExhausted() || isSeenBesideHyperplane(cells_.occluders()[i])) return false;
     }
-    cells_.spend(contourFaces_.size());
-    for (const ContourFace& other : contourFaces_) {
-        if (other.face == face || other.top <= lowest || !other.box.meets(box)) continue;
+    cells_.countSteps(silhouetteFaces_.size());
+    for (const SilhouetteFace& other : silhouetteFaces_) {
+        if (other.face == face || other.top <= lowest || !other.box.intersects(box)) continue;
         const auto corners = p.faces[other.face];
-        cells_.spend(corners.size());
+        cells_.countSteps(corners.size());
         for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-            if (cells_.isExhausted() || isSeenAlongTriangle({corners[0], corners[i], corners[i + 1]})) return false;
+            if (cells_.isExhausted() || isSeenBesideTriangle({corners[0], corners[i], corners[i + 1]})) return false;
         }
     }
     return true;
@@ -204,7 +204,7 @@ bool OcclusionFinder::findFaceFrame(std::span<const std::uint32_t> loop) {
 
 // Returns whether a part of the tested 2-face is seen beside a line: the line in which the hyperplane of the cell
 // `occluder` cuts the 2-face.
-bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
+bool OcclusionFinder::isSeenBesideHyperplane(const Occluder& occluder) {
     const glm::dvec2 gradient(-glm::dot(occluder.normal, faceFrame_.right), -glm::dot(occluder.normal, faceFrame_.up));
     const double atOrigin = occluder.depthOf(faceFrame_.origin);
     glm::dvec2 least = outline_[0], most = outline_[0];
@@ -221,7 +221,7 @@ bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
     const glm::dvec2 reach = glm::length(most - least) * glm::dvec2(-across.y, across.x);
     const glm::dvec2 from = onLine - reach, to = onLine + reach;
     // The part of the line that lies in the bounding box of the cell.
-    const glm::dvec3 start(faceFrame_.at(from)), way = glm::dvec3(faceFrame_.at(to)) - start;
+    const glm::dvec3 start(faceFrame_.pointAt(from)), way = glm::dvec3(faceFrame_.pointAt(to)) - start;
     double first = 0, last = 1;
     for (int axis = 0; axis < 3; ++axis) {
         const double low = occluder.box.least[axis] - start[axis], high = occluder.box.most[axis] - start[axis];
@@ -238,7 +238,7 @@ bool OcclusionFinder::isSeenAlongHyperplane(const Occluder& occluder) {
 
 // Returns whether a part of the tested 2-face is seen beside a line: the line in which the projection of `triangle`
 // cuts the projected 2-face, or a side of the triangle that lies in the plane of the 2-face.
-bool OcclusionFinder::isSeenAlongTriangle(const Triangle& triangle) {
+bool OcclusionFinder::isSeenBesideTriangle(const Triangle& triangle) {
     const glm::dvec3 normal = glm::cross(glm::dvec3(faceFrame_.right), glm::dvec3(faceFrame_.up));
     std::array<glm::dvec2, 3> corners{};
     std::array<double, 3> heights{};  // per corner: its height above the plane of the projected 2-face, in R³
@@ -265,7 +265,7 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
     const glm::dvec2 along = to - from;
     const double length = glm::length(along);
     if (length <= kShortest * cells_.size()) return false;
-    cells_.spend(outline_.size());
+    cells_.countSteps(outline_.size());
     places_.assign({0, 1});
     for (std::size_t i = 0; i < outline_.size(); ++i) {
         const glm::dvec2 corner = outline_[i], side = outline_[(i + 1) % outline_.size()] - corner;
@@ -287,7 +287,7 @@ bool OcclusionFinder::isSeenBeside(const glm::dvec2& from, const glm::dvec2& to)
             const glm::dvec2 start = from + (places_[i] + margin) * along + sign * across;
             const glm::dvec2 end = from + (places_[i + 1] - margin) * along + sign * across;
             if (windingOfLoop(outline_, (start + end) / 2.0) == 0) continue;
-            if (!cells_.isHidden({faceFrame_.at(start), faceFrame_.at(end)}, candidates_)) return true;
+            if (!cells_.isHidden({faceFrame_.pointAt(start), faceFrame_.pointAt(end)}, candidates_)) return true;
         }
     }
     return false;

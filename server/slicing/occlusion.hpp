@@ -30,7 +30,8 @@ struct CellRoles {
 /// an occlusion finder.
 class OcclusionFinder {
   public:
-    /// The default limit on the number of steps (see find()). This many steps take a few tenths of a second.
+    /// The default limit on the number of steps (see findDrawnElements()). This many steps take a few tenths of a
+    /// second.
     static constexpr std::size_t kDefaultSteps = 50'000'000;
 
     /// Finds what is drawn of `complex`; `images` has the image of each vertex, as ProjectedCells describes it. Only
@@ -48,8 +49,8 @@ class OcclusionFinder {
     /// `steps` limits the time. A step is the comparison of a part of an element with a cell or with a triangle of the
     /// boundary of a cell. Returns false if the steps are too few; then `out` is not valid. If they are fewer than the
     /// pairs of a cell that hides and of an element to be tested, returns false at once.
-    bool find(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const CellRoles& roles,
-              bool withFaces, std::size_t steps, DrawnElements& out);
+    bool findDrawnElements(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
+                           const CellRoles& roles, bool withFaces, std::size_t steps, DrawnElements& out);
 
   private:
     using Box = ProjectedCells::Box;
@@ -59,7 +60,7 @@ class OcclusionFinder {
     // A 2-face at which cells may begin or cease to hide what is behind them: in the projection, its two cells may lie
     // on the same side of the 2-face. `box` contains the projection of the 2-face, and `top` is the largest fourth
     // coordinate of its vertices.
-    struct ContourFace {
+    struct SilhouetteFace {
         std::uint32_t face;
         Box box;
         double top;
@@ -68,22 +69,23 @@ class OcclusionFinder {
     // their fourth coordinates, `right` and `up` are orthonormal.
     struct ProjectedFaceFrame {
         glm::dvec4 origin, right, up;
-        glm::dvec4 at(const glm::dvec2& p) const { return origin + p.x * right + p.y * up; }
+        glm::dvec4 pointAt(const glm::dvec2& p) const { return origin + p.x * right + p.y * up; }
         glm::dvec2 coordinatesOf(const glm::dvec4& point) const;
     };
 
-    void findContourFaces(const std::vector<bool>& hides);
-    int sideOfCell(std::uint32_t cell) const;
+    void findSilhouetteFaces(const std::vector<bool>& hides);
+    int orientationSignOfCell(std::uint32_t cell) const;
 
     bool isFaceHidden(std::uint32_t face);
     bool findFaceFrame(std::span<const std::uint32_t> loop);
-    bool isSeenAlongHyperplane(const Occluder& occluder);
-    bool isSeenAlongTriangle(const Triangle& triangle);
+    bool isSeenBesideHyperplane(const Occluder& occluder);
+    bool isSeenBesideTriangle(const Triangle& triangle);
     bool isSeenBeside(const glm::dvec2& from, const glm::dvec2& to);
 
-    const geometry::CellComplex* complex_ = nullptr;  // the cell complex that find() searches; cells_ has its cells
+    const geometry::CellComplex* complex_ =
+        nullptr;  // the cell complex that findDrawnElements() searches; cells_ has its cells
     ProjectedCells cells_;
-    std::vector<ContourFace> contourFaces_;
+    std::vector<SilhouetteFace> silhouetteFaces_;
 
     ProjectedFaceFrame faceFrame_{};         // the image of the plane of the tested 2-face
     std::vector<glm::dvec2> outline_;        // the vertex loop of the tested 2-face

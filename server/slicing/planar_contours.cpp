@@ -48,8 +48,8 @@ void PlanarContourTracer::trace(const fields::Field& field, const geometry::Rota
     const double coarsest = std::max(step, 4 * 2 * field.circumradius / kMaxContourSquares);
     for (std::size_t i = 0; i < kPlaneAxes.size(); ++i) {
         out[i].clear();
-        placePlane(field, toFunction, kPlaneAxes[i], point);
-        if (!findSides(field, toFunction)) continue;
+        setSectionPlane(field, toFunction, kPlaneAxes[i], point);
+        if (!findBoxSides(field, toFunction)) continue;
         const double reach = 1.01 * field.circumradius;  // a square that contains the domain
         const std::vector<glm::dvec2> square{{-reach, -reach}, {reach, -reach}, {reach, reach}, {-reach, reach}};
         for (double size = step;; size = std::min(2 * size, coarsest)) {
@@ -59,7 +59,7 @@ void PlanarContourTracer::trace(const fields::Field& field, const geometry::Rota
             layOutLattice(size);
             const std::array<glm::dvec4, 2> steps{size * section_.axes[0], size * section_.axes[1]};
             const fields::ScalarFunction& function =
-                quality == Quality::draft ? field.function->versionForSteps(steps) : *field.function;
+                quality == Quality::draft ? field.function->downsampledForSteps(steps) : *field.function;
             evaluateInSection(function, section_, std::span<const glm::dvec3>(points_), values_);
             out[i].clear();
             for (std::size_t level = 0; level < levels.size(); ++level) {
@@ -78,8 +78,8 @@ void PlanarContourTracer::trace(const fields::Field& field, const geometry::Rota
 }
 
 // Sets section_ to the plane through `point` that is parallel to the two coordinate axes `axes`.
-void PlanarContourTracer::placePlane(const fields::Field& field, const glm::dmat4& toFunction,
-                                     const std::array<int, 2>& axes, const glm::dvec4& point) {
+void PlanarContourTracer::setSectionPlane(const fields::Field& field, const glm::dmat4& toFunction,
+                                          const std::array<int, 2>& axes, const glm::dvec4& point) {
     glm::dvec4 origin = point;
     for (const int axis : axes) origin[axis] = 0;
     section_.origin = field.center + toFunction * origin;
@@ -88,7 +88,7 @@ void PlanarContourTracer::placePlane(const fields::Field& field, const glm::dmat
 
 // Sets sides_ to one half-plane for each facet of the box that is not parallel to the plane of the contours. Returns
 // false if the plane is parallel to a facet and lies outside the box.
-bool PlanarContourTracer::findSides(const fields::Field& field, const glm::dmat4& toFunction) {
+bool PlanarContourTracer::findBoxSides(const fields::Field& field, const glm::dmat4& toFunction) {
     constexpr double kParallel = 1e-12;
     sides_.clear();
     for (int axis = 0; axis < 4; ++axis) {

@@ -91,9 +91,9 @@ class PlanarContourTracer {
         std::uint32_t end;
     };
 
-    void placePlane(const fields::Field& field, const glm::dmat4& toFunction, const std::array<int, 2>& axes,
-                    const glm::dvec4& point);
-    bool findSides(const fields::Field& field, const glm::dmat4& toFunction);
+    void setSectionPlane(const fields::Field& field, const glm::dmat4& toFunction, const std::array<int, 2>& axes,
+                         const glm::dvec4& point);
+    bool findBoxSides(const fields::Field& field, const glm::dmat4& toFunction);
     void cutBySides();
     bool isInDomain(const glm::dvec2& p) const;
     void layOutLattice(double step);

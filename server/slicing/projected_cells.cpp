@@ -36,7 +36,7 @@ int windingOfSide(const glm::dvec2& a, const glm::dvec2& b) {
     return upward ? 1 : -1;
 }
 
-bool ProjectedCells::Box::meets(const Box& other) const {
+bool ProjectedCells::Box::intersects(const Box& other) const {
     return glm::all(glm::lessThanEqual(least, other.most)) && glm::all(glm::lessThanEqual(other.least, most));
 }
 
@@ -49,16 +49,16 @@ double ProjectedCells::Occluder::depthOf(const glm::dvec4& point) const {
     return offset - glm::dot(normal, point) - tolerance;
 }
 
-void ProjectedCells::spend(std::size_t steps) {
+void ProjectedCells::countSteps(std::size_t steps) {
     if (steps > stepsLeft_) exhausted_ = true;
     stepsLeft_ -= std::min(steps, stepsLeft_);
 }
 
-void ProjectedCells::place(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
-                           const std::vector<bool>& hides, std::size_t steps) {
+void ProjectedCells::setCells(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
+                              const std::vector<bool>& hides, std::size_t steps) {
     stepsLeft_ = steps;
     exhausted_ = false;
-    if (object_ != complex.serial) prepare(complex);
+    if (object_ != complex.serial) findIncidences(complex);
     // The axes of the turned space are arbitrary, so that they have no relation to those of the object.
     const glm::dvec3 x = glm::normalize(glm::dvec3(0.8131, 0.4713, -0.3419));
     const glm::dvec3 y = glm::normalize(glm::cross(x, glm::dvec3(0.2917, 0.5701, 0.7681)));
@@ -74,7 +74,7 @@ void ProjectedCells::place(const geometry::CellComplex& complex, std::span<const
 }
 
 // Sets the members that depend only on which elements of the complex contain which others.
-void ProjectedCells::prepare(const geometry::CellComplex& complex) {
+void ProjectedCells::findIncidences(const geometry::CellComplex& complex) {
     object_ = complex.serial;
     triangles_.clear();
     triangleBegin_.assign(1, 0);
@@ -144,7 +144,7 @@ void ProjectedCells::findOccluders(const std::vector<bool>& hides) {
     for (std::uint32_t c = 0; c + 1 < triangleBegin_.size(); ++c) {
         if (!hides[c]) continue;
         const auto triangles = trianglesOf(c);
-        spend(triangles.size());
+        countSteps(triangles.size());
         auto normal = normalOf(triangles);
         if (!normal || std::abs(normal->w) < kLeastSlope) continue;
         if (normal->w < 0) *normal = -*normal;
@@ -166,7 +166,7 @@ void ProjectedCells::findOccluders(const std::vector<bool>& hides) {
     lastHiding_ = 0;
 }
 
-void ProjectedCells::exclude(std::span<const std::uint32_t> cells) {
+void ProjectedCells::excludeCells(std::span<const std::uint32_t> cells) {
     ++test_;
     for (const std::uint32_t c : cells) excludedIn_[c] = test_;
 }
@@ -182,10 +182,10 @@ bool ProjectedCells::isCovered(const Segment& segment, std::span<const std::uint
     const glm::dvec3 a(segment.from), b(segment.to);
     const Box box{glm::min(a, b), glm::max(a, b)};
     covered_.clear();
-    if (lastHiding_ < occluders_.size() && cover(occluders_[lastHiding_], segment, box)) return true;
+    if (lastHiding_ < occluders_.size() && addHiddenParts(occluders_[lastHiding_], segment, box)) return true;
     for (const std::uint32_t i : candidates) {
         if (exhausted_) return false;
-        if (!cover(occluders_[i], segment, box)) continue;
+        if (!addHiddenParts(occluders_[i], segment, box)) continue;
         lastHiding_ = i;
         return true;
     }
@@ -200,14 +200,14 @@ bool ProjectedCells::isCovered(const Segment& segment, std::span<const std::uint
 
 // Adds to covered_ the parts of the segment that the cell `occluder` hides. Returns whether this cell hides the whole
 // segment.
-bool ProjectedCells::cover(const Occluder& occluder, const Segment& segment, const Box& box) {
-    spend(1);
-    if (excludedIn_[occluder.cell] == test_ || !occluder.box.meets(box)) return false;
+bool ProjectedCells::addHiddenParts(const Occluder& occluder, const Segment& segment, const Box& box) {
+    countSteps(1);
+    if (excludedIn_[occluder.cell] == test_ || !occluder.box.intersects(box)) return false;
     const double start = occluder.depthOf(segment.from), end = occluder.depthOf(segment.to);
     if (start <= 0 && end <= 0) return false;
     const double first = start > 0 ? 0 : start / (start - end), last = end > 0 ? 1 : start / (start - end);
     const auto triangles = trianglesOf(occluder.cell);
-    spend(triangles.size());
+    countSteps(triangles.size());
     cuts_.assign({first, last});
     for (const Triangle& triangle : triangles) {
         if (const auto at = crossingOf(segment, triangle); at && *at > first && *at < last) cuts_.push_back(*at);
@@ -236,7 +236,7 @@ std::optional<double> ProjectedCells::crossingOf(const Segment& segment, const T
     const double at = start / (start - end);
     const glm::dvec3 point = glm::mix(from, to, at), margin(kBoxMargin * size_);
     const Box box{glm::min(glm::min(a, b), c) - margin, glm::max(glm::max(a, b), c) + margin};
-    if (!box.meets({point, point})) return std::nullopt;
+    if (!box.intersects({point, point})) return std::nullopt;
     return at;
 }
 
@@ -244,7 +244,7 @@ std::optional<double> ProjectedCells::crossingOf(const Segment& segment, const T
 // of the signs with which the boundary crosses the ray from the point along the third axis.
 int ProjectedCells::windingOf(std::uint32_t cell, const glm::dvec3& point) {
     const auto triangles = trianglesOf(cell);
-    spend(triangles.size());
+    countSteps(triangles.size());
     int winding = 0;
     for (const Triangle& triangle : triangles) {
         const glm::dvec3 a = glm::dvec3(points_[triangle[0]]) - point, b = glm::dvec3(points_[triangle[1]]) - point,

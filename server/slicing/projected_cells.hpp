@@ -46,7 +46,7 @@ class ProjectedCells {
     /// A box in R³ with sides parallel to the axes.
     struct Box {
         glm::dvec3 least, most;
-        bool meets(const Box& other) const;
+        bool intersects(const Box& other) const;
         void include(const glm::dvec3& point);
     };
     /// A cell that hides something: it is not seen edge-on.
@@ -67,8 +67,8 @@ class ProjectedCells {
 
     /// Sets the cells of `complex`, which must exist as long as this object is used. `images` has the image of each
     /// vertex, and `hides` says for each cell whether it hides anything. Allows `steps` steps from now on.
-    void place(const geometry::CellComplex& complex, std::span<const glm::dvec4> images, const std::vector<bool>& hides,
-               std::size_t steps);
+    void setCells(const geometry::CellComplex& complex, std::span<const glm::dvec4> images,
+                  const std::vector<bool>& hides, std::size_t steps);
 
     /// Returns the image of each vertex, turned in R³ by a fixed rotation, so that 2-faces are unlikely to be parallel
     /// to an axis. All points that the functions of this class take or return are turned by this rotation.
@@ -84,7 +84,7 @@ class ProjectedCells {
     std::span<const std::uint32_t> cellsOfEdge(std::uint32_t edge) const { return cellsOfEdge_[edge]; }
 
     /// Excludes these cells, and no others, from hiding anything, until the next call.
-    void exclude(std::span<const std::uint32_t> cells);
+    void excludeCells(std::span<const std::uint32_t> cells);
     bool isExcluded(std::uint32_t cell) const { return excludedIn_[cell] == test_; }
 
     /// Returns whether cells hide the whole segment, apart from gaps shorter than about 10⁻⁶ of its length.
@@ -93,18 +93,18 @@ class ProjectedCells {
 
     /// Counts `steps` steps of work. A step is the comparison of a part of an element with a cell, or with a triangle
     /// of the boundary of a cell.
-    void spend(std::size_t steps);
-    /// Returns whether more steps have been counted than place() allowed. If so, isHidden() may return false although
-    /// the segment is hidden.
+    void countSteps(std::size_t steps);
+    /// Returns whether more steps have been counted than setCells() allowed. If so, isHidden() may return false
+    /// although the segment is hidden.
     bool isExhausted() const { return exhausted_; }
 
   private:
-    void prepare(const geometry::CellComplex& complex);
+    void findIncidences(const geometry::CellComplex& complex);
     void findOccluders(const std::vector<bool>& hides);
     std::optional<glm::dvec4> normalOf(std::span<const Triangle> triangles) const;
     std::span<const Triangle> trianglesOf(std::uint32_t cell) const;
     bool isCovered(const Segment& segment, std::span<const std::uint32_t> candidates);
-    bool cover(const Occluder& occluder, const Segment& segment, const Box& box);
+    bool addHiddenParts(const Occluder& occluder, const Segment& segment, const Box& box);
     std::optional<double> crossingOf(const Segment& segment, const Triangle& triangle) const;
     int windingOf(std::uint32_t cell, const glm::dvec3& point);
 
@@ -126,7 +126,7 @@ class ProjectedCells {
     std::vector<std::uint32_t> allOccluders_;
 
     std::vector<std::uint32_t> excludedIn_;  // per cell: the number of the last test in which the cell is excluded
-    std::uint32_t test_ = 0;                 // the number of the current test, which began with the last exclude()
+    std::uint32_t test_ = 0;                 // the number of the current test, which began with the last excludeCells()
     std::size_t lastHiding_ = 0;             // the index of the last occluder that hid a whole segment
 
     std::vector<double> cuts_;  // where a cell begins or ceases to hide a segment, from 0 to 1

@@ -31,8 +31,8 @@ struct ElementSelection {
 
 // Numbers the selected vertices and edges. Sets `vertices` and `edges` to their indices in part 0 of the output, or to
 // kNone for elements that are not selected.
-void numberElements(const geometry::CellComplex& p, const ElementSelection& selection,
-                    std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
+void numberSelectedElements(const geometry::CellComplex& p, const ElementSelection& selection,
+                            std::vector<std::uint32_t>& vertices, std::vector<std::uint32_t>& edges) {
     vertices.assign(p.vertices.size(), kNone);
     edges.assign(p.edges.size(), kNone);
     if (selection.unhidden != nullptr) {
@@ -96,10 +96,11 @@ void Projector::project(const Object& object, const geometry::Rotation& orientat
         const bool allHide = findHidingCells(p, options.hiddenTypes);
         const bool mayHideItself = culled && (!allHide || !infoOf(object).convex);
         if (mayHideItself) roles_.drawn = allHide ? cellIsFacing_ : roles_.hides;
-        const ElementSelection selection{mayHideItself ? findUnhidden(p, orientation, slices, options) : nullptr,
-                                         culled ? &cellIsFacing_ : nullptr};
+        const ElementSelection selection{
+            mayHideItself ? findUnhiddenElements(p, orientation, slices, options) : nullptr,
+            culled ? &cellIsFacing_ : nullptr};
         lacksSteps_ = mayHideItself && selection.unhidden == nullptr;
-        numberElements(p, selection, number_, edgeNumber_);
+        numberSelectedElements(p, selection, number_, edgeNumber_);
         for (std::uint32_t v = 0; v < number_.size(); ++v) {
             if (number_[v] == kNone) continue;
             out.vertices.push_back(projection(slices.rotatedVertices[v]));
@@ -208,9 +209,9 @@ bool Projector::findHidingCells(const geometry::CellComplex& complex, std::span<
 
 // Returns the elements of an object that do not lie wholly behind its cells, or null if options.occlusionSteps are too
 // few to find them. Expects that roles_ is valid.
-const DrawnElements* Projector::findUnhidden(const geometry::CellComplex& complex,
-                                             const geometry::Rotation& orientation, const SliceSet& slices,
-                                             const ProjectionOptions& options) {
+const DrawnElements* Projector::findUnhiddenElements(const geometry::CellComplex& complex,
+                                                     const geometry::Rotation& orientation, const SliceSet& slices,
+                                                     const ProjectionOptions& options) {
     const OcclusionInput input{complex.serial,
                                orientation,
                                options.projection,
@@ -221,8 +222,9 @@ const DrawnElements* Projector::findUnhidden(const geometry::CellComplex& comple
         occlusionInput_.reset();
         images_.clear();
         for (const glm::dvec4& vertex : slices.rotatedVertices)
-            images_.push_back(options.projection.withHeight(vertex));
-        occlusionFound_ = occlusion_.find(complex, images_, roles_, options.cells, options.occlusionSteps, unhidden_);
+            images_.push_back(options.projection.projectWithHeight(vertex));
+        occlusionFound_ =
+            occlusion_.findDrawnElements(complex, images_, roles_, options.cells, options.occlusionSteps, unhidden_);
         occlusionInput_ = input;
     }
     return occlusionFound_ ? &unhidden_ : nullptr;

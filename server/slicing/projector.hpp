@@ -30,7 +30,7 @@ struct ProjectionToHyperplane {
     glm::dvec3 operator()(const glm::dvec4& p) const { return glm::dvec3(p) * magnification(p.w); }
     /// Returns the projection of the point p as x, y and z. The fourth coordinate is a height that increases toward the
     /// eye along each line of sight (see ProjectedCells).
-    glm::dvec4 withHeight(const glm::dvec4& p) const { return p * magnification(p.w); }
+    glm::dvec4 projectWithHeight(const glm::dvec4& p) const { return p * magnification(p.w); }
     bool operator==(const ProjectionToHyperplane&) const = default;
 };
 
@@ -74,7 +74,7 @@ class Projector {
 
     /// Returns whether ProjectionOptions::occlusionSteps were too few in the last call of project(). If so, project()
     /// left out only elements that belong only to cells turned away from the eye.
-    bool lacksSteps() const { return lacksSteps_; }
+    bool exceededOcclusionSteps() const { return lacksSteps_; }
 
   private:
     // All data that determine which elements are hidden.
@@ -91,8 +91,9 @@ class Projector {
     void findFacingCells(const Object& object, const geometry::Rotation& orientation,
                          const ProjectionToHyperplane& projection);
     bool findHidingCells(const geometry::CellComplex& complex, std::span<const std::uint32_t> hiddenTypes);
-    const DrawnElements* findUnhidden(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
-                                      const SliceSet& slices, const ProjectionOptions& options);
+    const DrawnElements* findUnhiddenElements(const geometry::CellComplex& complex,
+                                              const geometry::Rotation& orientation, const SliceSet& slices,
+                                              const ProjectionOptions& options);
     void addSlice(const SliceSet& slices, int slice, const ProjectionToHyperplane& projection, SliceSet& out,
                   std::vector<std::uint32_t>& faceCells);
 
@@ -103,8 +104,8 @@ class Projector {
     std::vector<std::uint32_t> number_;      // per vertex of the object: its index in part 0, or kNone
     std::vector<std::uint32_t> edgeNumber_;  // per edge of the object: its index in part 0, or kNone
 
-    bool lacksSteps_ = false;  // see lacksSteps()
-    CellRoles roles_;          // of the last object; `drawn` is valid only for findUnhidden()
+    bool lacksSteps_ = false;  // see exceededOcclusionSteps()
+    CellRoles roles_;          // of the last object; `drawn` is valid only for findUnhiddenElements()
     OcclusionFinder occlusion_;
     // The data for which unhidden_ and occlusionFound_ were computed; empty if these are not valid.
     std::optional<OcclusionInput> occlusionInput_;

@@ -19,10 +19,11 @@
 
 // How shapes are recognized: a convex polyhedron is determined by its vertices, and its vertices are recognized by
 // their distances from each other. These distances do not depend on the orientation. They suffice for
-// nameOfObjectVertices(), which names a convex hull. A slice, however, need not be the convex hull of its vertices. It
-// is the hull if it has the same edges and the same number of faces as the hull. Therefore nameOfSlice() also compares
-// the number and the lengths of the edges, and the number of faces. The distances also distinguish polyhedra with the
-// same faces and the same circumradius, such as the cuboctahedron and the triangular orthobicupola (Johnson's J27).
+// nameOfHullOfObjectVertices(), which names a convex hull. A slice, however, need not be the convex hull of its
+// vertices. It is the hull if it has the same edges and the same number of faces as the hull. Therefore nameOfSlice()
+// also compares the number and the lengths of the edges, and the number of faces. The distances also distinguish
+// polyhedra with the same faces and the same circumradius, such as the cuboctahedron and the triangular orthobicupola
+// (Johnson's J27).
 
 namespace oval4d::slicing {
 
@@ -33,7 +34,7 @@ constexpr int kMaxSides = 20;  // the maximum number of sides of polygons, and o
 constexpr std::size_t kMaxVertices = 120;  // the vertex count of the largest shape, the truncated icosidodecahedron
 constexpr std::string_view kPoint = "point";
 
-bool near(double a, double b) { return std::abs(a - b) <= kTolerance; }
+bool nearlyEqual(double a, double b) { return std::abs(a - b) <= kTolerance; }
 
 // Sets `distances` to the distances of the point `from` from all `points`, in ascending order. If `from` is one of the
 // points, the list includes its distance 0 from itself.
@@ -66,12 +67,12 @@ std::vector<glm::dvec3> regularPolygon(int sides, double height, double circumra
 
 }  // namespace
 
-bool NamedSection::isOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const {
+bool NamedSection::isSectionOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const {
     return object == infoOf(shown).serial && w == focusW && orientation == rotation;
 }
 
-// A shape that has a name. The shapes that shapes() returns have the circumradius 1.
-struct SectionNamer::Shape {
+// A shape that has a name. The shapes that knownShapes() returns have the circumradius 1.
+struct SectionNamer::NamedShape {
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
     std::vector<double> edges;            // the different lengths of the edges
@@ -80,13 +81,14 @@ struct SectionNamer::Shape {
     std::vector<std::vector<double>> distances;
 
     // Makes a shape without a name, with vertices at these positions and edges of these lengths.
-    Shape(const std::vector<glm::dvec3>& vertices, std::vector<double> edgeLengths) : edges(std::move(edgeLengths)) {
+    NamedShape(const std::vector<glm::dvec3>& vertices, std::vector<double> edgeLengths)
+        : edges(std::move(edgeLengths)) {
         findDistancesOf(vertices);
     }
 
     // Makes a shape of the dimension `dimension`: 1 for a segment, 2 for a polygon and 3 for a polyhedron. Its edges
     // are the pairs of vertices with the least distance from each other.
-    Shape(std::string shapeName, int dimension, std::vector<glm::dvec3> vertices) : name(std::move(shapeName)) {
+    NamedShape(std::string shapeName, int dimension, std::vector<glm::dvec3> vertices) : name(std::move(shapeName)) {
         moveIntoUnitSphere(vertices);
         findDistancesOf(vertices);
         edges = {distances.front()[1]};
@@ -98,7 +100,7 @@ struct SectionNamer::Shape {
 
     // Makes a regular star polyhedron with the center 0. `edge` is the length of its edges, and `sides` the number of
     // sides of its faces.
-    Shape(std::string shapeName, std::vector<glm::dvec3> vertices, double edge, std::size_t sides)
+    NamedShape(std::string shapeName, std::vector<glm::dvec3> vertices, double edge, std::size_t sides)
         : name(std::move(shapeName)), edges{edge / glm::length(vertices.front())} {
         moveIntoUnitSphere(vertices);
         findDistancesOf(vertices);
@@ -106,7 +108,7 @@ struct SectionNamer::Shape {
         counts = {vertices.size(), edgeCount, 2 * edgeCount / sides};
     }
 
-    Shape(std::string shapeName, polytopes::SolidMesh mesh) : name(std::move(shapeName)) {
+    NamedShape(std::string shapeName, polytopes::SolidMesh mesh) : name(std::move(shapeName)) {
         moveIntoUnitSphere(mesh.vertices);
         findDistancesOf(mesh.vertices);
         std::size_t sides = 0;
@@ -114,7 +116,7 @@ struct SectionNamer::Shape {
             const auto loop = mesh.faces[f];
             for (std::size_t i = 0; i < loop.size(); ++i, ++sides) {
                 const double length = glm::distance(mesh.vertices[loop[i]], mesh.vertices[loop[(i + 1) % loop.size()]]);
-                if (!hasEdge(length)) edges.push_back(length);
+                if (!hasEdgeOfLength(length)) edges.push_back(length);
             }
         }
         counts = {mesh.vertices.size(), sides / 2, mesh.faces.size()};
@@ -124,7 +126,7 @@ struct SectionNamer::Shape {
         std::vector<double> ofVertex;
         for (const glm::dvec3& vertex : vertices) {
             findDistances(vertices, vertex, ofVertex);
-            if (!hasVertex(ofVertex)) distances.push_back(ofVertex);
+            if (!hasVertexWithDistances(ofVertex)) distances.push_back(ofVertex);
         }
     }
     // Returns the number of pairs of vertices whose distance is the length of an edge of the shape.
@@ -133,24 +135,24 @@ struct SectionNamer::Shape {
         std::vector<double> ofVertex;
         for (const glm::dvec3& vertex : vertices) {
             findDistances(vertices, vertex, ofVertex);
-            ends += std::ranges::count_if(ofVertex, [&](double distance) { return hasEdge(distance); });
+            ends += std::ranges::count_if(ofVertex, [&](double distance) { return hasEdgeOfLength(distance); });
         }
         return ends / 2;
     }
     // Returns whether a vertex of the shape has the distances `ofVertex` from all vertices.
-    bool hasVertex(const std::vector<double>& ofVertex) const {
+    bool hasVertexWithDistances(const std::vector<double>& ofVertex) const {
         return std::any_of(distances.begin(), distances.end(), [&](const std::vector<double>& known) {
-            return std::equal(known.begin(), known.end(), ofVertex.begin(), near);
+            return std::equal(known.begin(), known.end(), ofVertex.begin(), nearlyEqual);
         });
     }
-    bool hasEdge(double length) const {
-        return std::ranges::any_of(edges, [length](double known) { return near(known, length); });
+    bool hasEdgeOfLength(double length) const {
+        return std::ranges::any_of(edges, [length](double known) { return nearlyEqual(known, length); });
     }
 };
 
 // A family of polyhedra with the same name and different proportions: all polyhedra of one kind over regular polygons
 // with the same number of sides, or all cuboids.
-struct SectionNamer::Family {
+struct SectionNamer::PolyhedronFamily {
     enum class Kind : std::uint8_t { cuboid, prism, antiprism, pyramid, bipyramid };
 
     Kind kind;
@@ -158,7 +160,7 @@ struct SectionNamer::Family {
     std::string name;
     std::array<std::size_t, 3> counts{};  // the numbers of vertices, edges and faces
 
-    Family(Kind familyKind, polytopes::RegularPolygon polygon, std::string familyName)
+    PolyhedronFamily(Kind familyKind, polytopes::RegularPolygon polygon, std::string familyName)
         : kind(familyKind), base(polygon), name(std::move(familyName)) {
         const auto n = static_cast<std::size_t>(base.numerator);
         if (kind == Kind::cuboid || kind == Kind::prism) counts = {2 * n, 3 * n, n + 2};
@@ -170,9 +172,9 @@ struct SectionNamer::Family {
     // Returns the members of the family that may have edges of these lengths, which are in ascending order. For
     // cuboids, there is one such member. For other kinds there are up to two, because either length may be that of the
     // sides of the polygon.
-    std::vector<Shape> membersWithEdges(const std::vector<double>& lengths) const {
+    std::vector<NamedShape> membersWithEdgeLengths(const std::vector<double>& lengths) const {
         const double shortest = lengths.front(), longest = lengths.back();
-        std::vector<Shape> members;
+        std::vector<NamedShape> members;
         if (kind == Kind::cuboid) {
             const double middle = lengths[lengths.size() / 2];
             std::vector<glm::dvec3> vertices;
@@ -212,11 +214,11 @@ struct SectionNamer::Family {
     }
 };
 
-const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
+const std::vector<SectionNamer::NamedShape>& SectionNamer::knownShapes() {
     using polytopes::RegularPolygon;
-    static const std::vector<Shape> kShapes = [] {
+    static const std::vector<NamedShape> kShapes = [] {
         const auto named = polytopes::namedPolyhedra();
-        std::vector<Shape> shapes;
+        std::vector<NamedShape> shapes;
         for (const polytopes::NamedPolyhedron& solid : named) {
             if (!polytopes::isConvex(solid)) {
                 // The Coxeter–Dynkin diagram of {p, q} is xpoqo; that of its dual {q, p} is opoqx.
@@ -236,7 +238,7 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
         }
         for (int n = 3; n <= kMaxSides; ++n) {
             const RegularPolygon polygon{n, 1};
-            shapes.emplace_back(polytopes::nounOf(polygon), 2, regularPolygon(n, 0));
+            shapes.emplace_back(polytopes::polygonNoun(polygon), 2, regularPolygon(n, 0));
             if (n != 4) {  // for n = 4, the prism is a cube, which is a Platonic solid
                 const double halfEdge = std::sin(std::numbers::pi / n);
                 auto prism = regularPolygon(n, halfEdge);
@@ -257,11 +259,11 @@ const std::vector<SectionNamer::Shape>& SectionNamer::shapes() {
     return kShapes;
 }
 
-const std::vector<SectionNamer::Family>& SectionNamer::families() {
-    using Kind = Family::Kind;
+const std::vector<SectionNamer::PolyhedronFamily>& SectionNamer::families() {
+    using Kind = PolyhedronFamily::Kind;
     using polytopes::RegularPolygon;
-    static const std::vector<Family> kFamilies = [] {
-        std::vector<Family> families;
+    static const std::vector<PolyhedronFamily> kFamilies = [] {
+        std::vector<PolyhedronFamily> families;
         families.emplace_back(Kind::cuboid, RegularPolygon{4, 1}, "cuboid");
         for (int n = 3; n <= kMaxSides; ++n) {
             const RegularPolygon polygon{n, 1};
@@ -313,18 +315,19 @@ std::string_view SectionNamer::nameOfSlice(const SliceSet& slices, int slice) {
     const std::array counts{slices.vertexCount(slice), slices.edgeCount(slice), slices.faceCount(slice)};
     if (counts == std::array<std::size_t, 3>{1, 0, 0}) return kPoint;
     const auto hasTheseCounts = [&](const auto& shape) { return shape.counts == counts; };
-    if (std::ranges::none_of(shapes(), hasTheseCounts) && std::ranges::none_of(families(), hasTheseCounts)) return {};
+    if (std::ranges::none_of(knownShapes(), hasTheseCounts) && std::ranges::none_of(families(), hasTheseCounts))
+        return {};
     const auto first = slices.vertices.begin() + slices.vertexBegin[slice];
     vertices_.assign(first, first + static_cast<std::ptrdiff_t>(counts[0]));
     if (!moveIntoUnitSphere(vertices_)) return {};
     const auto edges = std::span(slices.edges).subspan(slices.edgeBegin[slice], counts[1]);
-    for (const Shape& shape : shapes()) {
-        if (hasTheseCounts(shape) && edgesAreThoseOf(shape, edges) && verticesAreThoseOf(shape)) return shape.name;
+    for (const NamedShape& shape : knownShapes()) {
+        if (hasTheseCounts(shape) && haveEdgeLengthsOf(shape, edges) && verticesAreThoseOf(shape)) return shape.name;
     }
     return nameOfFamily(slices, slice, true);
 }
 
-std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges) {
+std::string_view SectionNamer::nameOfHullOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges) {
     vertices_.clear();
     for (std::uint32_t v = slices.vertexBegin[slice]; v < slices.vertexBegin[slice + 1]; ++v) {
         if (slices.vertexSource[v] < edges) continue;
@@ -333,7 +336,7 @@ std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int 
     }
     if (vertices_.size() < 2) return vertices_.empty() ? std::string_view() : kPoint;
     if (!moveIntoUnitSphere(vertices_)) return {};
-    for (const Shape& shape : shapes()) {
+    for (const NamedShape& shape : knownShapes()) {
         if (shape.counts[0] == vertices_.size() && verticesAreThoseOf(shape)) return shape.name;
     }
     // If no edge of the object crosses the hyperplane, a convex slice is the convex hull of the object's vertices in
@@ -341,10 +344,10 @@ std::string_view SectionNamer::nameOfObjectVertices(const SliceSet& slices, int 
     return vertices_.size() == slices.vertexCount(slice) ? nameOfFamily(slices, slice, false) : std::string_view();
 }
 
-bool SectionNamer::isSolid(std::string_view name) {
-    const auto shape = std::ranges::find(shapes(), name, &Shape::name);
-    if (shape != shapes().end()) return shape->counts[2] > 1;
-    return std::ranges::find(families(), name, &Family::name) != families().end();
+bool SectionNamer::isSolidName(std::string_view name) {
+    const auto shape = std::ranges::find(knownShapes(), name, &NamedShape::name);
+    if (shape != knownShapes().end()) return shape->counts[2] > 1;
+    return std::ranges::find(families(), name, &PolyhedronFamily::name) != families().end();
 }
 
 // Returns the name of the family to which a slice belongs, or an empty string if it belongs to none. If `withStars` is
@@ -353,29 +356,30 @@ std::string_view SectionNamer::nameOfFamily(const SliceSet& slices, int slice, b
     const std::array counts{slices.vertexCount(slice), slices.edgeCount(slice), slices.faceCount(slice)};
     const auto edges = std::span(slices.edges).subspan(slices.edgeBegin[slice], counts[1]);
     lengths_.clear();
-    for (const Family& family : families()) {
+    for (const PolyhedronFamily& family : families()) {
         if (family.counts != counts || (!withStars && family.base.denominator != 1)) continue;
         if (lengths_.empty()) {
             for (const auto& [a, b] : edges) lengths_.push_back(glm::distance(vertices_[a], vertices_[b]));
             std::ranges::sort(lengths_);
         }
-        for (const Shape& member : family.membersWithEdges(lengths_)) {
-            if (edgesAreThoseOf(member, edges) && verticesAreThoseOf(member)) return family.name;
+        for (const NamedShape& member : family.membersWithEdgeLengths(lengths_)) {
+            if (haveEdgeLengthsOf(member, edges) && verticesAreThoseOf(member)) return family.name;
         }
     }
     return {};
 }
 
-bool SectionNamer::edgesAreThoseOf(const Shape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const {
+bool SectionNamer::haveEdgeLengthsOf(const NamedShape& shape,
+                                     std::span<const std::array<std::uint32_t, 2>> edges) const {
     return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
-        return shape.hasEdge(glm::distance(vertices_[edge[0]], vertices_[edge[1]]));
+        return shape.hasEdgeOfLength(glm::distance(vertices_[edge[0]], vertices_[edge[1]]));
     });
 }
 
-bool SectionNamer::verticesAreThoseOf(const Shape& shape) {
+bool SectionNamer::verticesAreThoseOf(const NamedShape& shape) {
     return std::all_of(vertices_.begin(), vertices_.end(), [&](const glm::dvec3& vertex) {
         findDistances(vertices_, vertex, distances_);
-        return shape.hasVertex(distances_);
+        return shape.hasVertexWithDistances(distances_);
     });
 }
 

@@ -20,7 +20,7 @@ namespace oval4d::slicing {
 /// points where edges of the object cross the hyperplane, and only `slice` takes these points into account.
 struct SectionNamePair {
     std::string_view slice;  ///< the name of the slice: the result of SectionNamer::nameOfSlice()
-    /// The name of the hull of the vertices: the result of SectionNamer::nameOfObjectVertices().
+    /// The name of the hull of the vertices: the result of SectionNamer::nameOfHullOfObjectVertices().
     std::string_view vertices;
     bool operator==(const SectionNamePair&) const = default;
 };
@@ -33,7 +33,7 @@ struct NamedSection {
     SectionNamePair names;
 
     /// Returns whether this is the section of `shown`, rotated by `rotation`, by the hyperplane w = `focusW`.
-    bool isOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const;
+    bool isSectionOf(const Object& shown, const geometry::Rotation& rotation, double focusW) const;
 };
 
 /// Names slices, and the convex hulls of the vertices of an object that lie in a hyperplane. Names only shapes that are
@@ -74,20 +74,20 @@ class SectionNamer {
     /// has 32 vertices. `edges` is the number of edges of the polytope. The string is valid until the process ends.
     /// Takes time linear in the number of the slice's vertices, plus the time to compare the polytope's vertices with
     /// the named shapes.
-    std::string_view nameOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges);
+    std::string_view nameOfHullOfObjectVertices(const SliceSet& slices, int slice, std::size_t edges);
 
     /// Returns whether `name`, a result of the functions above, is the name of a polyhedron. Returns false for the
     /// names of the point, the segment and the polygons, and for an empty string.
-    static bool isSolid(std::string_view name);
+    static bool isSolidName(std::string_view name);
 
   private:
-    struct Shape;
-    struct Family;
-    static const std::vector<Shape>& shapes();
-    static const std::vector<Family>& families();
+    struct NamedShape;
+    struct PolyhedronFamily;
+    static const std::vector<NamedShape>& knownShapes();
+    static const std::vector<PolyhedronFamily>& families();
     std::string_view nameOfFamily(const SliceSet& slices, int slice, bool withStars);
-    bool edgesAreThoseOf(const Shape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const;
-    bool verticesAreThoseOf(const Shape& shape);
+    bool haveEdgeLengthsOf(const NamedShape& shape, std::span<const std::array<std::uint32_t, 2>> edges) const;
+    bool verticesAreThoseOf(const NamedShape& shape);
 
     // The vertices of the shape to be named, moved and scaled so that their center is 0 and their circumradius is 1.
     std::vector<glm::dvec3> vertices_;

@@ -19,15 +19,15 @@ namespace {
 
 // The position of a vertex among parallel hyperplanes: `below` is the number of hyperplanes below the vertex, and
 // `upTo` the number of hyperplanes below or through the vertex.
-struct HyperplaneCounts {
+struct HyperplanesBelowVertex {
     std::size_t below, upTo;
 };
 
 // Counts the hyperplanes below a vertex with the coordinate `w`, and those below or through this vertex. `sorted` has
 // the values of planes.listed in ascending order. A vertex at a distance of at most `tolerance` from a hyperplane lies
 // in the hyperplane, as in CellComplexSlicer.
-HyperplaneCounts countHyperplanes(const geometry::Hyperplanes& planes, std::span<const double> sorted, double tolerance,
-                                  double w) {
+HyperplanesBelowVertex countHyperplanes(const geometry::Hyperplanes& planes, std::span<const double> sorted,
+                                        double tolerance, double w) {
     if (!sorted.empty()) {
         return {static_cast<std::size_t>(std::ranges::lower_bound(sorted, w - tolerance) - sorted.begin()),
                 static_cast<std::size_t>(std::ranges::upper_bound(sorted, w + tolerance) - sorted.begin())};
@@ -38,12 +38,12 @@ HyperplaneCounts countHyperplanes(const geometry::Hyperplanes& planes, std::span
             static_cast<std::size_t>(std::clamp(std::floor(levelOf(w + tolerance)) + 1, 0.0, count))};
 }
 
-std::size_t countInComplex(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
-                           const geometry::Hyperplanes& planes) {
+std::size_t countSliceEdgesIn(const geometry::CellComplex& complex, const geometry::Rotation& orientation,
+                              const geometry::Hyperplanes& planes) {
     std::vector<double> sorted = planes.listed;
     std::ranges::sort(sorted);
     const glm::dmat4 turned = orientation.matrix();
-    std::vector<HyperplaneCounts> counts;  // one entry per vertex of the complex
+    std::vector<HyperplanesBelowVertex> counts;  // one entry per vertex of the complex
     counts.reserve(complex.vertices.size());
     const double tolerance = kOnPlaneTolerance * complex.circumradius;
     for (const glm::dvec4& vertex : complex.vertices)
@@ -73,10 +73,11 @@ TooManySliceEdges::TooManySliceEdges(std::size_t found, std::size_t allowed)
 
 std::size_t sliceEdgeBound(const Object& object, const geometry::Rotation& orientation,
                            const geometry::Hyperplanes& planes) {
-    return visitElements(
-        Overloaded{[&](const geometry::CellComplex& complex) { return countInComplex(complex, orientation, planes); },
-                   [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
-        object);
+    return visitElements(Overloaded{[&](const geometry::CellComplex& complex) {
+                                        return countSliceEdgesIn(complex, orientation, planes);
+                                    },
+                                    [](const geometry::PointCloud& /*cloud*/) { return std::size_t{0}; }},
+                         object);
 }
 
 void checkSliceEdges(const Object& object, const geometry::Rotation& orientation, const geometry::Hyperplanes& planes,

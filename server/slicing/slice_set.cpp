@@ -2,7 +2,7 @@
 
 namespace oval4d::slicing {
 
-void SliceSet::resize(SliceCounts size) {
+void SliceSet::resize(SliceElementCounts size) {
     vertexBegin.resize(planes.count + 1);
     edgeBegin.resize(planes.count + 1);
     faceBegin.resize(planes.count + 1);
@@ -16,7 +16,7 @@ void SliceSet::resize(SliceCounts size) {
     cornerEdges.resize(size.corners);
 }
 
-void SliceSet::finishSlices(SliceCounts at) {
+void SliceSet::finishSlices(SliceElementCounts at) {
     setSliceBegin(planes.count, at);
     if (vertices.size() != at.vertices || edges.size() != at.edges || faceSource.size() != at.faces ||
         corners.size() != at.corners)

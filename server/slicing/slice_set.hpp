@@ -21,10 +21,10 @@ inline constexpr double kOnPlaneTolerance = 1e-9;
 
 /// Numbers of vertices, edges, faces and face corners. They give either the size of one or more slices, or the position
 /// of a slice in a SliceSet: the total size of the slices before it.
-struct SliceCounts {
+struct SliceElementCounts {
     std::uint32_t vertices = 0, edges = 0, faces = 0, corners = 0;
 
-    SliceCounts operator+(SliceCounts more) const {
+    SliceElementCounts operator+(SliceElementCounts more) const {
         return {vertices + more.vertices, edges + more.edges, faces + more.faces, corners + more.corners};
     }
 };
@@ -67,19 +67,19 @@ struct SliceSet {
     std::size_t faceCount(int slice) const { return faceBegin[slice + 1] - faceBegin[slice]; }
 
     /// Returns the total size of all slices. The set must not be default-constructed, because its lists are then empty.
-    SliceCounts totalCounts() const {
+    SliceElementCounts totalCounts() const {
         return {vertexBegin.back(), edgeBegin.back(), faceBegin.back(), cornerBegin.back()};
     }
     /// Resizes the arrays for planes.count slices that together have the size `size`.
-    void resize(SliceCounts size);
+    void resize(SliceElementCounts size);
     /// Records that slice number `slice` begins at the position `at` in the arrays.
-    void setSliceBegin(int slice, SliceCounts at) {
+    void setSliceBegin(int slice, SliceElementCounts at) {
         vertexBegin[slice] = at.vertices;
         edgeBegin[slice] = at.edges;
         faceBegin[slice] = at.faces;
     }
     /// Records that the last slice ends at the position `at` in the arrays, and truncates the arrays there.
-    void finishSlices(SliceCounts at);
+    void finishSlices(SliceElementCounts at);
     /// Removes all slices with their vertices, edges and faces, so that appendSlices() can add others. Keeps the
     /// planes, surfaces and fogs.
     void clearSlices();

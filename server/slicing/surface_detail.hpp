@@ -54,17 +54,19 @@ constexpr std::size_t maxFogSamples(Quality quality) { return quality == Quality
 
 /// Returns the intended width, in pixels, of a lattice cube of the surfaces (see SurfaceDetail::steps) in a rendered
 /// picture, and of a lattice square of the contours. A draft has wider cubes, so that it takes less time. Messages and
-/// files use cubesAcross() instead.
+/// files use cubesAcrossDiameter() instead.
 constexpr double pixelsPerCube(Quality quality) { return quality == Quality::full ? 3 : 4.5; }
 
 /// Returns the number of lattice cubes across the diameter of a field's circumscribed sphere, for messages and files.
 /// Rendered pictures use pixelsPerCube() instead; in full quality, they have at least as many cubes as messages.
-constexpr int cubesAcross(Quality quality) {
+constexpr int cubesAcrossDiameter(Quality quality) {
     return quality == Quality::file ? 160 : quality == Quality::full ? 48 : 32;
 }
 
 /// Returns the lattice step of surfaces in messages and files, in the units of an object with this circumradius.
-constexpr double uniformStep(double circumradius, Quality quality) { return 2 * circumradius / cubesAcross(quality); }
+constexpr double uniformStep(double circumradius, Quality quality) {
+    return 2 * circumradius / cubesAcrossDiameter(quality);
+}
 
 /// Sets `out` for messages and files. Sets the lattice step of the surfaces in all slices to uniformStep(), and sets
 /// the quality. Clears the steps of the fog, so that no fog is sampled.
@@ -79,7 +81,7 @@ inline void setUniformDetail(double circumradius, const geometry::Hyperplanes& p
 /// surfaces of the quality `out.quality`. Surfaces are accurate even with the larger step, because their points are
 /// moved onto the level after sampling.
 inline void setUniformFogSteps(double circumradius, const geometry::Hyperplanes& planes, SurfaceDetail& out) {
-    out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcross(out.quality));
+    out.fogSteps.assign(static_cast<std::size_t>(planes.count), circumradius / cubesAcrossDiameter(out.quality));
 }
 
 }  // namespace oval4d::slicing

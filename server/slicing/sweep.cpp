@@ -9,10 +9,10 @@ namespace oval4d::slicing {
 
 namespace {
 
-using Chunk = std::array<std::byte, 16>;
+using SixteenByteChunk = std::array<std::byte, 16>;
 
 void copyChunk(const std::byte* from, std::byte* to) {
-    Chunk chunk;
+    SixteenByteChunk chunk;
     std::memcpy(&chunk, from, sizeof chunk);
     std::memcpy(to, &chunk, sizeof chunk);
 }
@@ -21,15 +21,17 @@ void copyChunk(const std::byte* from, std::byte* to) {
 // first few copies of a small block inline, because a call of memcpy takes longer than copying a small block. After
 // these copies, doubles the copied range with each call of memcpy.
 template <typename Item>
-void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
+void repeatBlock(std::vector<Item>& items, std::size_t begin, std::size_t size, std::size_t times) {
     constexpr std::size_t kSmall = 256, kFew = 8;
     auto* const first = reinterpret_cast<std::byte*>(items.data() + begin);
     const std::size_t bytes = size * sizeof(Item);
     std::size_t done = bytes;
-    if (bytes >= sizeof(Chunk) && bytes <= kSmall) {
-        const std::size_t last = bytes - sizeof(Chunk);  // the start of the last chunk, which may overlap its neighbor
+    if (bytes >= sizeof(SixteenByteChunk) && bytes <= kSmall) {
+        const std::size_t last =
+            bytes - sizeof(SixteenByteChunk);  // the start of the last chunk, which may overlap its neighbor
         for (; done < bytes * std::min(times, kFew); done += bytes) {
-            for (std::size_t at = 0; at < last; at += sizeof(Chunk)) copyChunk(first + at, first + done + at);
+            for (std::size_t at = 0; at < last; at += sizeof(SixteenByteChunk))
+                copyChunk(first + at, first + done + at);
             copyChunk(first + last, first + done + last);
         }
     }
@@ -37,8 +39,8 @@ void repeat(std::vector<Item>& items, std::size_t begin, std::size_t size, std::
 }
 
 // Copies the only slice of the set `slice` into `out`, from position `at` on. Returns the size of this slice.
-SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
-    const SliceCounts size = slice.totalCounts();
+SliceElementCounts copySlice(const SliceSet& slice, SliceElementCounts at, SliceSet& out) {
+    const SliceElementCounts size = slice.totalCounts();
     const auto copy = [](const auto& from, auto& to, std::size_t begin) {
         std::copy(from.begin(), from.end(), to.begin() + static_cast<std::ptrdiff_t>(begin));
     };
@@ -56,32 +58,33 @@ SliceCounts copySlice(const SliceSet& slice, SliceCounts at, SliceSet& out) {
 
 }  // namespace
 
-bool Sweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes) {
+bool HyperplaneSweep::begin(const polytopes::Polytope& polytope, PlanesBelowVertices planesBelow, int planes) {
     planesBelow_ = planesBelow;
     findStructureChanges(polytope, planes);
     return tryFindCutElements(polytope, planes);
 }
 
-bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
-                SliceSet& out) {
+bool HyperplaneSweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first,
+                          SliceElementCounts& at, SliceSet& out) {
     first_ = first;
-    SliceCounts here = at;  // a local copy, because the compiler must assume that writes to the arrays change `at`
+    SliceElementCounts here =
+        at;  // a local copy, because the compiler must assume that writes to the arrays change `at`
     for (std::size_t step = 0; step + 1 < structureChanges_.size(); ++step) {
         int k = structureChanges_[step];
         const int next = structureChanges_[step + 1];
-        advance(polytope, out.rotatedVertices, k);
-        const SliceCounts size = countsOfSlice();
-        if (verticesMet_[k] == VerticesMet::inside) {
+        advanceTo(polytope, out.rotatedVertices, k);
+        const SliceElementCounts size = countsOfSlice();
+        if (verticesMet_[k] == VertexEncounter::inside) {
             out.setSliceBegin(first + k, here);
             if (!touching.empty() && touching[k] != nullptr) {
                 here = here + copySlice(*touching[k], here, out);
             } else {
-                if (!write(k, k + 1, here, out)) return false;
+                if (!writeSlices(k, k + 1, here, out)) return false;
                 here = here + collapse_.collapse(polytope, k, here, size, out);
             }
             ++k;
         }
-        if (k < next && !write(k, next, here, out)) return false;
+        if (k < next && !writeSlices(k, next, here, out)) return false;
         for (; k < next; ++k, here = here + size) out.setSliceBegin(first + k, here);
     }
     at = here;
@@ -89,31 +92,31 @@ bool Sweep::cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> 
 }
 
 // Finds the hyperplanes at which the set of cut elements may change: see structureChanges_.
-void Sweep::findStructureChanges(const polytopes::Polytope& polytope, int planes) {
-    verticesMet_.assign(planes + 1, VerticesMet::none);
-    for (const std::int32_t below : planesBelow_.below) verticesMet_[below] = VerticesMet::between;
+void HyperplaneSweep::findStructureChanges(const polytopes::Polytope& polytope, int planes) {
+    verticesMet_.assign(planes + 1, VertexEncounter::none);
+    for (const std::int32_t below : planesBelow_.below) verticesMet_[below] = VertexEncounter::between;
     if (planesBelow_.anyOnPlane) {
         for (std::size_t v = 0; v < planesBelow_.below.size(); ++v) {
             if (planesBelow_.below[v] != planesBelow_.upTo[v])
-                verticesMet_[planesBelow_.below[v]] = VerticesMet::inside;
+                verticesMet_[planesBelow_.below[v]] = VertexEncounter::inside;
         }
         collapse_.begin(polytope, planesBelow_);
     }
     structureChanges_.assign(1, 0);
     for (int k = 1; k < planes; ++k) {
-        if (verticesMet_[k] != VerticesMet::none) structureChanges_.push_back(k);
+        if (verticesMet_[k] != VertexEncounter::none) structureChanges_.push_back(k);
     }
     structureChanges_.push_back(planes);
 }
 
 // Finds the range of hyperplanes that cut each element, and the total size of the slices. Returns false if a hyperplane
 // cuts a 2-face in several segments.
-bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) {
+bool HyperplaneSweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) {
     const std::int32_t* below = planesBelow_.below.data();
     const auto edges = static_cast<std::uint32_t>(polytope.edges.size());
     const auto faces = static_cast<std::uint32_t>(polytope.faces.size());
     const auto cells = static_cast<std::uint32_t>(polytope.cells.size());
-    SliceCounts total;
+    SliceElementCounts total;
     std::uint32_t ends = 0;
     edges_.clear(edges, planes);
     for (std::uint32_t e = 0; e < edges; ++e) {
@@ -148,7 +151,7 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
     const std::uint32_t* bound = polytope.cells.items.data();
     for (std::uint32_t c = 0; c < cells; ++c) {
         const std::uint32_t* end = polytope.cells.items.data() + polytope.cells.begin[c + 1];
-        PlaneRange span = faceSpan_[*bound];
+        HyperplaneRange span = faceSpan_[*bound];
         while (++bound != end) {
             span.from = std::min(span.from, faceSpan_[*bound].from);
             span.to = std::max(span.to, faceSpan_[*bound].to);
@@ -168,23 +171,24 @@ bool Sweep::tryFindCutElements(const polytopes::Polytope& polytope, int planes) 
     return true;
 }
 
-void Sweep::advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane) {
-    for (const ActiveList::CutElement& edge : edges_.activateAt(plane))
+void HyperplaneSweep::advanceTo(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices,
+                                int plane) {
+    for (const ActiveElementList::CutElement& edge : edges_.advanceTo(plane))
         beginEdge(polytope, edge.number, rotatedVertices);
-    faces_.activateAt(plane);
-    cells_.activateAt(plane);
+    faces_.advanceTo(plane);
+    cells_.advanceTo(plane);
 }
 
 // Makes an edge active: computes the line through the edge, and links the half-edges that meet on the edge (see
 // edgeOfEnd_).
-inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
-                             const std::vector<glm::dvec4>& rotatedVertices) {
+inline void HyperplaneSweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t e,
+                                       const std::vector<glm::dvec4>& rotatedVertices) {
     const std::int32_t* below = planesBelow_.below.data();
     const auto& edge = polytope.edges[e];
     const std::uint32_t rises = below[edge[0]] < below[edge[1]] ? 1 : 0;
     const glm::dvec4& at = rotatedVertices[edge[1 - rises]];
     const glm::dvec4 along = rotatedVertices[edge[rises]] - at;
-    Line& line = line_[e];
+    EdgeLine& line = line_[e];
     line.at = at;
     line.slope = glm::dvec3(along) * (1 / along.w);
     const auto around = polytope.edgeFaces[e];
@@ -202,27 +206,27 @@ inline void Sweep::beginEdge(const polytopes::Polytope& polytope, std::uint32_t 
 // Writes the slices in the hyperplanes with the indices plane … end − 1. No vertex lies between these hyperplanes, so
 // their slices differ only in the coordinates of their vertices. Returns false if a hyperplane cuts a cell in several
 // polygons.
-bool Sweep::write(int plane, int end, SliceCounts at, SliceSet& out) {
+bool HyperplaneSweep::writeSlices(int plane, int end, SliceElementCounts at, SliceSet& out) {
     writeVertices(plane, end, at, out);
     writeEdges(at, out);
     if (!writeFaces(at, out)) return false;
     const auto times = static_cast<std::size_t>(end - plane);
     if (times == 1) return true;
-    const SliceCounts size = countsOfSlice();
-    repeat(out.vertexSource, at.vertices, size.vertices, times);
-    repeat(out.edges, at.edges, size.edges, times);
-    repeat(out.edgeSource, at.edges, size.edges, times);
-    repeat(out.faceSource, at.faces, size.faces, times);
-    repeat(out.corners, at.corners, size.corners, times);
-    repeat(out.cornerEdges, at.corners, size.corners, times);
+    const SliceElementCounts size = countsOfSlice();
+    repeatBlock(out.vertexSource, at.vertices, size.vertices, times);
+    repeatBlock(out.edges, at.edges, size.edges, times);
+    repeatBlock(out.edgeSource, at.edges, size.edges, times);
+    repeatBlock(out.faceSource, at.faces, size.faces, times);
+    repeatBlock(out.corners, at.corners, size.corners, times);
+    repeatBlock(out.cornerEdges, at.corners, size.corners, times);
     std::uint32_t* begin = out.cornerBegin.data() + at.faces;
     for (std::size_t f = size.faces; f < size.faces * times; ++f) begin[f] = begin[f - size.faces] + size.corners;
     return true;
 }
 
-void Sweep::writeVertices(int plane, int end, SliceCounts at, SliceSet& out) {
-    const auto cut = edges_.active();
-    const Line* edgeLines = line_.data();
+void HyperplaneSweep::writeVertices(int plane, int end, SliceElementCounts at, SliceSet& out) {
+    const auto cut = edges_.activeElements();
+    const EdgeLine* edgeLines = line_.data();
     std::uint32_t* vertexSource = out.vertexSource.data() + at.vertices;
     for (std::uint32_t i = 0; i < cut.size(); ++i) {
         vertexSource[i] = cut[i].number;
@@ -231,15 +235,15 @@ void Sweep::writeVertices(int plane, int end, SliceCounts at, SliceSet& out) {
     glm::dvec3* vertex = out.vertices.data() + at.vertices;
     for (int k = plane; k < end; ++k) {
         const double w = out.planes.w(first_ + k);
-        for (const ActiveList::CutElement& edge : cut) {
-            const Line& line = edgeLines[edge.number];
+        for (const ActiveElementList::CutElement& edge : cut) {
+            const EdgeLine& line = edgeLines[edge.number];
             *vertex++ = glm::dvec3(line.at) + (w - line.at.w) * line.slope;
         }
     }
 }
 
-void Sweep::writeEdges(SliceCounts at, SliceSet& out) {
-    const auto cut = faces_.active();
+void HyperplaneSweep::writeEdges(SliceElementCounts at, SliceSet& out) {
+    const auto cut = faces_.activeElements();
     const std::uint32_t* vertices = vertex_.data();
     const std::uint32_t* ends = edgeOfEnd_.data();
     auto* edges = out.edges.data() + at.edges;
@@ -253,8 +257,8 @@ void Sweep::writeEdges(SliceCounts at, SliceSet& out) {
     }
 }
 
-bool Sweep::writeFaces(SliceCounts at, SliceSet& out) const {
-    const auto cut = cells_.active();
+bool HyperplaneSweep::writeFaces(SliceElementCounts at, SliceSet& out) const {
+    const auto cut = cells_.activeElements();
     const std::uint32_t* sliceEdges = sliceEdge_.data();
     const std::uint32_t* next = nextEnd_.data();
     const auto* edges = out.edges.data() + at.edges;

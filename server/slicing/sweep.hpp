@@ -29,7 +29,7 @@ namespace oval4d::slicing {
 ///
 /// Only where the hyperplane passes a vertex, the set of cut elements and their connections change. Between two
 /// vertices, only the coordinates of the slice change. Reuses its memory between calls.
-class Sweep {
+class HyperplaneSweep {
   public:
     /// Prepares the sweep of a polytope by `planes` hyperplanes: finds the elements that each hyperplane cuts.
     /// `planesBelow` says how many of these hyperplanes lie below each vertex; its arrays must stay valid until cut()
@@ -40,56 +40,58 @@ class Sweep {
     /// Returns an upper bound of the total size of the slices, except those in the argument `touching` of cut(). The
     /// bound is exact if no vertex lies in a hyperplane. Slices through vertices may be smaller (see
     /// DegeneracyCollapse).
-    SliceCounts maxSize() const { return size_; }
+    SliceElementCounts maxSliceCounts() const { return size_; }
 
     /// Writes the slices to `out`. `out` must already contain the planes and the rotated vertices, and its arrays must
-    /// have room for maxSize() and the slices in `touching`. The first slice becomes slice number `first` of `out`, and
-    /// its elements begin at position `at`. Sets `at` to the position after the last slice.
+    /// have room for maxSliceCounts() and the slices in `touching`. The first slice becomes slice number `first` of
+    /// `out`, and its elements begin at position `at`. Sets `at` to the position after the last slice.
     ///
     /// `touching` has an entry for each hyperplane. If the polytope touches the hyperplane from one side, the entry is
     /// a set that contains only the slice in this hyperplane; otherwise it is null. `touching` may be empty if all
     /// entries would be null. Returns false, and leaves `out` unusable, if rounding errors in the vertices make a
     /// hyperplane cut a cell in several polygons.
-    bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first, SliceCounts& at,
-             SliceSet& out);
+    bool cut(const polytopes::Polytope& polytope, std::span<SliceSet* const> touching, int first,
+             SliceElementCounts& at, SliceSet& out);
 
   private:
     // The line through an edge of the polytope. At height w, the coordinates x, y, z of its point are (at.x, at.y,
     // at.z) + (w − at.w) · slope.
-    struct alignas(16) Line {
+    struct alignas(16) EdgeLine {
         glm::dvec4 at;
         glm::dvec3 slope;
     };
     // A range of hyperplanes: those with the indices in [from, to).
-    struct PlaneRange {
+    struct HyperplaneRange {
         std::int32_t from, to;
     };
     // Says where vertices lie relative to a hyperplane. `inside`: vertices lie in the hyperplane. `between`: no
     // vertices lie in it, but some lie between the next lower hyperplane and it (for the lowest hyperplane: below it).
     // `none`: there are no such vertices.
-    enum class VerticesMet : std::uint8_t { none, between, inside };
+    enum class VertexEncounter : std::uint8_t { none, between, inside };
     void findStructureChanges(const polytopes::Polytope& polytope, int planes);
     bool tryFindCutElements(const polytopes::Polytope& polytope, int planes);
-    void advance(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
+    void advanceTo(const polytopes::Polytope& polytope, const std::vector<glm::dvec4>& rotatedVertices, int plane);
     void beginEdge(const polytopes::Polytope& polytope, std::uint32_t edge,
                    const std::vector<glm::dvec4>& rotatedVertices);
-    SliceCounts countsOfSlice() const { return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()}; }
-    bool write(int plane, int end, SliceCounts at, SliceSet& out);
-    void writeVertices(int plane, int end, SliceCounts at, SliceSet& out);
-    void writeEdges(SliceCounts at, SliceSet& out);
-    bool writeFaces(SliceCounts at, SliceSet& out) const;
+    SliceElementCounts countsOfSlice() const {
+        return {edges_.size(), faces_.size(), cells_.size(), 2 * faces_.size()};
+    }
+    bool writeSlices(int plane, int end, SliceElementCounts at, SliceSet& out);
+    void writeVertices(int plane, int end, SliceElementCounts at, SliceSet& out);
+    void writeEdges(SliceElementCounts at, SliceSet& out);
+    bool writeFaces(SliceElementCounts at, SliceSet& out) const;
 
     PlanesBelowVertices planesBelow_;
-    SliceCounts size_;  // the result of maxSize(): an upper bound of the total size of the slices
-    int first_ = 0;     // the number that the slice in the hyperplane with the index 0 has in `out`
-    ActiveList edges_, faces_, cells_;
-    std::vector<PlaneRange> faceSpan_;  // per 2-face: the range of the hyperplanes that cut it
+    SliceElementCounts size_;  // the result of maxSliceCounts(): an upper bound of the total size of the slices
+    int first_ = 0;            // the number that the slice in the hyperplane with the index 0 has in `out`
+    ActiveElementList edges_, faces_, cells_;
+    std::vector<HyperplaneRange> faceSpan_;  // per 2-face: the range of the hyperplanes that cut it
     // Per hyperplane: whether vertices lie in it, or between it and the next lower hyperplane.
-    std::vector<VerticesMet> verticesMet_;
+    std::vector<VertexEncounter> verticesMet_;
     // The indices of the hyperplanes at which elements may become active or inactive: 0, and the indices of all other
     // hyperplanes whose entry in verticesMet_ is not `none`. The last entry is the number of hyperplanes.
     std::vector<int> structureChanges_;
-    std::vector<Line> line_;                // per active edge: the straight line through it
+    std::vector<EdgeLine> line_;            // per active edge: the straight line through it
     std::vector<std::uint32_t> vertex_;     // per active edge: the index of its slice vertex within the slice
     std::vector<std::uint32_t> sliceEdge_;  // per active 2-face: the index of its slice edge within the slice
     // The hyperplane cuts 2-face f in a segment with two ends. End 2 f lies on the polytope edge edgeOfEnd_[2 f], where

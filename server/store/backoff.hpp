@@ -17,17 +17,17 @@ class Backoff {
     Backoff() : random_(std::random_device{}()) {}
 
     /// Counts a failure, and returns the pause before the next attempt.
-    Milliseconds next() {
+    Milliseconds nextPause() {
         constexpr Milliseconds kFirst{100}, kLongest{5000};
         constexpr int kDoublings = 10;
         const Milliseconds longest = std::min(kFirst * (1 << std::min(failures_++, kDoublings)), kLongest);
         return longest / 2 + Milliseconds(random_() % static_cast<unsigned>(longest.count() / 2));
     }
-    /// Resets the count of failures, so that next() begins again with the shortest pause.
+    /// Resets the count of failures, so that nextPause() begins again with the shortest pause.
     void reset() { failures_ = 0; }
 
   private:
-    int failures_ = 0;  // number of calls of next() since the last reset()
+    int failures_ = 0;  // number of calls of nextPause() since the last reset()
     std::minstd_rand random_;
 };
 

@@ -15,7 +15,7 @@ void PendingChanges::addOlder(PendingChanges older) {
     std::ranges::move(older.waiting, std::back_inserter(waiting));
 }
 
-void CachedSessions::addStored(const SessionCredentials& credentials, Fence fence) {
+void CachedSessions::addStored(const SessionCredentials& credentials, FencingToken fence) {
     CachedSession& cached = sessions_[credentials.id];
     cached.credentials = credentials;
     cached.fence = fence;
@@ -78,7 +78,7 @@ void CachedSessions::enqueue(const std::string& id, CachedSession& cached) {
     queue_.push_back(id);
 }
 
-std::optional<std::string> CachedSessions::takeQueued() {
+std::optional<std::string> CachedSessions::takeFirstQueued() {
     while (!queue_.empty()) {
         std::string id = std::move(queue_.front());
         queue_.pop_front();
@@ -93,7 +93,7 @@ std::optional<std::string> CachedSessions::takeQueued() {
     return {};
 }
 
-std::size_t CachedSessions::neverSaved() const {
+std::size_t CachedSessions::neverSavedCount() const {
     return static_cast<std::size_t>(
         std::ranges::count_if(sessions_, [](const auto& entry) { return !entry.second.everSaved; }));
 }
@@ -105,7 +105,7 @@ std::size_t CachedSessions::unsaved() const {
     }));
 }
 
-std::vector<std::string> CachedSessions::openAndEverSaved() const {
+std::vector<std::string> CachedSessions::idsOfOpenSavedSessions() const {
     std::vector<std::string> ids;
     for (const auto& [id, cached] : sessions_) {
         if (cached.everSaved && !cached.closed) ids.push_back(id);
@@ -120,11 +120,11 @@ std::size_t estimateMemory(const session::Session& session) {
         objects.try_emplace(slicing::identityOf(object), &object);
     };
     const auto add = [&](const session::State& state) {
-        for (const slicing::Object* object : state.objects()) addObject(*object);
+        for (const slicing::Object* object : state.sourceAndObject()) addObject(*object);
         bytes += sizeof state +
                  (state.look.cellTypes.hidden.size() + state.look.cellTypes.faded.size()) * sizeof(std::uint32_t);
     };
-    for (const slicing::Object* object : session.current.objects()) addObject(*object);
+    for (const slicing::Object* object : session.current.sourceAndObject()) addObject(*object);
     for (const session::State& state : session.undoSteps) add(state);
     for (const session::State& state : session.redoSteps) add(state);
     for (const auto& [name, object] : session.loaded) addObject(object);

@@ -39,7 +39,7 @@ struct CachedSession {
     using Clock = std::chrono::steady_clock;
 
     SessionCredentials credentials;
-    Fence fence = kFirstFence;
+    FencingToken fence = kFirstFence;
     PendingChanges pending;
     bool changed = false;        ///< whether the session has changed since the last save()
     bool everSaved = false;      ///< whether the session has ever been in the store
@@ -55,10 +55,10 @@ struct CachedSession {
 class CachedSessions {
   public:
     /// Adds a session that has never been in the store.
-    void add(const SessionCredentials& credentials) { sessions_[credentials.id].credentials = credentials; }
+    void addNew(const SessionCredentials& credentials) { sessions_[credentials.id].credentials = credentials; }
     /// Adds a session that is in the store. This server has claimed the session (become its owner) with this fence (the
     /// number of the claim).
-    void addStored(const SessionCredentials& credentials, Fence fence);
+    void addStored(const SessionCredentials& credentials, FencingToken fence);
 
     bool contains(const std::string& id) const { return sessions_.contains(id); }
     /// Returns the session with this id, or a null pointer if the session is not in memory.
@@ -79,17 +79,17 @@ class CachedSessions {
     void enqueue(const std::string& id, CachedSession& cached);
     /// Takes the first session from the queue, marks the session as being written, and returns its id. Returns an empty
     /// optional if the queue is empty.
-    std::optional<std::string> takeQueued();
+    std::optional<std::string> takeFirstQueued();
     /// Returns the number of queued sessions.
     std::size_t queueLength() const { return queue_.size(); }
 
     std::size_t size() const { return sessions_.size(); }
     /// Returns the number of sessions that have never been in the store.
-    std::size_t neverSaved() const;
+    std::size_t neverSavedCount() const;
     /// Returns the number of sessions with changes that may not be in the store yet.
     std::size_t unsaved() const;
     /// Returns the ids of the sessions that are open in a client and have been in the store.
-    std::vector<std::string> openAndEverSaved() const;
+    std::vector<std::string> idsOfOpenSavedSessions() const;
 
   private:
     std::map<std::string, CachedSession, std::less<>> sessions_;

@@ -15,7 +15,7 @@ constexpr std::size_t kMaxNameBytes = 256;
 /// A handler of parser events (SAX) that stops parsing if values are nested too deeply. The limit is needed because the
 /// parser uses stack space for each level. Declared sizes of arrays need no limit: the parser allocates nothing for
 /// them, and each byte of input yields at most one value.
-class DepthLimiter : public json::json_sax_t {
+class NestingDepthLimiter : public json::json_sax_t {
   public:
     bool null() override { return true; }
     bool boolean(bool /*value*/) override { return true; }
@@ -30,7 +30,7 @@ class DepthLimiter : public json::json_sax_t {
     bool end_object() override { return --depth_, true; }
     bool end_array() override { return --depth_, true; }
     bool parse_error(std::size_t /*position*/, const std::string& /*token*/, const json::exception& fault) override {
-        throwUnreadable(fault.what());
+        throwUnreadableRecord(fault.what());
     }
 
   private:
@@ -39,9 +39,11 @@ class DepthLimiter : public json::json_sax_t {
 
 }  // namespace
 
-void throwUnreadable(const std::string& what) { throw UnreadableRecord(what); }
+void throwUnreadableRecord(const std::string& what) { throw UnreadableRecord(what); }
 
-void throwLater(const std::string& what) { throw LaterRecord("a later version of oval4d has stored it: " + what); }
+void throwLaterRecord(const std::string& what) {
+    throw NewerVersionRecord("a later version of oval4d has stored it: " + what);
+}
 
 std::string encodeCbor(const json& value) {
     std::string bytes;
@@ -50,28 +52,28 @@ std::string encodeCbor(const json& value) {
 }
 
 json parseRecord(std::string_view bytes, int latestVersion) {
-    DepthLimiter limiter;
-    if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) throwUnreadable("it is nested too deeply");
+    NestingDepthLimiter limiter;
+    if (!json::sax_parse(bytes, &limiter, json::input_format_t::cbor)) throwUnreadableRecord("it is nested too deeply");
     json value = json::from_cbor(bytes);
-    if (!value.is_array() || value.empty()) throwUnreadable("it is not a session record");
+    if (!value.is_array() || value.empty()) throwUnreadableRecord("it is not a session record");
     const json& version = value.at(0);
     const auto number = version.is_number_integer() ? version.get<std::int64_t>() : 0;
     if (number < 1 || number > latestVersion) {
         const std::string what = "it has version " + version.dump() + ", and this program reads version " +
                                  (latestVersion == 1 ? "1" : "1 to " + std::to_string(latestVersion));
-        if (number > latestVersion) throwLater(what);
-        throwUnreadable(what);
+        if (number > latestVersion) throwLaterRecord(what);
+        throwUnreadableRecord(what);
     }
     return value;
 }
 
 void refuseUnknownMembers(const json& array, std::size_t known) {
-    if (array.size() > known) throwLater("it has settings that this version does not know");
+    if (array.size() > known) throwLaterRecord("it has settings that this version does not know");
 }
 
 double readNumber(const json& value, double least, double most) {
     const auto found = value.get<double>();
-    if (!(found >= least && found <= most)) throwLater("a number is out of range");
+    if (!(found >= least && found <= most)) throwLaterRecord("a number is out of range");
     return found;
 }
 
@@ -84,7 +86,7 @@ std::vector<std::uint32_t> readIntegers(const json& value) {
 }
 
 void checkShortText(std::string_view text) {
-    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) throwUnreadable("a name is too long or is not UTF-8");
+    if (text.size() > kMaxNameBytes || !text::isUtf8(text)) throwUnreadableRecord("a name is too long or is not UTF-8");
 }
 
 std::string readShortText(const json& value) {

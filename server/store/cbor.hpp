@@ -20,21 +20,21 @@ namespace oval4d::store {
 inline constexpr int kRecordVersion = 1;
 
 /// Throws UnreadableRecord (the record is not valid) with the message `what`.
-[[noreturn]] void throwUnreadable(const std::string& what);
+[[noreturn]] void throwUnreadableRecord(const std::string& what);
 
-/// Throws LaterRecord. The message says that a later version of the program has stored the record; `what` names the
-/// part that this version does not know or allow.
-[[noreturn]] void throwLater(const std::string& what);
+/// Throws NewerVersionRecord. The message says that a later version of the program has stored the record; `what` names
+/// the part that this version does not know or allow.
+[[noreturn]] void throwLaterRecord(const std::string& what);
 
 /// Returns the CBOR encoding of a JSON value.
 std::string encodeCbor(const nlohmann::json& value);
 
-/// Parses a record: a CBOR array that begins with a version from 1 to `latestVersion`. Throws LaterRecord if the
+/// Parses a record: a CBOR array that begins with a version from 1 to `latestVersion`. Throws NewerVersionRecord if the
 /// version is greater. Throws UnreadableRecord if `bytes` is not a record, or is nested too deeply.
 nlohmann::json parseRecord(std::string_view bytes, int latestVersion = kRecordVersion);
 
-/// Throws LaterRecord if the array has more than `known` members. Only a later version of this program stores more
-/// members. Reading such a record is refused, because the unknown members would be lost when the session is stored
+/// Throws NewerVersionRecord if the array has more than `known` members. Only a later version of this program stores
+/// more members. Reading such a record is refused, because the unknown members would be lost when the session is stored
 /// again.
 void refuseUnknownMembers(const nlohmann::json& array, std::size_t known);
 
@@ -44,12 +44,12 @@ auto callTranslatingErrors(Read read) {
     try {
         return read();
     } catch (const nlohmann::json::exception& fault) {
-        throwUnreadable(fault.what());
+        throwUnreadableRecord(fault.what());
     }
 }
 
 /// Returns `value` as a number. The number must be from `least` to `most`; in the overload without `least`, from
-/// −`most` to `most`. Throws LaterRecord for a number outside this range. If `value` is not a number, throws an
+/// −`most` to `most`. Throws NewerVersionRecord for a number outside this range. If `value` is not a number, throws an
 /// exception of the JSON library, which callTranslatingErrors() converts to UnreadableRecord.
 double readNumber(const nlohmann::json& value, double least, double most);
 double readNumber(const nlohmann::json& value, double most);
@@ -58,12 +58,12 @@ double readNumber(const nlohmann::json& value, double most);
 template <std::integral T>
 T readInteger(const nlohmann::json& value) {
     const auto fitting = [](auto found) {
-        if (!std::in_range<T>(found)) throwUnreadable("an integer is out of range");
+        if (!std::in_range<T>(found)) throwUnreadableRecord("an integer is out of range");
         return static_cast<T>(found);
     };
     if (value.is_number_unsigned()) return fitting(value.get<std::uint64_t>());
     if (value.is_number_integer()) return fitting(value.get<std::int64_t>());
-    throwUnreadable("a value is not an integer");
+    throwUnreadableRecord("a value is not an integer");
 }
 
 /// Returns the elements of an array of integers. Throws UnreadableRecord if an element is not an integer from 0 to 2^32

@@ -38,19 +38,19 @@ class MemberWriter {
         put(number, encoded(value));
     }
     template <typename T, typename... Ranges>
-    void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
+    void memberAddedLater(std::size_t number, const T& value, Ranges... /*range*/) {
         put(number, encoded(value));
     }
     template <typename T>
-    void computedMember(const T& /*value*/) {}
-    void array(std::size_t number, const auto& visitThem) {
+    void recomputableMember(const T& /*value*/) {}
+    void nestedArray(std::size_t number, const auto& visitThem) {
         MemberWriter writer;
         visitThem(writer);
         put(number, std::move(writer.array_));
     }
     void rotation(std::size_t number, const geometry::Rotation& rotation) {
-        put(number, encoded(rotation.left()));
-        put(number + 1, encoded(rotation.right()));
+        put(number, encoded(rotation.leftQuaternion()));
+        put(number + 1, encoded(rotation.rightQuaternion()));
     }
 
     /// Returns the array with all members, and leaves the writer empty.
@@ -112,11 +112,11 @@ class MemberWriter {
     // Encodes a turn (a rotation in one plane or several). A turn in one plane, or in two perpendicular planes, becomes
     // [plane, angle, angle in the perpendicular plane or null]; earlier versions can read this form, too. Any other
     // turn becomes a list of pairs [[plane, angle], …]. Angles are in radians.
-    static nlohmann::json encoded(const geometry::Turn& turn) {
+    static nlohmann::json encoded(const geometry::RotationAngles& turn) {
         const std::vector<geometry::Plane> planes = turn.planes();
         const geometry::Plane first = planes.at(0);
-        if (planes.size() == 1 || (planes.size() == 2 && planes[1] == geometry::perpendicular(first)))
-            return {static_cast<unsigned>(first), *turn[first], encoded(turn[geometry::perpendicular(first)])};
+        if (planes.size() == 1 || (planes.size() == 2 && planes[1] == geometry::orthogonalComplement(first)))
+            return {static_cast<unsigned>(first), *turn[first], encoded(turn[geometry::orthogonalComplement(first)])};
         nlohmann::json pairs = nlohmann::json::array();
         for (const geometry::Plane plane : planes)
             pairs.push_back(nlohmann::json::array({static_cast<unsigned>(plane), *turn[plane]}));
@@ -128,7 +128,7 @@ class MemberWriter {
 
 inline geometry::Plane planeIn(const nlohmann::json& value) {
     const auto number = readInteger<unsigned>(value);
-    if (number >= geometry::kPlanes.size()) throwLater("there is no plane " + std::to_string(number));
+    if (number >= geometry::kPlanes.size()) throwLaterRecord("there is no plane " + std::to_string(number));
     return geometry::kPlanes[number];
 }
 
@@ -147,12 +147,12 @@ class MemberReader {
         read(at(number), value, range...);
     }
     template <typename T, typename... Ranges>
-    void addedMember(std::size_t number, T& value, Ranges... range) {
+    void memberAddedLater(std::size_t number, T& value, Ranges... range) {
         if (has(number)) member(number, value, range...);
     }
     template <typename T>
-    void computedMember(T& /*value*/) {}
-    void array(std::size_t number, const auto& visitThem) {
+    void recomputableMember(T& /*value*/) {}
+    void nestedArray(std::size_t number, const auto& visitThem) {
         MemberReader reader(at(number));
         visitThem(reader);
         reader.refuseUnreadMembers();
@@ -160,11 +160,11 @@ class MemberReader {
     void rotation(std::size_t number, geometry::Rotation& rotation) {
         const auto decoded =
             geometry::Rotation::fromQuaternions(quaternionIn(at(number)), quaternionIn(at(number + 1)));
-        if (!decoded) throwUnreadable("an orientation is not a rotation");
+        if (!decoded) throwUnreadableRecord("an orientation is not a rotation");
         rotation = *decoded;
     }
 
-    /// Throws LaterRecord if the array has members after the last member that was read.
+    /// Throws NewerVersionRecord if the array has members after the last member that was read.
     void refuseUnreadMembers() const { refuseUnknownMembers(array_, readCount_); }
 
   protected:
@@ -186,7 +186,7 @@ class MemberReader {
     static void read(const nlohmann::json& value, Integer& into) {
         into = readInteger<Integer>(value);
     }
-    static void read(const nlohmann::json& value, double& into, geometry::Range range) {
+    static void read(const nlohmann::json& value, double& into, geometry::NumberRange range) {
         into = readNumber(value, range.least, range.most);
     }
     template <text::HasChoices Enum>
@@ -196,12 +196,12 @@ class MemberReader {
         const auto& choices = choicesOf(Enum{});
         const auto found = std::ranges::find_if(
             choices, [&](const auto& choice) { return static_cast<unsigned>(choice.value) == number; });
-        if (found == choices.end()) throwLater("an enumerator is out of range: " + std::to_string(number));
+        if (found == choices.end()) throwLaterRecord("an enumerator is out of range: " + std::to_string(number));
         into = found->value;
     }
     template <typename T, typename... Ranges>
     static void read(const nlohmann::json& value, std::vector<T>& into, Ranges... range) {
-        if (!value.is_array()) throwUnreadable("a list is missing");
+        if (!value.is_array()) throwUnreadableRecord("a list is missing");
         into.clear();
         for (const nlohmann::json& element : value) read(element, into.emplace_back(), range...);
     }
@@ -217,29 +217,30 @@ class MemberReader {
     }
     static void read(const nlohmann::json& value, std::string& into) {
         into = value.get<std::string>();
-        if (!text::isUtf8(into)) throwUnreadable("a text is not UTF-8");
+        if (!text::isUtf8(into)) throwUnreadableRecord("a text is not UTF-8");
     }
     static void read(const nlohmann::json& value, geometry::JaggedArray& into) {
-        if (!value.is_array()) throwUnreadable("a list is missing");
+        if (!value.is_array()) throwUnreadableRecord("a list is missing");
         into = {};
         for (const nlohmann::json& row : value) into.add(readIntegers(row));
     }
     static void read(const nlohmann::json& value, fields::SampleStorage& into) {
         const auto& bytes = value.get_binary();
-        if (bytes.empty() || bytes.size() % sizeof(float) != 0) throwUnreadable("samples of an array are missing");
+        if (bytes.empty() || bytes.size() % sizeof(float) != 0)
+            throwUnreadableRecord("samples of an array are missing");
         std::vector<float> samples(bytes.size() / sizeof(float));
         std::memcpy(samples.data(), bytes.data(), bytes.size());
         into = fields::SampleStorage(std::move(samples));
     }
-    static void read(const nlohmann::json& value, glm::dvec3& into, geometry::Range range) {
+    static void read(const nlohmann::json& value, glm::dvec3& into, geometry::NumberRange range) {
         refuseUnknownMembers(value, 3);
         for (int i = 0; i < 3; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
     }
-    static void read(const nlohmann::json& value, glm::dvec4& into, geometry::Range range) {
+    static void read(const nlohmann::json& value, glm::dvec4& into, geometry::NumberRange range) {
         refuseUnknownMembers(value, 4);
         for (int i = 0; i < 4; ++i) read(value.at(static_cast<std::size_t>(i)), into[i], range);
     }
-    static void read(const nlohmann::json& value, geometry::Turn& into) {
+    static void read(const nlohmann::json& value, geometry::RotationAngles& into) {
         const auto angle = [&](const nlohmann::json& plane, const nlohmann::json& radians) {
             into[planeIn(plane)] = readNumber(radians, session::kMaxAngle);
         };
@@ -253,7 +254,7 @@ class MemberReader {
         refuseUnknownMembers(value, 3);
         angle(value.at(0), value.at(1));
         if (!value.at(2).is_null())
-            into[geometry::perpendicular(planeIn(value.at(0)))] = readNumber(value.at(2), session::kMaxAngle);
+            into[geometry::orthogonalComplement(planeIn(value.at(0)))] = readNumber(value.at(2), session::kMaxAngle);
     }
 
     const nlohmann::json& array_;

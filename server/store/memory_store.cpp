@@ -36,15 +36,15 @@ std::optional<SessionRecord> MemoryStore::claim(const std::string& id) {
 
 /// Returns an upper bound of the total size of all records after the updates, in bytes. Does not subtract the sizes of
 /// the data that the updates replace.
-std::size_t MemoryStore::bytesWith(std::span<const RecordUpdate> updates) const {
+std::size_t MemoryStore::sizeBoundAfter(std::span<const RecordUpdate> updates) const {
     std::size_t bytes = bytes_;
     for (const RecordUpdate& update : updates) bytes += estimateStoredSize(update);
     return bytes;
 }
 
 std::vector<SaveResult> MemoryStore::save(std::span<const RecordUpdate> updates) {
-    if (bytesWith(updates) > quota_) {
-        throw NotWritable("memory: open sessions use up the quota (--store-quota)");
+    if (sizeBoundAfter(updates) > quota_) {
+        throw StoreNotWritable("memory: open sessions use up the quota (--store-quota)");
     }
     std::vector<SaveResult> results;
     for (const RecordUpdate& update : updates) {
@@ -75,8 +75,8 @@ MemoryStore::SessionsById::iterator MemoryStore::erase(SessionsById::iterator en
     return entries_.erase(entry);
 }
 
-std::size_t MemoryStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
-    if (bytesWith(updates) <= quota_) return 0;
+std::size_t MemoryStore::evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) {
+    if (sizeBoundAfter(updates) <= quota_) return 0;
     std::vector<SessionsById::iterator> candidates;
     std::size_t evictable = 0;
     for (auto entry = entries_.begin(); entry != entries_.end(); ++entry) {
@@ -84,12 +84,12 @@ std::size_t MemoryStore::evict(std::span<const RecordUpdate> updates, const IsPi
         candidates.push_back(entry);
         evictable += entry->second.bytes();
     }
-    if (bytesWith(updates) - evictable > quota_) return 0;
+    if (sizeBoundAfter(updates) - evictable > quota_) return 0;
     std::ranges::sort(candidates, {},
                       [](const auto& entry) { return std::tuple(entry->second.changed, entry->second.touched); });
     std::size_t count = 0;
     for (const auto& entry : candidates) {
-        if (bytesWith(updates) <= quota_) break;
+        if (sizeBoundAfter(updates) <= quota_) break;
         erase(entry);
         ++count;
     }

@@ -16,13 +16,13 @@ class MemoryStore final : public Store {
     explicit MemoryStore(std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now)
         : quota_(quota), now_(std::move(now)) {}
 
-    WritePolicy writePolicy() const override { return WritePolicy::at_close; }
+    WriteTiming writeTiming() const override { return WriteTiming::at_close; }
     std::string name() const override { return "memory"; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<SessionRecord> read(const std::string& id) override;
     std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
-    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
+    std::size_t evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) override;
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
@@ -34,7 +34,7 @@ class MemoryStore final : public Store {
     struct StoredSession {
         std::string tokenHash, whole, head;
         std::map<std::string, std::string> objects;
-        Fence fence = 0;
+        FencingToken fence = 0;
         Clock::time_point touched;
         bool changed = true;
 
@@ -42,7 +42,7 @@ class MemoryStore final : public Store {
     };
     using SessionsById = std::map<std::string, StoredSession>;
 
-    std::size_t bytesWith(std::span<const RecordUpdate> updates) const;
+    std::size_t sizeBoundAfter(std::span<const RecordUpdate> updates) const;
     SessionsById::iterator erase(SessionsById::iterator entry);
 
     const std::size_t quota_;

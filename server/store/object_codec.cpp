@@ -39,37 +39,39 @@ constexpr int kObjectRecordVersion = 2;
 constexpr std::size_t kObjectRecordMembers = 4;
 
 /// Returns whether the record of an object names a file instead of containing samples.
-bool namesFile(const fields::FieldDefinition& field) { return field.source.has_value(); }
-bool namesFile(const geometry::ObjectInfo& /*object*/) { return false; }
+bool hasFileSource(const fields::FieldDefinition& field) { return field.source.has_value(); }
+bool hasFileSource(const geometry::ObjectInfo& /*object*/) { return false; }
 
-slicing::Object openFile(const std::string& name, const fields::FileSource& source, const DataFolderReader& open) {
+slicing::Object loadFromDataFolder(const std::string& name, const fields::FieldFileSource& source,
+                                   const DataFolderReader& open) {
     const auto object =
-        open ? open(session::loadOf(name, source)) : Error{ErrorCode::not_found, "there is no data folder"};
+        open ? open(session::loadCommandFor(name, source)) : Error{ErrorCode::not_found, "there is no data folder"};
     if (!object)
-        throwUnreadable("its field " + text::inQuotes(source.dataName) + " cannot be read: " + object.error().message);
+        throwUnreadableRecord("its field " + text::inQuotes(source.dataName) +
+                              " cannot be read: " + object.error().message);
     return *object;
 }
 
 // --- The kinds of objects
 //
-// A KindCodec for each kind of objects contains: the number of the kind in records, which must not change; the struct
-// whose members are stored; a function that makes an object from this struct. The compiler reports a kind without a
-// KindCodec, and kinds with the same number.
+// A ObjectKindCodec for each kind of objects contains: the number of the kind in records, which must not change; the
+// struct whose members are stored; a function that makes an object from this struct. The compiler reports a kind
+// without a ObjectKindCodec, and kinds with the same number.
 
 template <typename ObjectPtr>
-struct KindCodec;
+struct ObjectKindCodec;
 
 template <>
-struct KindCodec<slicing::PolytopePtr> {
+struct ObjectKindCodec<slicing::PolytopePtr> {
     static constexpr unsigned kNumber = 0;
     using Stored = Polytope;
 
-    static const Stored& storedOf(const Polytope& polytope) { return polytope; }
+    static const Stored& toStored(const Polytope& polytope) { return polytope; }
 
-    static slicing::Object make(Stored stored, const DataFolderReader& /*open*/) {
+    static slicing::Object makeObject(Stored stored, const DataFolderReader& /*open*/) {
         checkShortText(stored.name);
         if (stored.typeOfCell.size() != stored.cells.size())
-            throwUnreadable("the numbers of cells and of their types differ");
+            throwUnreadableRecord("the numbers of cells and of their types differ");
         try {
             Polytope polytope =
                 polytopes::makePolytope(std::move(stored.name), std::move(stored.vertices), std::move(stored.faces),
@@ -77,19 +79,19 @@ struct KindCodec<slicing::PolytopePtr> {
             polytope.originInFile = stored.originInFile;
             return std::make_shared<const Polytope>(std::move(polytope));
         } catch (const polytopes::InvalidPolytope& fault) {
-            throwUnreadable(std::string("a polytope is not valid: ") + fault.what());
+            throwUnreadableRecord(std::string("a polytope is not valid: ") + fault.what());
         }
     }
 };
 
 template <>
-struct KindCodec<slicing::CloudPtr> {
+struct ObjectKindCodec<slicing::CloudPtr> {
     static constexpr unsigned kNumber = 1;
     using Stored = geometry::PointCloud;
 
-    static const Stored& storedOf(const geometry::PointCloud& cloud) { return cloud; }
+    static const Stored& toStored(const geometry::PointCloud& cloud) { return cloud; }
 
-    static slicing::Object make(Stored stored, const DataFolderReader& /*open*/) {
+    static slicing::Object makeObject(Stored stored, const DataFolderReader& /*open*/) {
         checkShortText(stored.name);
         try {
             geometry::PointCloud cloud =
@@ -97,52 +99,52 @@ struct KindCodec<slicing::CloudPtr> {
             cloud.originInFile = stored.originInFile;
             return std::make_shared<const geometry::PointCloud>(std::move(cloud));
         } catch (const std::invalid_argument& fault) {
-            throwUnreadable(std::string("a point cloud is not valid: ") + fault.what());
+            throwUnreadableRecord(std::string("a point cloud is not valid: ") + fault.what());
         }
     }
 };
 
 template <>
-struct KindCodec<slicing::FieldPtr> {
+struct ObjectKindCodec<slicing::FieldPtr> {
     static constexpr unsigned kNumber = 2;
     using Stored = fields::FieldDefinition;
 
-    static Stored storedOf(const fields::Field& field) { return fields::definitionOf(field); }
+    static Stored toStored(const fields::Field& field) { return fields::definitionOf(field); }
 
-    static slicing::Object make(Stored stored, const DataFolderReader& open) {
+    static slicing::Object makeObject(Stored stored, const DataFolderReader& open) {
         const auto& [info, source, formula, box, array, second] = stored;
         checkShortText(info.name);
-        if (info.originInFile != glm::dvec4(0)) throwUnreadable("a field cannot be moved");
+        if (info.originInFile != glm::dvec4(0)) throwUnreadableRecord("a field cannot be moved");
         if (source) {
-            if (!formula.empty() || array || second) throwUnreadable("a field in a file has other functions");
-            return openFile(info.name, *source, open);
+            if (!formula.empty() || array || second) throwUnreadableRecord("a field in a file has other functions");
+            return loadFromDataFolder(info.name, *source, open);
         }
         auto field = fields::fieldFromDefinition(stored);
         // All other errors concern a formula or its box.
         if (!field && field.error().code != ErrorCode::bad_field)
-            throwLater("a formula cannot be read: " + field.error().message);
-        if (!field) throwUnreadable("a field is not valid: " + field.error().message);
+            throwLaterRecord("a formula cannot be read: " + field.error().message);
+        if (!field) throwUnreadableRecord("a field is not valid: " + field.error().message);
         return std::make_shared<const fields::Field>(std::move(*field));
     }
 };
 
 template <>
-struct KindCodec<slicing::SurfacePtr> {
+struct ObjectKindCodec<slicing::SurfacePtr> {
     static constexpr unsigned kNumber = 3;
     using Stored = geometry::SurfaceMesh;
 
-    static const Stored& storedOf(const geometry::SurfaceMesh& surface) { return surface; }
+    static const Stored& toStored(const geometry::SurfaceMesh& surface) { return surface; }
 
-    static slicing::Object make(Stored stored, const DataFolderReader& /*open*/) {
+    static slicing::Object makeObject(Stored stored, const DataFolderReader& /*open*/) {
         checkShortText(stored.name);
-        if (stored.cells.size() != 0 || !stored.typeOfCell.empty()) throwUnreadable("a surface has cells");
+        if (stored.cells.size() != 0 || !stored.typeOfCell.empty()) throwUnreadableRecord("a surface has cells");
         try {
             geometry::SurfaceMesh surface =
                 geometry::makeSurfaceMesh(std::move(stored.name), std::move(stored.vertices), std::move(stored.faces));
             surface.originInFile = stored.originInFile;
             return std::make_shared<const geometry::SurfaceMesh>(std::move(surface));
         } catch (const geometry::InvalidSurface& fault) {
-            throwUnreadable(std::string("a surface is not valid: ") + fault.what());
+            throwUnreadableRecord(std::string("a surface is not valid: ") + fault.what());
         }
     }
 };
@@ -151,7 +153,7 @@ struct KindCodec<slicing::SurfacePtr> {
 // refersToFile() requires.
 template <typename... Kinds>
 consteval bool numbersAreDifferentAndSmall(std::type_identity<std::variant<Kinds...>> /*kinds*/) {
-    std::array<unsigned, sizeof...(Kinds)> numbers{KindCodec<Kinds>::kNumber...};
+    std::array<unsigned, sizeof...(Kinds)> numbers{ObjectKindCodec<Kinds>::kNumber...};
     std::ranges::sort(numbers);
     return std::ranges::adjacent_find(numbers) == numbers.end() && numbers.back() < 24;
 }
@@ -165,17 +167,17 @@ slicing::Object decodeOneOf(std::type_identity<std::variant<Kinds...>> /*kinds*/
     const auto number = readInteger<unsigned>(record.at(1));
     std::optional<slicing::Object> object;
     const auto decodeIfKindMatches = [&]<typename Kind>(std::type_identity<Kind> /*kind*/) {
-        if (number != KindCodec<Kind>::kNumber) return;
-        typename KindCodec<Kind>::Stored stored{};
+        if (number != ObjectKindCodec<Kind>::kNumber) return;
+        typename ObjectKindCodec<Kind>::Stored stored{};
         MemberReader reader(record.at(3));
         visitStoredMembers(stored, reader);
         reader.refuseUnreadMembers();
-        if (record.at(2).get<bool>() != namesFile(stored))
-            throwUnreadable("it is not clear whether an object is in a file");
-        object = KindCodec<Kind>::make(std::move(stored), open);
+        if (record.at(2).get<bool>() != hasFileSource(stored))
+            throwUnreadableRecord("it is not clear whether an object is in a file");
+        object = ObjectKindCodec<Kind>::makeObject(std::move(stored), open);
     };
     (decodeIfKindMatches(std::type_identity<Kinds>()), ...);
-    if (!object) throwLater("there is no kind of object with the number " + std::to_string(number));
+    if (!object) throwLaterRecord("there is no kind of object with the number " + std::to_string(number));
     return std::move(*object);
 }
 
@@ -194,11 +196,11 @@ bool refersToFile(std::string_view record) {
 std::string encodeObjectRecord(const slicing::Object& object) {
     return std::visit(
         []<typename Kind>(const Kind& data) {
-            const auto& stored = KindCodec<Kind>::storedOf(*data);
+            const auto& stored = ObjectKindCodec<Kind>::toStored(*data);
             MemberWriter writer;
             visitStoredMembers(stored, writer);
-            return encodeCbor(
-                json::array({kObjectRecordVersion, KindCodec<Kind>::kNumber, namesFile(stored), writer.takeArray()}));
+            return encodeCbor(json::array(
+                {kObjectRecordVersion, ObjectKindCodec<Kind>::kNumber, hasFileSource(stored), writer.takeArray()}));
         },
         object);
 }

@@ -19,7 +19,7 @@ namespace {
 
 // Returns the memory, in bytes, that the result of slicing::transformedTo() needs. A transformed field has its own
 // domain, but shares the functions of `source`, and so the samples of an array.
-std::size_t memoryOfImage(const slicing::Object& source) {
+std::size_t memoryOfTransformed(const slicing::Object& source) {
     const fields::Field* const field = slicing::fieldIn(source);
     return field == nullptr ? slicing::memoryOf(source) : sizeof *field + polytopes::memoryOf(*field->domain);
 }
@@ -43,18 +43,18 @@ ObjectListDecoder::ObjectListDecoder(const json& list, const ObjectLookup& objec
     for (const json& entry : list) {
         refuseUnknownMembers(entry, 2);
         if (entry.size() == 1) {
-            objects_.push_back(rebuilt(readShortText(entry.at(0)), cache));
+            objects_.push_back(buildNamedPolytope(readShortText(entry.at(0)), cache));
         } else if (auto object = objectOf(readShortText(entry.at(1)))) {
             objects_.push_back(std::move(*object));
         } else {
-            throwUnreadable("an object is missing");
+            throwUnreadableRecord("an object is missing");
         }
     }
 }
 
 const slicing::Object& ObjectListDecoder::at(const json& index) const {
     const auto i = readInteger<std::size_t>(index);
-    if (i >= objects_.size()) throwUnreadable("an object is missing");
+    if (i >= objects_.size()) throwUnreadableRecord("an object is missing");
     return objects_[i];
 }
 
@@ -67,28 +67,29 @@ slicing::Object ObjectListDecoder::transformedTo(const slicing::Object& source, 
     // object counts as at least one vertex per kBytesOfVertex bytes, which is the typical memory of a vertex with its
     // share of the other elements. Samples of an array do not count, because all transformed objects share them.
     constexpr std::size_t kBytesOfVertex = 100;
-    const std::size_t vertices = std::max(slicing::elementCounts(source)[0], memoryOfImage(source) / kBytesOfVertex);
-    if (vertices > vertexBudget_) throwLater("its objects have too many vertices");
+    const std::size_t vertices =
+        std::max(slicing::elementCounts(source)[0], memoryOfTransformed(source) / kBytesOfVertex);
+    if (vertices > vertexBudget_) throwLaterRecord("its objects have too many vertices");
     vertexBudget_ -= vertices;
     transformed_.push_back({source, frame, slicing::transformedTo(source, frame)});
     return transformed_.back().image;
 }
 
 /// Returns the polytope with this name (see polytopes::designNamed()), and subtracts its number of vertices from
-/// `vertexBudget_`. Throws LaterRecord if no polytope has this name, or if it has more vertices than `vertexBudget_`.
-/// Throws UnreadableRecord if the polytope cannot be built.
-slicing::Object ObjectListDecoder::rebuilt(const std::string& name, polytopes::PolytopeCache& cache) {
+/// `vertexBudget_`. Throws NewerVersionRecord if no polytope has this name, or if it has more vertices than
+/// `vertexBudget_`. Throws UnreadableRecord if the polytope cannot be built.
+slicing::Object ObjectListDecoder::buildNamedPolytope(const std::string& name, polytopes::PolytopeCache& cache) {
     constexpr std::size_t kMaxVertices = 1'000'000;  // for one polytope; clients may build far less
     const auto named = polytopes::designNamed(name, kMaxVertices);
-    const auto* design = std::get_if<polytopes::Design>(&named);
-    if (design == nullptr) throwLater("the catalogue has no polytope called " + text::inQuotes(name));
+    const auto* design = std::get_if<polytopes::PolytopeDesign>(&named);
+    if (design == nullptr) throwLaterRecord("the catalogue has no polytope called " + text::inQuotes(name));
     const std::size_t vertices = polytopes::elementCounts(*design).vertices;
-    if (vertices > vertexBudget_) throwLater("its polytopes have too many vertices");
+    if (vertices > vertexBudget_) throwLaterRecord("its polytopes have too many vertices");
     vertexBudget_ -= vertices;
     try {
         return cache.get(*design);
     } catch (const std::invalid_argument& fault) {
-        throwUnreadable("a polytope cannot be built: " + std::string(fault.what()));
+        throwUnreadableRecord("a polytope cannot be built: " + std::string(fault.what()));
     }
 }
 

@@ -25,7 +25,7 @@ class ObjectListEncoder {
 
     /// Returns the encoded list. An object that can be built from its name has the entry [name], any other object the
     /// entry [name, key].
-    const nlohmann::json& list() const { return list_; }
+    const nlohmann::json& encodedList() const { return list_; }
 
   private:
     const ObjectKeyLookup& keyOf_;
@@ -40,8 +40,8 @@ class ObjectListDecoder {
     static constexpr std::size_t kMaxTotalVertices = 10'000'000;
 
     /// Reads a list that ObjectListEncoder::list() has returned. Throws UnreadableRecord if an object is missing or
-    /// cannot be built. Throws LaterRecord if the catalogue lacks an object, or if the objects built from their names
-    /// have more than `maxVertices` vertices in total.
+    /// cannot be built. Throws NewerVersionRecord if the catalogue lacks an object, or if the objects built from their
+    /// names have more than `maxVertices` vertices in total.
     ObjectListDecoder(const nlohmann::json& list, const ObjectLookup& objectOf, polytopes::PolytopeCache& cache,
                       std::size_t maxVertices = kMaxTotalVertices);
 
@@ -50,9 +50,9 @@ class ObjectListDecoder {
     const slicing::Object& at(const nlohmann::json& index) const;
 
     /// Returns `source` in the coordinates of the frame of reference `frame` (see slicing::transformedTo()). Calls with
-    /// equal arguments return the same object, so that states share it. Throws LaterRecord if the transformed objects
-    /// and the objects built from their names would have too many vertices in total (`maxVertices` of the constructor).
-    /// Checks this before it transforms the object.
+    /// equal arguments return the same object, so that states share it. Throws NewerVersionRecord if the transformed
+    /// objects and the objects built from their names would have too many vertices in total (`maxVertices` of the
+    /// constructor). Checks this before it transforms the object.
     slicing::Object transformedTo(const slicing::Object& source, const geometry::ReferenceFrame& frame);
 
   private:
@@ -61,7 +61,7 @@ class ObjectListDecoder {
         geometry::ReferenceFrame frame;
         slicing::Object image;
     };
-    slicing::Object rebuilt(const std::string& name, polytopes::PolytopeCache& cache);
+    slicing::Object buildNamedPolytope(const std::string& name, polytopes::PolytopeCache& cache);
 
     // The number of vertices that may still be built. The limit exists because a few bytes of a record can request
     // large objects.

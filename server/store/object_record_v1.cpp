@@ -30,9 +30,11 @@ namespace {
 // The numbers of the kinds of objects in version 2.
 constexpr unsigned kPolytope = 0, kCloud = 1, kField = 2, kSurface = 3;
 
-json recordOf(unsigned kind, bool isFile, json members) { return json::array({2, kind, isFile, std::move(members)}); }
+json objectRecord(unsigned kind, bool isFile, json members) {
+    return json::array({2, kind, isFile, std::move(members)});
+}
 
-json noQuantity() { return json::array({"", ""}); }
+json unknownQuantity() { return json::array({"", ""}); }
 
 // Returns the stored members of a fields::FieldArray.
 json arrayOf(json shape, json box, json samples, json units, json quantity) {
@@ -43,9 +45,9 @@ json arrayOf(json shape, json box, json samples, json units, json quantity) {
 json fieldFromVersion1(json info, json record) {
     constexpr std::size_t kWithSecond = 7, kWithQuantities = 9;
     const bool isFormula = record.at(2).is_string(), measures = record.size() == kWithQuantities;
-    if (isFormula && measures) throwUnreadable("a formula has units");
+    if (isFormula && measures) throwUnreadableRecord("a formula has units");
     const json box = record.at(3), shape = record.at(4), noUnits = json::array({"", "", "", ""});
-    json units = noUnits, quantity = noQuantity(), ofSecond = noQuantity();
+    json units = noUnits, quantity = unknownQuantity(), ofSecond = unknownQuantity();
     if (measures) {
         units = record.at(7);
         refuseUnknownMembers(units, noUnits.size() + 1);
@@ -78,7 +80,7 @@ json convertedFromVersion1(json record) {
     json origin = json::array({0.0, 0.0, 0.0, 0.0});
     if (record.size() == 2) {
         json& moved = record.at(1);
-        if (moved.at(0).size() != 1) throwUnreadable("an object does not have one origin");
+        if (moved.at(0).size() != 1) throwUnreadableRecord("an object does not have one origin");
         origin = std::move(moved.at(0).at(0));
         json inner = std::move(moved.at(1));
         record = std::move(inner);
@@ -86,28 +88,28 @@ json convertedFromVersion1(json record) {
     const std::size_t size = record.size();
     const auto take = [&record](std::size_t index) { return std::move(record.at(index)); };
     if (size < 3 || size > 9)
-        throwLater("there is no kind of object with a record of " + std::to_string(size) + " members");
+        throwLaterRecord("there is no kind of object with a record of " + std::to_string(size) + " members");
     json info = json::array({take(1), std::move(origin)});
     switch (size) {
         case 3: {
             // The record states no box, because it contains no formula.
             const json box = json::array({{-1.0, -1.0, -1.0, -1.0}, {1.0, 1.0, 1.0, 1.0}});
-            return recordOf(kField, true, json::array({std::move(info), take(2), "", box, nullptr, nullptr}));
+            return objectRecord(kField, true, json::array({std::move(info), take(2), "", box, nullptr, nullptr}));
         }
         case 4:
-            return recordOf(kCloud, false, json::array({std::move(info), take(2), take(3)}));
+            return objectRecord(kCloud, false, json::array({std::move(info), take(2), take(3)}));
         case 6: {
             json complex = json::array({std::move(info), take(2), take(3), take(4), take(5)});
-            return recordOf(kPolytope, false, json::array({std::move(complex)}));
+            return objectRecord(kPolytope, false, json::array({std::move(complex)}));
         }
         case 8: {
             for (std::size_t i = 4; i < size; ++i)
-                if (!record.at(i).is_null()) throwLater("a surface has members that this version does not know");
+                if (!record.at(i).is_null()) throwLaterRecord("a surface has members that this version does not know");
             json complex = json::array({std::move(info), take(2), take(3), json::array(), json::array()});
-            return recordOf(kSurface, false, json::array({std::move(complex)}));
+            return objectRecord(kSurface, false, json::array({std::move(complex)}));
         }
         default:
-            return recordOf(kField, false, fieldFromVersion1(std::move(info), std::move(record)));
+            return objectRecord(kField, false, fieldFromVersion1(std::move(info), std::move(record)));
     }
 }
 

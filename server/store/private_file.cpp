@@ -20,7 +20,7 @@ constexpr mode_t kFileMode = S_IRUSR | S_IWUSR;
 constexpr mode_t kFolderMode = S_IRWXU;
 constexpr mode_t kPermissions = 07777;
 
-[[noreturn]] void fail(const std::string& path, const std::string& what) {
+[[noreturn]] void throwStoreError(const std::string& path, const std::string& what) {
     throw StoreError(path + ": " + what + ": " + std::generic_category().message(errno));
 }
 
@@ -33,8 +33,8 @@ class FileDescriptor {
     ~FileDescriptor() {
         if (number_ >= 0) ::close(number_);
     }
-    int number() const { return number_; }
-    bool valid() const { return number_ >= 0; }
+    int descriptor() const { return number_; }
+    bool isValid() const { return number_ >= 0; }
     /// Returns a path to the open file that stays valid if the file is renamed.
     std::string name() const { return "/proc/self/fd/" + std::to_string(number_); }
 
@@ -42,7 +42,7 @@ class FileDescriptor {
     int number_;
 };
 
-const char* kindOf(mode_t mode) {
+const char* describeFileType(mode_t mode) {
     if (S_ISLNK(mode)) return "a symbolic link; give the path that it points to";
     if (S_ISDIR(mode)) return "a folder, not a regular file";
     if (S_ISFIFO(mode)) return "a pipe, not a regular file";
@@ -50,7 +50,7 @@ const char* kindOf(mode_t mode) {
     return "a device, not a regular file";
 }
 
-void makeFolders(const std::filesystem::path& folder) {
+void createFolders(const std::filesystem::path& folder) {
     std::filesystem::path made;
     for (const auto& part : folder) {
         made /= part;
@@ -60,28 +60,28 @@ void makeFolders(const std::filesystem::path& folder) {
     }
 }
 
-enum class Permissions : std::uint8_t { leave, tighten };
+enum class PermissionHandling : std::uint8_t { leave, tighten };
 
 /// Checks that a file is safe to use (see requireOwnRegularFileIfExists()). If `permissions` is `tighten`, sets its
 /// mode to 0600. Returns false if the file does not exist.
-bool checkFile(const std::string& path, Permissions permissions) {
+bool checkFile(const std::string& path, PermissionHandling permissions) {
     // Open the file with O_PATH: closing such a descriptor keeps the locks of this process on the file, whereas closing
     // an ordinary descriptor releases them all.
     const FileDescriptor file(open(path.c_str(), O_PATH | O_NOFOLLOW | O_CLOEXEC));
-    if (!file.valid()) {
+    if (!file.isValid()) {
         if (errno == ENOENT) return false;
-        fail(path, "unable to open it");
+        throwStoreError(path, "unable to open it");
     }
     struct stat status{};
-    if (fstat(file.number(), &status) != 0) fail(path, "unable to read its status");
-    if (!S_ISREG(status.st_mode)) throw StoreError(path + " is " + kindOf(status.st_mode));
+    if (fstat(file.descriptor(), &status) != 0) throwStoreError(path, "unable to read its status");
+    if (!S_ISREG(status.st_mode)) throw StoreError(path + " is " + describeFileType(status.st_mode));
     if (status.st_uid != geteuid()) {
         throw StoreError(path + " belongs to user " + std::to_string(status.st_uid) + ", and the server runs as user " +
                          std::to_string(geteuid()) + ": change its owner, or give another path");
     }
     const mode_t mode = status.st_mode & kPermissions;
-    if (permissions == Permissions::leave || mode == kFileMode) return true;
-    if (chmod(file.name().c_str(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
+    if (permissions == PermissionHandling::leave || mode == kFileMode) return true;
+    if (chmod(file.name().c_str(), kFileMode) != 0) throwStoreError(path, "unable to set its mode to 0600");
     spdlog::warn("store file mode changed, so that only the server can use it file={} mode={:04o} now=0600", path,
                  mode);
     return true;
@@ -90,20 +90,21 @@ bool checkFile(const std::string& path, Permissions permissions) {
 }  // namespace
 
 void ensurePrivateFile(const std::string& path) {
-    if (checkFile(path, Permissions::tighten)) return;
-    makeFolders(std::filesystem::path(path).parent_path());
+    if (checkFile(path, PermissionHandling::tighten)) return;
+    createFolders(std::filesystem::path(path).parent_path());
     {
         const FileDescriptor file(open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kFileMode));
-        if (file.valid() && fchmod(file.number(), kFileMode) != 0) fail(path, "unable to set its mode to 0600");
-        if (!file.valid() && errno != EEXIST) fail(path, "unable to open it");
+        if (file.isValid() && fchmod(file.descriptor(), kFileMode) != 0)
+            throwStoreError(path, "unable to set its mode to 0600");
+        if (!file.isValid() && errno != EEXIST) throwStoreError(path, "unable to open it");
     }
     // Another server may have created the file in the meantime, with another mode.
-    checkFile(path, Permissions::tighten);
+    checkFile(path, PermissionHandling::tighten);
 }
 
-void makePrivateIfExists(const std::string& path) { checkFile(path, Permissions::tighten); }
+void makePrivateIfExists(const std::string& path) { checkFile(path, PermissionHandling::tighten); }
 
-void requireOwnRegularFileIfExists(const std::string& path) { checkFile(path, Permissions::leave); }
+void requireOwnRegularFileIfExists(const std::string& path) { checkFile(path, PermissionHandling::leave); }
 
 std::string fileIdentity(const std::string& path) {
     struct stat status{};

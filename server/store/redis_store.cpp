@@ -114,18 +114,21 @@ timeval asTimeval(Milliseconds time) {
     return {static_cast<time_t>(time.count() / 1000), static_cast<suseconds_t>(time.count() % 1000 * 1000)};
 }
 
-std::string textOf(const redisReply& reply) {
+std::string replyText(const redisReply& reply) {
     return reply.str == nullptr ? std::string() : std::string(reply.str, reply.len);
 }
 
 // Returns the session record in a reply to the scripts kRead or kClaim.
-std::optional<SessionRecord> recordIn(const redisReply& reply) {
+std::optional<SessionRecord> sessionRecordFrom(const redisReply& reply) {
     if (reply.type != REDIS_REPLY_ARRAY || reply.elements != 4) return std::nullopt;
-    SessionRecord record{
-        textOf(*reply.element[1]), textOf(*reply.element[2]), {}, static_cast<Fence>(reply.element[0]->integer), {}};
+    SessionRecord record{replyText(*reply.element[1]),
+                         replyText(*reply.element[2]),
+                         {},
+                         static_cast<FencingToken>(reply.element[0]->integer),
+                         {}};
     const redisReply& objects = *reply.element[3];
     for (std::size_t i = 0; i + 1 < objects.elements; i += 2)
-        record.objects.emplace_back(textOf(*objects.element[i]), textOf(*objects.element[i + 1]));
+        record.objects.emplace_back(replyText(*objects.element[i]), replyText(*objects.element[i + 1]));
     return record;
 }
 
@@ -134,7 +137,7 @@ std::optional<SessionRecord> recordIn(const redisReply& reply) {
 bool isRefusedWrite(std::string_view error) { return error.starts_with("OOM ") || error.starts_with("WRONGTYPE "); }
 
 template <typename Number>
-Number numberIn(std::string_view text, const std::string& what, Number least, Number most) {
+Number parseNumberInRange(std::string_view text, const std::string& what, Number least, Number most) {
     Number value{};
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (fault != std::errc{} || end != text.data() + text.size() || value < least || value > most) {
@@ -162,11 +165,11 @@ RedisStore::RedisStore(const StoreOptions& options, ClockFunction<Clock> now)
     }
     if (const auto slash = rest.find('/'); slash != std::string_view::npos) {
         database_ = rest.substr(slash + 1);
-        if (!database_.empty()) numberIn(database_, "database", 0, 1'000'000);
+        if (!database_.empty()) parseNumberInRange(database_, "database", 0, 1'000'000);
         rest = rest.substr(0, slash);
     }
     if (const auto colon = rest.rfind(':'); colon != std::string_view::npos && rest.back() != ']') {
-        port_ = numberIn(rest.substr(colon + 1), "port", 1, 65535);
+        port_ = parseNumberInRange(rest.substr(colon + 1), "port", 1, 65535);
         rest = rest.substr(0, colon);
     }
     // Remove the brackets of an IPv6 address.
@@ -183,18 +186,18 @@ void RedisStore::connect() {
     context_.reset(
         redisConnectWithTimeout(host_.c_str(), port_, asTimeval(std::min(timeout_, Milliseconds(kConnectTimeout)))));
     if (!context_) throw StoreError(name() + ": out of memory");
-    if (context_->err != 0) fail();
+    if (context_->err != 0) disconnectAndThrow();
     redisSetTimeout(context_.get(), asTimeval(timeout_));
     redisEnableKeepAlive(context_.get());
     if (!password_.empty())
-        ask(user_.empty() ? CommandWords{"AUTH", password_} : CommandWords{"AUTH", user_, password_});
-    if (!database_.empty()) ask({"SELECT", database_});
-    readScript_ = textOf(*ask({"SCRIPT", "LOAD", kRead}));
-    claimScript_ = textOf(*ask({"SCRIPT", "LOAD", kClaim}));
-    saveScript_ = textOf(*ask({"SCRIPT", "LOAD", kSave}));
-    hashScript_ = textOf(*ask({"SCRIPT", "LOAD", kHash}));
-    removeScript_ = textOf(*ask({"SCRIPT", "LOAD", kRemove}));
-    pollScript_ = textOf(*ask({"SCRIPT", "LOAD", kPoll}));
+        sendAndReceive(user_.empty() ? CommandWords{"AUTH", password_} : CommandWords{"AUTH", user_, password_});
+    if (!database_.empty()) sendAndReceive({"SELECT", database_});
+    readScript_ = replyText(*sendAndReceive({"SCRIPT", "LOAD", kRead}));
+    claimScript_ = replyText(*sendAndReceive({"SCRIPT", "LOAD", kClaim}));
+    saveScript_ = replyText(*sendAndReceive({"SCRIPT", "LOAD", kSave}));
+    hashScript_ = replyText(*sendAndReceive({"SCRIPT", "LOAD", kHash}));
+    removeScript_ = replyText(*sendAndReceive({"SCRIPT", "LOAD", kRemove}));
+    pollScript_ = replyText(*sendAndReceive({"SCRIPT", "LOAD", kPoll}));
     updatePlainTokenDeadline();
 }
 
@@ -202,12 +205,12 @@ void RedisStore::connect() {
 // which such servers were first noticed, plus the expiry period. If there are no such servers, sets a time in the past.
 void RedisStore::updatePlainTokenDeadline() {
     plainUntil_ = {};
-    const Reply known = ask({"SCRIPT", "EXISTS", kOlderSave});
+    const Reply known = sendAndReceive({"SCRIPT", "EXISTS", kOlderSave});
     if (known->elements != 1 || known->element[0]->integer == 0) return;
-    const Reply time = ask({"TIME"});
-    const std::int64_t now = std::stoll(textOf(*time->element[0])) * 1000;
-    const Reply noted = ask({"EVAL", kNoteSince, "1", kHashedSince, std::to_string(now)});
-    const std::int64_t since = std::stoll(textOf(*noted));
+    const Reply time = sendAndReceive({"TIME"});
+    const std::int64_t now = std::stoll(replyText(*time->element[0])) * 1000;
+    const Reply noted = sendAndReceive({"EVAL", kNoteSince, "1", kHashedSince, std::to_string(now)});
+    const std::int64_t since = std::stoll(replyText(*noted));
     plainUntil_ = now_() + Milliseconds(since - now) + expiry_;
 }
 
@@ -215,7 +218,7 @@ bool RedisStore::alsoStoresPlainTokens() const { return now_() < plainUntil_; }
 
 /// Closes the connection and throws StoreError. After a failure, replies on the connection can no longer be matched
 /// with requests. The next operation opens a new connection.
-void RedisStore::fail() {
+void RedisStore::disconnectAndThrow() {
     const std::string why = context_->errstr[0] != '\0' ? context_->errstr : "no reply";
     context_.reset();
     throw StoreError(name() + ": " + why);
@@ -231,62 +234,63 @@ void RedisStore::send(const CommandWords& command) {
     }
     if (redisAppendCommandArgv(context_.get(), static_cast<int>(command.size()), starts.data(), sizes.data()) !=
         REDIS_OK) {
-        fail();
+        disconnectAndThrow();
     }
 }
 
 /// Returns the next reply, which may be an error reply.
-RedisStore::Reply RedisStore::receiveAny() {
+RedisStore::Reply RedisStore::receiveReplyOrError() {
     void* reply = nullptr;
-    if (redisGetReply(context_.get(), &reply) != REDIS_OK || reply == nullptr) fail();
+    if (redisGetReply(context_.get(), &reply) != REDIS_OK || reply == nullptr) disconnectAndThrow();
     return Reply(static_cast<redisReply*>(reply));
 }
 
 RedisStore::Reply RedisStore::receive() {
-    Reply reply = receiveAny();
+    Reply reply = receiveReplyOrError();
     if (reply->type == REDIS_REPLY_ERROR) {
         context_.reset();
-        throw StoreError(name() + ": " + textOf(*reply));
+        throw StoreError(name() + ": " + replyText(*reply));
     }
     return reply;
 }
 
-RedisStore::Reply RedisStore::ask(const CommandWords& command) {
+RedisStore::Reply RedisStore::sendAndReceive(const CommandWords& command) {
     send(command);
     return receive();
 }
 
-RedisStore::Reply RedisStore::ask(const std::string& script, const std::string& id, const CommandWords& arguments) {
+RedisStore::Reply RedisStore::sendAndReceive(const std::string& script, const std::string& id,
+                                             const CommandWords& arguments) {
     CommandWords command{"EVALSHA", script, "2", sessionKey(id), objectsKey(id)};
     command.insert(command.end(), arguments.begin(), arguments.end());
-    return ask(command);
+    return sendAndReceive(command);
 }
 
 std::optional<std::string> RedisStore::tokenHash(const std::string& id) {
     if (!context_) connect();
-    const Reply reply = ask({"HMGET", sessionKey(id), "hash", "token"});
+    const Reply reply = sendAndReceive({"HMGET", sessionKey(id), "hash", "token"});
     const redisReply& hash = *reply->element[0];
     const redisReply& token = *reply->element[1];
     const bool plain = token.type == REDIS_REPLY_STRING;
-    if (hash.type == REDIS_REPLY_STRING && (!plain || alsoStoresPlainTokens())) return textOf(hash);
+    if (hash.type == REDIS_REPLY_STRING && (!plain || alsoStoresPlainTokens())) return replyText(hash);
     if (!plain) return std::nullopt;
-    std::string made = hashToken(textOf(token));
-    ask(hashScript_, id, {textOf(token), made, alsoStoresPlainTokens() ? "0" : "1"});
+    std::string made = hashToken(replyText(token));
+    sendAndReceive(hashScript_, id, {replyText(token), made, alsoStoresPlainTokens() ? "0" : "1"});
     return made;
 }
 
 std::optional<SessionRecord> RedisStore::read(const std::string& id) {
     if (!context_) connect();
-    return recordIn(*ask(readScript_, id, {}));
+    return sessionRecordFrom(*sendAndReceive(readScript_, id, {}));
 }
 
 std::optional<SessionRecord> RedisStore::claim(const std::string& id) {
     if (!context_) connect();
-    return recordIn(*ask(claimScript_, id, {self_, std::to_string(expiry_.count()), id}));
+    return sessionRecordFrom(*sendAndReceive(claimScript_, id, {self_, std::to_string(expiry_.count()), id}));
 }
 
 /// Sends all updates before reading the replies (pipelining), so that the batch takes one round trip. Throws
-/// NotWritable if Redis refuses an update but still answers requests. The other updates have been executed then.
+/// StoreNotWritable if Redis refuses an update but still answers requests. The other updates have been executed then.
 std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) {
     if (!context_) connect();
     for (const RecordUpdate& update : updates) {
@@ -315,15 +319,15 @@ std::vector<SaveResult> RedisStore::save(std::span<const RecordUpdate> updates) 
     std::vector<SaveResult> results;
     std::string refusal;
     for (std::size_t i = 0; i < updates.size(); ++i) {
-        const Reply reply = receiveAny();
+        const Reply reply = receiveReplyOrError();
         if (reply->type != REDIS_REPLY_ERROR) {
             results.push_back(static_cast<SaveResult>(reply->integer));
-        } else if (refusal = textOf(*reply); !isRefusedWrite(refusal)) {
+        } else if (refusal = replyText(*reply); !isRefusedWrite(refusal)) {
             context_.reset();
             throw StoreError(name() + ": " + refusal);
         }
     }
-    if (!refusal.empty()) throw NotWritable(name() + ": " + refusal);
+    if (!refusal.empty()) throw StoreNotWritable(name() + ": " + refusal);
     return results;
 }
 
@@ -346,12 +350,12 @@ void RedisStore::restartExpiry(std::span<const std::string> ids) {
 
 std::vector<TakenOverSession> RedisStore::pollTakenOverSessions() {
     if (!context_) connect();
-    const Reply reply = ask({"EVALSHA", pollScript_, "1", "oval4d:taken:" + self_});
+    const Reply reply = sendAndReceive({"EVALSHA", pollScript_, "1", "oval4d:taken:" + self_});
     std::vector<TakenOverSession> lost;
     if (reply->type != REDIS_REPLY_ARRAY || reply->elements == 0) return lost;
     size_ = static_cast<std::size_t>(reply->element[0]->integer);
     for (std::size_t i = 1; i + 1 < reply->elements; i += 2)
-        lost.push_back({textOf(*reply->element[i]), std::stoull(textOf(*reply->element[i + 1]))});
+        lost.push_back({replyText(*reply->element[i]), std::stoull(replyText(*reply->element[i + 1]))});
     return lost;
 }
 

@@ -26,14 +26,16 @@ class RedisStore final : public Store {
     explicit RedisStore(const StoreOptions& options, ClockFunction<Clock> now = Clock::now);
     ~RedisStore() override;
 
-    WritePolicy writePolicy() const override { return WritePolicy::at_once; }
+    WriteTiming writeTiming() const override { return WriteTiming::at_once; }
     std::string name() const override;
     std::optional<std::string> tokenHash(const std::string& id) override;
     std::optional<SessionRecord> read(const std::string& id) override;
     std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
     /// Does nothing and returns 0, because Redis has a quota of its own, `maxmemory`.
-    std::size_t evict(std::span<const RecordUpdate> /*updates*/, const IsPinned& /*isPinned*/) override { return 0; }
+    std::size_t evict(std::span<const RecordUpdate> /*updates*/, const PinnedPredicate& /*isPinned*/) override {
+        return 0;
+    }
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds /*age*/) override { return 0; }
@@ -49,12 +51,12 @@ class RedisStore final : public Store {
     using CommandWords = std::vector<std::string>;
 
     void connect();
-    [[noreturn]] void fail();
+    [[noreturn]] void disconnectAndThrow();
     void send(const CommandWords& command);
-    Reply receiveAny();
+    Reply receiveReplyOrError();
     Reply receive();
-    Reply ask(const CommandWords& command);
-    Reply ask(const std::string& script, const std::string& id, const CommandWords& arguments);
+    Reply sendAndReceive(const CommandWords& command);
+    Reply sendAndReceive(const std::string& script, const std::string& id, const CommandWords& arguments);
     void updatePlainTokenDeadline();
     bool alsoStoresPlainTokens() const;
 

@@ -24,7 +24,9 @@ std::vector<std::uint8_t> randomBytes(std::size_t count) {
     return bytes;
 }
 
-const unsigned char* bytesIn(std::string_view text) { return reinterpret_cast<const unsigned char*>(text.data()); }
+const unsigned char* asUnsignedBytes(std::string_view text) {
+    return reinterpret_cast<const unsigned char*>(text.data());
+}
 
 }  // namespace
 
@@ -44,7 +46,7 @@ std::string randomName(std::size_t bytes) {
 std::string hashToken(std::string_view token) {
     initializeLibsodium();
     std::array<unsigned char, crypto_generichash_BYTES> hash{};
-    crypto_generichash(hash.data(), hash.size(), bytesIn(token), token.size(), nullptr, 0);
+    crypto_generichash(hash.data(), hash.size(), asUnsignedBytes(token), token.size(), nullptr, 0);
     std::string text(2 * hash.size() + 1, '\0');  // room for the terminating zero
     sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
     text.pop_back();
@@ -61,7 +63,7 @@ std::string recordDigest(std::span<const std::string_view> parts) {
         std::array<unsigned char, sizeof size> prefix{};
         for (std::size_t i = 0; i < prefix.size(); ++i) prefix.at(i) = static_cast<unsigned char>(size >> (8 * i));
         crypto_generichash_update(&state, prefix.data(), prefix.size());
-        crypto_generichash_update(&state, bytesIn(part), part.size());
+        crypto_generichash_update(&state, asUnsignedBytes(part), part.size());
     }
     std::array<unsigned char, crypto_generichash_BYTES_MIN> bytes{};
     crypto_generichash_final(&state, bytes.data(), bytes.size());

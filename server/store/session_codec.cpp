@@ -42,7 +42,7 @@ class SessionMemberCounter {
         count_ = std::max(count_, number + 1);
     }
     template <typename T>
-    void addedMember(std::size_t number, const T& value) {
+    void memberAddedLater(std::size_t number, const T& value) {
         member(number, value);
     }
     std::size_t count() const { return count_; }
@@ -69,14 +69,14 @@ class SessionWriter : public MemberWriter {
         if (number < size_) put(number, encoded(value));
     }
     template <typename T>
-    void addedMember(std::size_t number, const T& value) {
+    void memberAddedLater(std::size_t number, const T& value) {
         member(number, value);
     }
 
     /// Returns the record. Called after all members have been visited.
     json takeRecord() {
         put(kVersion, kRecordVersion);
-        put(kObjects, objects_.list());
+        put(kObjects, objects_.encodedList());
         return takeArray();
     }
 
@@ -112,7 +112,7 @@ class SessionReader : public MemberReader {
         if (number < size_) decode(at(number), value);
     }
     template <typename T>
-    void addedMember(std::size_t number, T& value) {
+    void memberAddedLater(std::size_t number, T& value) {
         if (has(number)) member(number, value);
     }
 
@@ -120,7 +120,7 @@ class SessionReader : public MemberReader {
     static void decode(const json& value, std::string& into) { into = readShortText(value); }
     static void decode(const json& value, std::uint64_t& into) {
         into = readInteger<std::uint64_t>(value);
-        if (into > kMaxRevision) throwUnreadable("the revision is out of range");
+        if (into > kMaxRevision) throwUnreadableRecord("the revision is out of range");
     }
     void decode(const json& value, State& into) const { into = decodeState(value, *objects_); }
     void decode(const json& value, StateList auto& into) const {

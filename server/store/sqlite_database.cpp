@@ -20,7 +20,7 @@ std::string_view bytesOf(sqlite3_value* value) {
 
 /// Calls `make`, and reports its exceptions to SQLite, because exceptions must not pass through SQLite's C code.
 template <typename Make>
-void answer(sqlite3_context* context, Make make) {
+void callReportingErrors(sqlite3_context* context, Make make) {
     try {
         make();
     } catch (const std::exception& fault) {
@@ -29,14 +29,14 @@ void answer(sqlite3_context* context, Make make) {
 }
 
 void hashFunction(sqlite3_context* context, int /*count*/, sqlite3_value** values) {
-    answer(context, [&] {
+    callReportingErrors(context, [&] {
         const std::string hash = hashToken(bytesOf(values[0]));
         sqlite3_result_text64(context, hash.data(), hash.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
     });
 }
 
 void digestFunction(sqlite3_context* context, int count, sqlite3_value** values) {
-    answer(context, [&] {
+    callReportingErrors(context, [&] {
         std::vector<std::string_view> parts;
         for (int i = 0; i < count; ++i) parts.push_back(bytesOf(values[i]));
         const std::string digest = recordDigest(parts);
@@ -48,7 +48,8 @@ void digestFunction(sqlite3_context* context, int count, sqlite3_value** values)
 
 Database::Database(std::string path) : path_(std::move(path)) {
     try {
-        if (sqlite3_open_v2(path_.c_str(), &handle_, SQLITE_OPEN_READWRITE, nullptr) != SQLITE_OK) fail("opening it");
+        if (sqlite3_open_v2(path_.c_str(), &handle_, SQLITE_OPEN_READWRITE, nullptr) != SQLITE_OK)
+            throwDatabaseError("opening it");
         sqlite3_extended_result_codes(handle_, 1);
         sqlite3_busy_timeout(handle_, 2000);  // maximum wait for a lock, in ms, because a killed server may still be
                                               // exiting
@@ -60,7 +61,8 @@ Database::Database(std::string path) : path_(std::move(path)) {
         sqlite3_db_config(handle_, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
         // These statements do not read the file, so they also succeed on a damaged file. The caller needs the open
         // database to copy the intact sessions.
-        run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON;"
+        execute(
+            "PRAGMA locking_mode = EXCLUSIVE; PRAGMA cell_size_check = ON;"
             "PRAGMA secure_delete = ON; PRAGMA foreign_keys = ON");
     } catch (...) {
         sqlite3_close(handle_);
@@ -70,7 +72,7 @@ Database::Database(std::string path) : path_(std::move(path)) {
 
 Database::~Database() { sqlite3_close(handle_); }
 
-void Database::fail(const char* what) const {
+void Database::throwDatabaseError(const char* what) const {
     const int code = sqlite3_errcode(handle_) & 0xFF;
     const std::string message = sqlite3_errmsg(handle_);
     const int cause = sqlite3_system_errno(handle_);
@@ -82,9 +84,9 @@ void Database::fail(const char* what) const {
         case SQLITE_NOTADB:
             throw CorruptDatabase(path_ + ": " + message);
         case SQLITE_FULL:
-            throw NotWritable(path_ + ": no space is left on the disk or within the quota");
+            throw StoreNotWritable(path_ + ": no space is left on the disk or within the quota");
         case SQLITE_READONLY:
-            throw NotWritable(path_ + " cannot be written: " + message);
+            throw StoreNotWritable(path_ + " cannot be written: " + message);
         case SQLITE_IOERR:
         case SQLITE_CANTOPEN: {
             const std::string why = message + (cause == 0 ? "" : ": " + std::generic_category().message(cause));
@@ -92,7 +94,7 @@ void Database::fail(const char* what) const {
             const bool isWriting = extended == SQLITE_IOERR_WRITE || extended == SQLITE_IOERR_FSYNC ||
                                    extended == SQLITE_IOERR_TRUNCATE || cause == ENOSPC || cause == EDQUOT ||
                                    cause == EROFS;
-            if (isWriting) throw NotWritable(path_ + " cannot be written: " + why);
+            if (isWriting) throw StoreNotWritable(path_ + " cannot be written: " + why);
             throw StoreError(path_ + ": " + why);
         }
         default:
@@ -100,8 +102,8 @@ void Database::fail(const char* what) const {
     }
 }
 
-void Database::run(const char* sql) {
-    if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) fail(sql);
+void Database::execute(const char* sql) {
+    if (sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr) != SQLITE_OK) throwDatabaseError(sql);
 }
 
 std::int64_t Database::queryNumber(const char* sql) {
@@ -109,15 +111,16 @@ std::int64_t Database::queryNumber(const char* sql) {
     return statement.step() ? statement.numberAt(0) : 0;
 }
 
-void Database::keepWriteAheadLog() { sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr); }
+void Database::keepWriteAheadLogOnClose() { sqlite3_db_config(handle_, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr); }
 
 Statement::Statement(Database& database, const char* sql) : database_(database) {
-    if (sqlite3_prepare_v2(database.handle_, sql, -1, &statement_, nullptr) != SQLITE_OK) database.fail(sql);
+    if (sqlite3_prepare_v2(database.handle_, sql, -1, &statement_, nullptr) != SQLITE_OK)
+        database.throwDatabaseError(sql);
 }
 
 Statement::~Statement() { sqlite3_finalize(statement_); }
 
-Statement& Statement::text(std::string_view value) {
+Statement& Statement::bindText(std::string_view value) {
     return checkBinding(
         sqlite3_bind_text64(statement_, ++bound_, value.data(), value.size(), SQLITE_STATIC, SQLITE_UTF8));
 }
@@ -128,13 +131,13 @@ Statement& Statement::blob(std::string_view value) {
         sqlite3_bind_blob64(statement_, ++bound_, value.empty() ? "" : value.data(), value.size(), SQLITE_STATIC));
 }
 
-Statement& Statement::number(std::int64_t value) {
+Statement& Statement::bindNumber(std::int64_t value) {
     return checkBinding(sqlite3_bind_int64(statement_, ++bound_, value));
 }
 
 bool Statement::step() {
     const int status = sqlite3_step(statement_);
-    if (status != SQLITE_ROW && status != SQLITE_DONE) database_.fail(sqlite3_sql(statement_));
+    if (status != SQLITE_ROW && status != SQLITE_DONE) database_.throwDatabaseError(sqlite3_sql(statement_));
     return status == SQLITE_ROW;
 }
 
@@ -146,21 +149,21 @@ std::string Statement::bytesAt(int column) const {
 
 std::int64_t Statement::numberAt(int column) const { return sqlite3_column_int64(statement_, column); }
 
-std::size_t Statement::changes() const { return static_cast<std::size_t>(sqlite3_changes(database_.handle_)); }
+std::size_t Statement::changedRowCount() const { return static_cast<std::size_t>(sqlite3_changes(database_.handle_)); }
 
 Statement& Statement::checkBinding(int status) {
-    if (status != SQLITE_OK) database_.fail("binding a value");
+    if (status != SQLITE_OK) database_.throwDatabaseError("binding a value");
     return *this;
 }
 
-Transaction::Transaction(Database& database) : database_(database) { database_.run("BEGIN IMMEDIATE"); }
+Transaction::Transaction(Database& database) : database_(database) { database_.execute("BEGIN IMMEDIATE"); }
 
 Transaction::~Transaction() {
     if (!committed_) sqlite3_exec(database_.handle_, "ROLLBACK", nullptr, nullptr, nullptr);
 }
 
 void Transaction::commit() {
-    database_.run("COMMIT");
+    database_.execute("COMMIT");
     committed_ = true;
 }
 

@@ -37,20 +37,20 @@ class Database {
     ~Database();
 
     const std::string& path() const { return path_; }
-    /// Executes one or more SQL statements and ignores their results. Throws NotWritable if the file cannot be written,
-    /// CorruptDatabase if the file is damaged, and StoreError for any other error. All functions here that execute a
-    /// statement throw these.
-    void run(const char* sql);
+    /// Executes one or more SQL statements and ignores their results. Throws StoreNotWritable if the file cannot be
+    /// written, CorruptDatabase if the file is damaged, and StoreError for any other error. All functions here that
+    /// execute a statement throw these.
+    void execute(const char* sql);
     /// Executes a query and returns the first value of its first row, or 0 if the query returns no rows.
     std::int64_t queryNumber(const char* sql);
     /// Makes the destructor keep the write-ahead log file. Otherwise, the destructor writes the log to the database
     /// file and deletes the log. Must be called before a damaged file and its log are renamed.
-    void keepWriteAheadLog();
+    void keepWriteAheadLogOnClose();
 
   private:
     friend class Statement;
     friend class Transaction;
-    [[noreturn]] void fail(const char* what) const;
+    [[noreturn]] void throwDatabaseError(const char* what) const;
 
     const std::string path_;
     sqlite3* handle_ = nullptr;
@@ -64,10 +64,10 @@ class Statement {
     Statement& operator=(const Statement&) = delete;
     ~Statement();
 
-    /// text(), blob() and number() bind a value to the next parameter of the statement.
-    Statement& text(std::string_view value);
+    /// bindText(), blob() and number() bind a value to the next parameter of the statement.
+    Statement& bindText(std::string_view value);
     Statement& blob(std::string_view value);
-    Statement& number(std::int64_t value);
+    Statement& bindNumber(std::int64_t value);
 
     /// Executes the statement up to its next row. Returns false if there are no more rows.
     bool step();
@@ -75,7 +75,7 @@ class Statement {
     std::string bytesAt(int column) const;
     std::int64_t numberAt(int column) const;
     /// Returns the number of rows that the statement has inserted, changed or deleted.
-    std::size_t changes() const;
+    std::size_t changedRowCount() const;
 
   private:
     Statement& checkBinding(int status);

@@ -11,25 +11,25 @@ namespace {
 /// A search for the ids of all sessions in a damaged file. A scan of a table stops at a damaged page, but a scan that
 /// starts after this page may find further ids. So if the first scan fails, the constructor scans from many starting
 /// points in both directions. It also scans an index and the table of objects, which are on other pages.
-class IdScan {
+class SessionIdScan {
   public:
-    explicit IdScan(Database& from) : from_(from) {
-        const bool all = walk("SELECT id FROM session ORDER BY id", {});
+    explicit SessionIdScan(Database& from) : from_(from) {
+        const bool all = collectIds("SELECT id FROM session ORDER BY id", {});
         if (all) return;
-        walk("SELECT id FROM session ORDER BY id DESC", {});
+        collectIds("SELECT id FROM session ORDER BY id DESC", {});
         // Ids are random names in base 32.
         constexpr std::string_view kLetters = "234567abcdefghijklmnopqrstuvwxyz";
         for (const char first : kLetters) {
             for (const char second : kLetters) {
                 const std::string start{first, second};
                 const std::string end = start + "~";
-                walk("SELECT id FROM session WHERE id >= ? AND id < ? ORDER BY id", {start, end});
-                walk("SELECT id FROM session WHERE id >= ? AND id < ? ORDER BY id DESC", {start, end});
+                collectIds("SELECT id FROM session WHERE id >= ? AND id < ? ORDER BY id", {start, end});
+                collectIds("SELECT id FROM session WHERE id >= ? AND id < ? ORDER BY id DESC", {start, end});
             }
         }
-        const bool indexed = walk("SELECT id FROM session INDEXED BY session_touched ORDER BY touched", {});
-        if (!indexed) walk("SELECT id FROM session INDEXED BY session_touched ORDER BY touched DESC", {});
-        walk("SELECT DISTINCT session FROM polytope", {});
+        const bool indexed = collectIds("SELECT id FROM session INDEXED BY session_touched ORDER BY touched", {});
+        if (!indexed) collectIds("SELECT id FROM session INDEXED BY session_touched ORDER BY touched DESC", {});
+        collectIds("SELECT DISTINCT session FROM polytope", {});
         complete = indexed;
     }
 
@@ -38,10 +38,10 @@ class IdScan {
 
   private:
     /// Adds the ids that a query returns to `found`. Returns false if an error ended the query early.
-    bool walk(const char* sql, const std::vector<std::string>& bounds) {
+    bool collectIds(const char* sql, const std::vector<std::string>& bounds) {
         try {
             Statement statement(from_, sql);
-            for (const std::string& bound : bounds) statement.text(bound);
+            for (const std::string& bound : bounds) statement.bindText(bound);
             while (statement.step()) found.insert(statement.bytesAt(0));
             return true;
         } catch (const StoreError&) {
@@ -65,7 +65,7 @@ std::optional<SalvagedSession> readSession(Database& from, bool hashed, const st
                                 ? "SELECT token_hash, whole, head, fence, touched, changed FROM session WHERE id = ?1 "
                                   "AND digest = digest_of(id, token_hash, whole) AND head_digest = digest_of(id, head)"
                                 : "SELECT hash_of(token), whole, head, fence, touched, 1 FROM session WHERE id = ?1");
-    if (!session.text(id).step()) return std::nullopt;
+    if (!session.bindText(id).step()) return std::nullopt;
     SalvagedSession salvaged{session.bytesAt(0),
                              session.bytesAt(1),
                              session.bytesAt(2),
@@ -76,7 +76,7 @@ std::optional<SalvagedSession> readSession(Database& from, bool hashed, const st
     Statement polytopes(
         from, hashed ? "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?"
                      : "SELECT key, bytes, 1 FROM polytope WHERE session = ?");
-    polytopes.text(id);
+    polytopes.bindText(id);
     while (polytopes.step()) {
         if (polytopes.numberAt(2) == 0) return std::nullopt;
         salvaged.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
@@ -84,18 +84,22 @@ std::optional<SalvagedSession> readSession(Database& from, bool hashed, const st
     return salvaged;
 }
 
-void insert(Database& to, const std::string& id, const SalvagedSession& salvaged) {
+void insertSession(Database& to, const std::string& id, const SalvagedSession& salvaged) {
     Statement session(
         to, "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7))");
-    session.text(id).text(salvaged.tokenHash).number(salvaged.fence).number(salvaged.touched).number(salvaged.changed);
+    session.bindText(id)
+        .bindText(salvaged.tokenHash)
+        .bindNumber(salvaged.fence)
+        .bindNumber(salvaged.touched)
+        .bindNumber(salvaged.changed);
     session.blob(salvaged.whole).blob(salvaged.head).step();
     for (const auto& [key, bytes] : salvaged.objects) {
         Statement polytope(to, "INSERT INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
-        polytope.text(id).text(key).blob(bytes).step();
+        polytope.bindText(id).bindText(key).blob(bytes).step();
     }
 }
 
-bool isHashed(Database& from) {
+bool hasTokenHashes(Database& from) {
     try {
         const Statement statement(from, "SELECT token_hash FROM session");
         return true;
@@ -107,8 +111,8 @@ bool isHashed(Database& from) {
 }  // namespace
 
 SalvageResult salvage(Database& from, Database& to) {
-    const IdScan ids(from);
-    const bool hashed = isHashed(from);
+    const SessionIdScan ids(from);
+    const bool hashed = hasTokenHashes(from);
     SalvageResult result{0, {}, ids.complete};
     for (const std::string& id : ids.found) {
         std::optional<SalvagedSession> session;
@@ -122,7 +126,7 @@ SalvageResult salvage(Database& from, Database& to) {
             continue;
         }
         Transaction one(to);
-        insert(to, id, *session);
+        insertSession(to, id, *session);
         one.commit();
         ++result.saved;
     }

@@ -40,7 +40,7 @@ std::int64_t pagesNeededFor(std::span<const RecordUpdate> updates) {
     return static_cast<std::int64_t>(pages + small / kPageSize);
 }
 
-std::string listed(const std::set<std::string>& ids) {
+std::string joinIds(const std::set<std::string>& ids) {
     std::string text;
     std::size_t count = 0;
     for (const std::string& id : ids) {
@@ -51,7 +51,7 @@ std::string listed(const std::set<std::string>& ids) {
 }
 
 /// Returns an unused path. The caller renames a damaged file to this path.
-std::string damagedName(const std::string& path) {
+std::string pathForDamagedFile(const std::string& path) {
     const auto seconds = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     const std::string name =
         path + fmt::format(".damaged-{:%Y%m%dT%H%M%SZ}", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
@@ -91,7 +91,7 @@ void SqliteStore::open() {
     try {
         std::string damage;
         try {
-            check();
+            checkDatabase();
         } catch (const CorruptDatabase& fault) {
             damage = fault.what();
         }
@@ -113,12 +113,12 @@ void SqliteStore::open() {
 /// Throws CorruptDatabase if the file is damaged. Throws StoreError if the file belongs to another program or was
 /// written by a later version. Does not change the file; after a StoreError, closing the database does not change it,
 /// either.
-void SqliteStore::check() {
+void SqliteStore::checkDatabase() {
     const auto tables = database_->queryNumber("SELECT count(*) FROM sqlite_schema");
     const auto version = database_->queryNumber("PRAGMA user_version");
     const auto refuse = [&](const char* why) {
         // Without this call, closing the file would write the log of a killed server to the file.
-        database_->keepWriteAheadLog();
+        database_->keepWriteAheadLogOnClose();
         throw StoreError(path_ + why);
     };
     if (version > kSchemaVersion) refuse(" was written by a later version of oval4d");
@@ -133,30 +133,30 @@ void SqliteStore::check() {
 }
 
 void SqliteStore::setUp() {
-    database_->run("PRAGMA synchronous = NORMAL");
+    database_->execute("PRAGMA synchronous = NORMAL");
     if (database_->queryNumber("SELECT count(*) FROM sqlite_schema") == 0) {
-        database_->run("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
-        database_->run(kSchema);
-        database_->run("COMMIT");
+        database_->execute("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; BEGIN IMMEDIATE");
+        database_->execute(kSchema);
+        database_->execute("COMMIT");
     } else {
-        database_->run("PRAGMA journal_mode = WAL");
+        database_->execute("PRAGMA journal_mode = WAL");
         migrate();
     }
     const std::int64_t logPages = std::clamp<std::int64_t>(maxPages_ / 8, 16, 1000);
-    database_->run(("PRAGMA wal_autocheckpoint = " + std::to_string(logPages)).c_str());
-    database_->run(("PRAGMA journal_size_limit = " + std::to_string(logPages * std::int64_t{kPageSize})).c_str());
+    database_->execute(("PRAGMA wal_autocheckpoint = " + std::to_string(logPages)).c_str());
+    database_->execute(("PRAGMA journal_size_limit = " + std::to_string(logPages * std::int64_t{kPageSize})).c_str());
     logDamagedRecords();
     {
         Statement statement(
             *database_,
             "UPDATE session SET touched = ?1 WHERE touched > ?1");  // a time in the future would delay the expiry
-        statement.number(nowMilliseconds()).step();
+        statement.bindNumber(nowMilliseconds()).step();
     }
     if (const auto count = evictSessionsUntilFits(0, [](const std::string&) { return false; }); count > 0) {
         spdlog::warn("sessions evicted, the store exceeds its quota count={} store={}", count, name());
     }
     releasePages(std::max<std::int64_t>(kMaxReleasedPages, usedPages()));
-    database_->run("PRAGMA wal_checkpoint(TRUNCATE)");
+    database_->execute("PRAGMA wal_checkpoint(TRUNCATE)");
     size_ = static_cast<std::size_t>(database_->queryNumber("SELECT count(*) FROM session"));
 }
 
@@ -164,21 +164,21 @@ void SqliteStore::setUp() {
 /// VACUUM follows. If the VACUUM fails, it runs again when the file is opened the next time.
 void SqliteStore::migrate() {
     if (database_->queryNumber("PRAGMA user_version") < kSchemaVersion) {
-        database_->run("PRAGMA foreign_keys = OFF");
+        database_->execute("PRAGMA foreign_keys = OFF");
         {
             Transaction all(*database_);
-            database_->run(
+            database_->execute(
                 "ALTER TABLE session RENAME TO session_1; ALTER TABLE polytope RENAME TO polytope_1;"
                 "DROP INDEX IF EXISTS session_touched");
-            database_->run(kSchema);
-            database_->run(
+            database_->execute(kSchema);
+            database_->execute(
                 "INSERT INTO session SELECT id, hash_of(token), fence, touched, 1, whole, head,"
                 "  digest_of(id, hash_of(token), whole), digest_of(id, head) FROM session_1;"
                 "INSERT INTO polytope SELECT session, key, bytes, digest_of(session, key, bytes) FROM polytope_1;"
                 "DROP TABLE polytope_1; DROP TABLE session_1");
             all.commit();
         }
-        database_->run("PRAGMA foreign_keys = ON");
+        database_->execute("PRAGMA foreign_keys = ON");
         spdlog::info("store migrated to version {} store={}", kSchemaVersion, name());
     }
     // Once for each file, VACUUM erases the plain-text tokens of schema version 1 from free pages and from the
@@ -186,7 +186,7 @@ void SqliteStore::migrate() {
     // done.
     constexpr std::int64_t kIncremental = 2;
     if (database_->queryNumber("PRAGMA auto_vacuum") != kIncremental) {
-        database_->run("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
+        database_->execute("PRAGMA auto_vacuum = INCREMENTAL; VACUUM; PRAGMA wal_checkpoint(TRUNCATE)");
     }
 }
 
@@ -199,13 +199,13 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
     SalvageResult salvaged;
     {
         Database to(fresh);
-        to.run("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
-        to.run(kSchema);
+        to.execute("PRAGMA auto_vacuum = INCREMENTAL; PRAGMA journal_mode = WAL; PRAGMA synchronous = NORMAL");
+        to.execute(kSchema);
         salvaged = salvage(*database_, to);
     }
     // Rename the write-ahead log first. Otherwise, SQLite would apply it to the new file.
-    const std::string aside = damagedName(path_);
-    database_->keepWriteAheadLog();
+    const std::string aside = pathForDamagedFile(path_);
+    database_->keepWriteAheadLogOnClose();
     std::error_code missing;
     if (std::filesystem::file_size(path_ + "-wal", missing) == 0 && !missing) std::filesystem::remove(path_ + "-wal");
     renameIfExists(path_ + "-wal", aside + "-wal");
@@ -213,15 +213,15 @@ void SqliteStore::salvageDamagedFile(const std::string& why) {
     renameIfExists(fresh, path_);
     database_.reset();  // releases the lock on the damaged file only after the renames
     spdlog::error("store salvaged store={} saved={} lost={}{} lost_sessions={} set_aside={}", name(), salvaged.saved,
-                  salvaged.complete ? "" : "at least ", salvaged.lost.size(), listed(salvaged.lost), aside);
+                  salvaged.complete ? "" : "at least ", salvaged.lost.size(), joinIds(salvaged.lost), aside);
     damage_.clear();
     database_ = std::make_unique<Database>(path_);
     try {
         // Another server that started at the same time may have locked the new file. That server exits when it notices
         // the renames, so wait for the lock.
-        database_->run("PRAGMA busy_timeout = 30000");
+        database_->execute("PRAGMA busy_timeout = 30000");
         setUp();
-        database_->run("PRAGMA busy_timeout = 2000");
+        database_->execute("PRAGMA busy_timeout = 2000");
     } catch (...) {
         database_.reset();  // the next operation will open the file again
         throw;
@@ -240,7 +240,7 @@ void SqliteStore::logDamagedRecords() {
     if (damaged.empty()) return;
     const auto all = static_cast<std::size_t>(database_->queryNumber("SELECT count(*) FROM session"));
     spdlog::error("sessions damaged, and lost store={} kept={} lost={} lost_sessions={}", name(),
-                  all - std::min(all, damaged.size()), damaged.size(), listed(damaged));
+                  all - std::min(all, damaged.size()), damaged.size(), joinIds(damaged));
 }
 
 /// Calls `work` and returns its result. If `work` finds damage in the file, this call throws, and the next call repairs
@@ -264,7 +264,7 @@ auto SqliteStore::runAfterPendingRepair(Work work) {
 std::optional<std::string> SqliteStore::tokenHash(const std::string& id) {
     return runAfterPendingRepair([&]() -> std::optional<std::string> {
         Statement statement(*database_, "SELECT token_hash FROM session WHERE id = ?");
-        return statement.text(id).step() ? std::optional(statement.bytesAt(0)) : std::nullopt;
+        return statement.bindText(id).step() ? std::optional(statement.bytesAt(0)) : std::nullopt;
     });
 }
 
@@ -272,7 +272,7 @@ bool SqliteStore::isDamaged(const std::string& id) {
     return runAfterPendingRepair([&] {
         Statement statement(*database_,
                             "SELECT 1 FROM session WHERE id = ? AND digest <> digest_of(id, token_hash, whole)");
-        return statement.text(id).step();
+        return statement.bindText(id).step();
     });
 }
 
@@ -280,8 +280,8 @@ std::optional<SessionRecord> SqliteStore::claim(const std::string& id) {
     runAfterPendingRepair([&] {
         try {
             Statement statement(*database_, "UPDATE session SET fence = fence + 1, touched = ? WHERE id = ?");
-            statement.number(nowMilliseconds()).text(id).step();
-        } catch (const NotWritable&) {
+            statement.bindNumber(nowMilliseconds()).bindText(id).step();
+        } catch (const StoreNotWritable&) {
             // The record can still be read. The fence may stay the same, because no other server uses this file.
         }
     });
@@ -293,13 +293,13 @@ std::optional<SessionRecord> SqliteStore::read(const std::string& id) {
         Statement statement(*database_,
                             "SELECT whole, head, fence, digest = digest_of(id, token_hash, whole) AND "
                             "head_digest = digest_of(id, head) FROM session WHERE id = ?");
-        if (!statement.text(id).step()) return std::nullopt;
+        if (!statement.bindText(id).step()) return std::nullopt;
         SessionRecord record{
-            statement.bytesAt(0), statement.bytesAt(1), {}, static_cast<Fence>(statement.numberAt(2)), {}};
+            statement.bytesAt(0), statement.bytesAt(1), {}, static_cast<FencingToken>(statement.numberAt(2)), {}};
         if (statement.numberAt(3) == 0) record.damage = "its record in the store is damaged";
         Statement polytopes(
             *database_, "SELECT key, bytes, digest = digest_of(session, key, bytes) FROM polytope WHERE session = ?");
-        polytopes.text(id);
+        polytopes.bindText(id);
         while (polytopes.step()) {
             record.objects.emplace_back(polytopes.bytesAt(0), polytopes.bytesAt(1));
             if (polytopes.numberAt(2) == 0) record.damage = "one of its objects in the store is damaged";
@@ -311,7 +311,7 @@ std::optional<SessionRecord> SqliteStore::read(const std::string& id) {
 std::vector<SaveResult> SqliteStore::save(std::span<const RecordUpdate> updates) {
     return runAfterPendingRepair([&] {
         if (usedPages() + pagesNeededFor(updates) > maxPages_) {
-            throw NotWritable(path_ + ": open sessions use up the quota (--store-quota)");
+            throw StoreNotWritable(path_ + ": open sessions use up the quota (--store-quota)");
         }
         std::vector<SaveResult> results;
         Transaction all(*database_);
@@ -333,43 +333,48 @@ SaveResult SqliteStore::saveOne(const RecordUpdate& update) {
             "INSERT INTO session VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, digest_of(?1, ?2, ?6), digest_of(?1, ?7)) "
             "ON CONFLICT (id) DO UPDATE SET token_hash = ?2, fence = ?3, touched = ?4, changed = ?5, whole = ?6, "
             "head = ?7, digest = digest_of(?1, ?2, ?6), head_digest = digest_of(?1, ?7) WHERE fence <= ?3");
-        statement.text(id)
-            .text(hash)
-            .number(fence)
-            .number(nowMilliseconds())
-            .number(changed)
+        statement.bindText(id)
+            .bindText(hash)
+            .bindNumber(fence)
+            .bindNumber(nowMilliseconds())
+            .bindNumber(changed)
             .blob(update.whole)
             .blob(update.head)
             .step();
-        written = statement.changes();
+        written = statement.changedRowCount();
     } else {
         Statement statement(
             *database_,
             "UPDATE session SET fence = ?1, touched = ?2, changed = ?3, head = ?4, head_digest = digest_of(id, ?4) "
             "WHERE id = ?5 AND fence <= ?1");
-        statement.number(fence).number(nowMilliseconds()).number(changed).blob(update.head).text(id).step();
-        written = statement.changes();
+        statement.bindNumber(fence)
+            .bindNumber(nowMilliseconds())
+            .bindNumber(changed)
+            .blob(update.head)
+            .bindText(id)
+            .step();
+        written = statement.changedRowCount();
     }
     if (written == 0) {
         Statement statement(*database_, "SELECT 1 FROM session WHERE id = ?");
-        return statement.text(id).step() ? SaveResult::claimed : SaveResult::missing;
+        return statement.bindText(id).step() ? SaveResult::claimed : SaveResult::missing;
     }
     for (const auto& [key, bytes] : update.objects) {
         Statement statement(*database_, "INSERT OR REPLACE INTO polytope VALUES (?1, ?2, ?3, digest_of(?1, ?2, ?3))");
-        statement.text(id).text(key).blob(bytes).step();
+        statement.bindText(id).bindText(key).blob(bytes).step();
     }
     for (const std::string& key : update.dropped) {
         Statement statement(*database_, "DELETE FROM polytope WHERE session = ? AND key = ?");
-        statement.text(id).text(key).step();
+        statement.bindText(id).bindText(key).step();
     }
     return SaveResult::saved;
 }
 
-std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) {
+std::size_t SqliteStore::evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) {
     return runAfterPendingRepair([&] { return evictSessionsUntilFits(pagesNeededFor(updates), isPinned); });
 }
 
-std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned) {
+std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const PinnedPredicate& isPinned) {
     const auto fits = [&] { return usedPages() + pagesNeeded <= maxPages_; };
     if (fits() || pagesNeeded > maxPages_) return 0;
     std::vector<std::string> candidates;
@@ -382,7 +387,7 @@ std::size_t SqliteStore::evictSessionsUntilFits(std::int64_t pagesNeeded, const 
     for (const std::string& id : candidates) {
         if (isPinned(id)) continue;
         Statement statement(*database_, "DELETE FROM session WHERE id = ?");
-        statement.text(id).step();
+        statement.bindText(id).step();
         ++count;
         if (fits()) break;
     }
@@ -396,7 +401,7 @@ void SqliteStore::remove(std::span<const std::string> ids) {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "DELETE FROM session WHERE id = ?");
-            statement.text(id).step();
+            statement.bindText(id).step();
         }
         all.commit();
     });
@@ -407,7 +412,7 @@ void SqliteStore::restartExpiry(std::span<const std::string> ids) {
         Transaction all(*database_);
         for (const std::string& id : ids) {
             Statement statement(*database_, "UPDATE session SET touched = ? WHERE id = ?");
-            statement.number(nowMilliseconds()).text(id).step();
+            statement.bindNumber(nowMilliseconds()).bindText(id).step();
         }
         all.commit();
     });
@@ -416,8 +421,8 @@ void SqliteStore::restartExpiry(std::span<const std::string> ids) {
 std::size_t SqliteStore::expire(Milliseconds age) {
     return runAfterPendingRepair([&] {
         Statement statement(*database_, "DELETE FROM session WHERE touched < ?");
-        statement.number(nowMilliseconds() - age.count()).step();
-        return statement.changes();
+        statement.bindNumber(nowMilliseconds() - age.count()).step();
+        return statement.changedRowCount();
     });
 }
 
@@ -438,7 +443,7 @@ void SqliteStore::releasePages(std::int64_t maxPages) {
     constexpr std::int64_t kReservedPages = 64;
     const std::int64_t free = database_->queryNumber("PRAGMA freelist_count");
     if (free <= kReservedPages) return;
-    database_->run(
+    database_->execute(
         ("PRAGMA incremental_vacuum(" + std::to_string(std::min(maxPages, free - kReservedPages)) + ")").c_str());
 }
 

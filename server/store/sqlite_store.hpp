@@ -27,14 +27,14 @@ class SqliteStore final : public Store {
     /// owned by the user of this process.
     explicit SqliteStore(std::string path, std::size_t quota = kDefaultQuota, ClockFunction<Clock> now = Clock::now);
 
-    WritePolicy writePolicy() const override { return WritePolicy::soon; }
+    WriteTiming writeTiming() const override { return WriteTiming::soon; }
     std::string name() const override { return "sqlite:" + path_; }
     std::optional<std::string> tokenHash(const std::string& id) override;
     bool isDamaged(const std::string& id) override;
     std::optional<SessionRecord> read(const std::string& id) override;
     std::optional<SessionRecord> claim(const std::string& id) override;
     std::vector<SaveResult> save(std::span<const RecordUpdate> updates) override;
-    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override;
+    std::size_t evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) override;
     void remove(std::span<const std::string> ids) override;
     void restartExpiry(std::span<const std::string> ids) override;
     std::size_t expire(Milliseconds age) override;
@@ -46,13 +46,13 @@ class SqliteStore final : public Store {
     auto runAfterPendingRepair(Work work);
     std::int64_t nowMilliseconds() const;
     void open();
-    void check();
+    void checkDatabase();
     void setUp();
     void migrate();
     void salvageDamagedFile(const std::string& why);
     void logDamagedRecords();
     SaveResult saveOne(const RecordUpdate& update);
-    std::size_t evictSessionsUntilFits(std::int64_t pagesNeeded, const IsPinned& isPinned);
+    std::size_t evictSessionsUntilFits(std::int64_t pagesNeeded, const PinnedPredicate& isPinned);
     std::int64_t usedPages();
     void releasePages(std::int64_t maxPages);
 

@@ -52,7 +52,7 @@ class StateReader : public MemberReader {
 // could produce, for example, a state with a million slices instead of an error. All limits are at least as wide as the
 // limits for clients.
 // A later version may allow more, or build an object with more elements. So a value beyond a limit, or an element that
-// the object lacks, throws LaterRecord. After UnreadableRecord, clients would forget the session.
+// the object lacks, throws NewerVersionRecord. After UnreadableRecord, clients would forget the session.
 
 // The fraction by which spacing, offset and focus point may exceed their limits, because of rounding errors. The limits
 // are proportional to the circumradius.
@@ -62,30 +62,30 @@ void check(const session::HyperplaneSettings& slices, double circumradius) {
     constexpr int kMaxSlices = 100'001;
     const auto& [count, spacing, focus, offset] = slices;
     if (count < 1 || count > kMaxSlices || count % 2 == 0)
-        throwLater("the number of slices is not allowed: " + std::to_string(count));
+        throwLaterRecord("the number of slices is not allowed: " + std::to_string(count));
     if (!(spacing > 0 && spacing >= session::kMinSpacing * circumradius * (1 - kSlack) &&
           spacing <= session::kMaxSpacing * circumradius * (1 + kSlack)))
-        throwLater("the spacing of the slices is out of range");
-    if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwLater("the focus is out of range");
+        throwLaterRecord("the spacing of the slices is out of range");
+    if (focus < -session::kMaxFocus || focus > session::kMaxFocus) throwLaterRecord("the focus is out of range");
     if (!(std::abs(offset) <= session::kMaxOffset * circumradius * (1 + kSlack)))
-        throwLater("the offset is out of range");
+        throwLaterRecord("the offset is out of range");
 }
 
 void check(const scene::CellTypeFilter& filter, std::size_t typeCount) {
     const auto& [hidden, faded] = filter;
     for (const std::vector<std::uint32_t>* types : {&hidden, &faded}) {
         if (std::ranges::adjacent_find(*types, std::greater_equal<>()) != types->end())
-            throwUnreadable("the hidden or faded cell types are not in order");
-        if (!types->empty() && types->back() >= typeCount) throwLater("a hidden or faded cell type is missing");
+            throwUnreadableRecord("the hidden or faded cell types are not in order");
+        if (!types->empty() && types->back() >= typeCount) throwLaterRecord("a hidden or faded cell type is missing");
     }
     if (std::ranges::any_of(hidden, [&](auto type) { return std::ranges::binary_search(faded, type); }))
-        throwUnreadable("a cell type is both hidden and faded");
+        throwUnreadableRecord("a cell type is both hidden and faded");
 }
 
 void check(const slicing::FieldSettings& field) {
     if (field.levels.empty() || field.levels.size() > slicing::kMaxLevels)
-        throwLater("the number of levels is out of range");
-    if (!session::isTransferFunction(field.fog)) throwLater("the fog is not a transfer function");
+        throwLaterRecord("the number of levels is out of range");
+    if (!session::isValidTransferFunction(field.fog)) throwLaterRecord("the fog is not a transfer function");
 }
 
 void check(const State& state) {
@@ -95,17 +95,18 @@ void check(const State& state) {
     check(state.look.field);
     const auto& highlight = state.look.highlight;
     if (highlight && highlight->index >= slicing::elementCount(state.object, highlight->kind))
-        throwLater("the highlighted element is missing");
+        throwLaterRecord("the highlighted element is missing");
     const glm::dvec3 point = glm::abs(state.look.focusPoint);
     if (!(std::max({point.x, point.y, point.z}) <= session::kMaxOffset * info.circumradius * (1 + kSlack)))
-        throwLater("the focus point is out of range");
-    if (state.turning && state.ongoingTurnToward) throwUnreadable("a state both turns and approaches an orientation");
-    if (state.turning && !state.lastTurn) throwUnreadable("a state is turning, but has no last rotation");
+        throwLaterRecord("the focus point is out of range");
+    if (state.turning && state.ongoingTurnToward)
+        throwUnreadableRecord("a state both turns and approaches an orientation");
+    if (state.turning && !state.lastTurn) throwUnreadableRecord("a state is turning, but has no last rotation");
 }
 
 // Clamps the settings to the bounds of a field in the server's data folder. Since the state was stored, another file
 // with another box may have replaced the field's file.
-void fitToFile(State& state) {
+void clampToReplacedField(State& state) {
     const fields::Field* const field = slicing::fieldIn(state.source);
     if (field == nullptr || !field->source) return;
     const geometry::ObjectInfo& info = slicing::infoOf(state.object);
@@ -132,9 +133,9 @@ State decodeState(const json& array, ObjectListDecoder& objects) {
     visitStoredMembers(state, reader);
     reader.refuseUnreadMembers();
     if (!(glm::length(state.referenceFrame.boost) <= geometry::ReferenceFrame::kMaxBoost))
-        throwLater("a boost is too fast");
+        throwLaterRecord("a boost is too fast");
     state.object = objects.transformedTo(state.source, state.referenceFrame);
-    fitToFile(state);
+    clampToReplacedField(state);
     check(state);
     return state;
 }

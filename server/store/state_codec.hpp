@@ -12,8 +12,8 @@ namespace oval4d::store {
 nlohmann::json encodeState(const session::State& state, ObjectListEncoder& objects);
 
 /// Decodes a state from an array. Members that a record of an earlier version lacks get their defaults. Throws
-/// UnreadableRecord if a member is invalid or does not fit another member. Throws LaterRecord if a member is unknown,
-/// exceeds a limit, or refers to an element or a cell type that the object lacks.
+/// UnreadableRecord if a member is invalid or does not fit another member. Throws NewerVersionRecord if a member is
+/// unknown, exceeds a limit, or refers to an element or a cell type that the object lacks.
 session::State decodeState(const nlohmann::json& array, ObjectListDecoder& objects);
 
 }  // namespace oval4d::store

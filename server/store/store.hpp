@@ -29,10 +29,10 @@ struct SessionCredentials {
 /// A fencing token: the number of a claim. It prevents a server from saving a session after another server has claimed
 /// the session (become its owner). Each claim increments the fence in the session's record. The store refuses a save
 /// with a lower fence than that in the record.
-using Fence = std::uint64_t;
+using FencingToken = std::uint64_t;
 
 /// The fence of a new session, which no other server has claimed.
-inline constexpr Fence kFirstFence = 1;
+inline constexpr FencingToken kFirstFence = 1;
 
 /// The record of a session, as read() and claim() return it.
 struct SessionRecord {
@@ -41,7 +41,7 @@ struct SessionRecord {
     std::string whole, head;
     /// The session's objects that cannot be built from their names, as pairs (key, encoded object).
     std::vector<std::pair<std::string, std::string>> objects;
-    Fence fence = 0;
+    FencingToken fence = 0;
     /// Which part of the record does not match its digest. Empty if the record is intact.
     std::string damage;
 };
@@ -49,7 +49,7 @@ struct SessionRecord {
 /// A change to the record of a session.
 struct RecordUpdate {
     SessionCredentials credentials;
-    Fence fence = 0;
+    FencingToken fence = 0;
     /// The new SessionRecord::head, which may be empty. Must not be empty if `whole` is empty.
     std::string head;
     std::string whole;  ///< the new SessionRecord::whole; empty if it stays the same
@@ -70,7 +70,7 @@ enum class SaveResult : std::uint8_t {
 /// A session that another server has claimed from this server.
 struct TakenOverSession {
     std::string id;
-    Fence fence = 0;  ///< the fence in the session's record; 0 if the record was deleted
+    FencingToken fence = 0;  ///< the fence in the session's record; 0 if the record was deleted
 
     bool operator==(const TakenOverSession&) const = default;
 };
@@ -82,7 +82,7 @@ class StoreError : public std::runtime_error {
 };
 
 /// An error of a store that can be read but not written: its quota is used up, or its disk is full or read-only.
-class NotWritable : public StoreError {
+class StoreNotWritable : public StoreError {
   public:
     using StoreError::StoreError;
 };
@@ -98,13 +98,13 @@ class Store {
     virtual ~Store() = default;
 
     /// The latest time at which a change to an open session must be written to the store.
-    enum class WritePolicy : std::uint8_t {
+    enum class WriteTiming : std::uint8_t {
         at_close,  ///< when the last client leaves the session
         soon,      ///< within a second
         at_once,   ///< before the server acknowledges the change, because another server may claim the session
     };
     /// Returns when changes must be written to this store at the latest.
-    virtual WritePolicy writePolicy() const = 0;
+    virtual WriteTiming writeTiming() const = 0;
 
     /// Returns the name of the store for logs, without passwords, such as "sqlite:/var/lib/oval4d/sessions.sqlite".
     virtual std::string name() const = 0;
@@ -126,17 +126,17 @@ class Store {
     virtual std::optional<SessionRecord> claim(const std::string& id) = 0;
 
     /// Applies the updates as one batch. Returns one result for each update, in the same order. An update with `whole`
-    /// creates the session's record if the store lacks it. Throws NotWritable if the batch would exceed the quota.
+    /// creates the session's record if the store lacks it. Throws StoreNotWritable if the batch would exceed the quota.
     virtual std::vector<SaveResult> save(std::span<const RecordUpdate> updates) = 0;
 
     /// A function that returns whether the session with this id must not be evicted (deleted to free space).
-    using IsPinned = std::function<bool(const std::string& id)>;
+    using PinnedPredicate = std::function<bool(const std::string& id)>;
     /// Evicts sessions that are not pinned until `updates` fit within the quota, and returns the number of evicted
-    /// sessions. Called after save() has thrown NotWritable. Evicts sessions that were never changed first, then those
-    /// that have not been used for the longest time. Evicts none if the updates already fit, because save() then failed
-    /// for another reason, such as a full disk. Evicts none, either, if the updates would not fit next to the pinned
-    /// sessions alone.
-    virtual std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) = 0;
+    /// sessions. Called after save() has thrown StoreNotWritable. Evicts sessions that were never changed first, then
+    /// those that have not been used for the longest time. Evicts none if the updates already fit, because save() then
+    /// failed for another reason, such as a full disk. Evicts none, either, if the updates would not fit next to the
+    /// pinned sessions alone.
+    virtual std::size_t evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) = 0;
 
     /// Removes sessions from the store, except sessions that another server has claimed.
     virtual void remove(std::span<const std::string> ids) = 0;

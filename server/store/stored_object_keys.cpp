@@ -15,8 +15,8 @@ void StoredObjectKeys::setStored(const std::string& session, const KeysBySerial&
     for (const auto& [serial, key] : keys) objects[serial] = {key, true};
 }
 
-std::vector<std::uint64_t> StoredObjectKeys::encode(const std::string& session, const PendingChanges& changes,
-                                                    std::size_t maxUndo, RecordUpdate& update) {
+std::vector<std::uint64_t> StoredObjectKeys::encodeChanges(const std::string& session, const PendingChanges& changes,
+                                                           std::size_t maxUndo, RecordUpdate& update) {
     constexpr std::size_t kKeyBytes = 10;
     ObjectKeyStates& objects = sessions_[session];
     std::vector<std::uint64_t> added;

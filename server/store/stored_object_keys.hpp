@@ -28,10 +28,11 @@ class StoredObjectKeys {
     /// `maxUndo` undo steps and `maxUndo` redo steps). Adds objects that the store lacks to `update.objects`. If the
     /// whole session is written, also adds the keys of objects that the session no longer contains to `update.dropped`.
     /// Returns the serial numbers of the added objects.
-    std::vector<std::uint64_t> encode(const std::string& session, const PendingChanges& changes, std::size_t maxUndo,
-                                      RecordUpdate& update);
+    std::vector<std::uint64_t> encodeChanges(const std::string& session, const PendingChanges& changes,
+                                             std::size_t maxUndo, RecordUpdate& update);
 
-    /// Records that the store has saved `update`, an update made by encode(). `added` is the result of encode().
+    /// Records that the store has saved `update`, an update made by encodeChanges(). `added` is the result of
+    /// encodeChanges().
     void recordSaved(const std::string& session, const std::vector<std::uint64_t>& added, const RecordUpdate& update);
 
     /// markObjectsLost() records that the store has lost the objects of a session. markAllObjectsLost() records this

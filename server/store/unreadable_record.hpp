@@ -13,7 +13,7 @@ class UnreadableRecord : public std::runtime_error {
 /// An error: a record is well formed, but a later version of the program has stored it. The record has a version, a
 /// member or a value that this program does not know or allow. The record must be kept, because the later version can
 /// read it.
-class LaterRecord : public UnreadableRecord {
+class NewerVersionRecord : public UnreadableRecord {
   public:
     using UnreadableRecord::UnreadableRecord;
 };

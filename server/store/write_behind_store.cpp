@@ -32,7 +32,7 @@ const Error kNoAnswer{ErrorCode::internal, "this session cannot be opened right 
 WriteBehindStore::WriteBehindStore(std::unique_ptr<Store> store, WriteBehindSettings settings, Listener listener,
                                    ClockFunction<Clock> now)
     : store_(std::move(store)),
-      writePolicy_(store_->writePolicy()),
+      writePolicy_(store_->writeTiming()),
       name_(store_->name()),
       settings_(settings),
       listener_(std::move(listener)),
@@ -60,23 +60,23 @@ void WriteBehindStore::stop(Milliseconds limit) {
     }
 }
 
-SessionCredentials WriteBehindStore::create() {
+SessionCredentials WriteBehindStore::createSession() {
     SessionCredentials credentials{randomName(kIdBytes), randomName(kTokenBytes)};
     const std::lock_guard lock(mutex_);
-    cached_.add(credentials);
+    cached_.addNew(credentials);
     ++neverSaved_;
     return credentials;
 }
 
 void WriteBehindStore::read(SessionCredentials credentials, std::function<void(FetchResult)> done) {
-    queueFetch(std::move(credentials), Access::read, std::move(done));
+    queueFetch(std::move(credentials), FetchMode::read, std::move(done));
 }
 
 void WriteBehindStore::claimAndFetch(SessionCredentials credentials, std::function<void(FetchResult)> done) {
-    queueFetch(std::move(credentials), Access::claim, std::move(done));
+    queueFetch(std::move(credentials), FetchMode::claim, std::move(done));
 }
 
-void WriteBehindStore::queueFetch(SessionCredentials credentials, Access access,
+void WriteBehindStore::queueFetch(SessionCredentials credentials, FetchMode access,
                                   std::function<void(FetchResult)> done) {
     {
         const std::lock_guard lock(mutex_);
@@ -87,7 +87,7 @@ void WriteBehindStore::queueFetch(SessionCredentials credentials, Access access,
     wake_.notify_one();
 }
 
-bool WriteBehindStore::owns(const std::string& id, Fence fence) const {
+bool WriteBehindStore::ownsSession(const std::string& id, FencingToken fence) const {
     const std::lock_guard lock(mutex_);
     const CachedSession* const cached = cached_.find(id);
     return cached != nullptr && cached->fence == fence;
@@ -102,13 +102,14 @@ void WriteBehindStore::setStoredKeys(const std::string& id, KeysBySerial keys) {
     });
 }
 
-void WriteBehindStore::noteChange(const std::string& id, Fence fence) {
+void WriteBehindStore::recordUnsavedChange(const std::string& id, FencingToken fence) {
     const std::lock_guard lock(mutex_);
     if (CachedSession* const cached = cached_.find(id); cached != nullptr && cached->fence == fence)
         cached->changed = true;
 }
 
-void WriteBehindStore::save(const std::string& id, Fence fence, Session value, SaveScope scope, SaveCallback written) {
+void WriteBehindStore::save(const std::string& id, FencingToken fence, Session value, SaveScope scope,
+                            SaveCallback written) {
     bool ours = false;
     {
         const std::lock_guard lock(mutex_);
@@ -125,7 +126,7 @@ void WriteBehindStore::save(const std::string& id, Fence fence, Session value, S
     if (written) written(ours);
 }
 
-void WriteBehindStore::close(const std::string& id, Session value) {
+void WriteBehindStore::closeSession(const std::string& id, Session value) {
     const std::size_t bytes = estimateMemory(value);
     std::vector<std::pair<std::string, CachedSession>> evicted;
     {
@@ -139,8 +140,9 @@ void WriteBehindStore::close(const std::string& id, Session value) {
         cached->bytes = bytes;
         cached_.enqueue(id, *cached);
         if (!lastError_.empty()) evicted = cached_.evictClosed(settings_.quota);
-        for (const auto& [other, session] : evicted) tasks_.emplace_back([this, other = other] { dropKeys(other); });
-        if (!evicted.empty()) neverSaved_ = cached_.neverSaved();
+        for (const auto& [other, session] : evicted)
+            tasks_.emplace_back([this, other = other] { forgetObjectKeys(other); });
+        if (!evicted.empty()) neverSaved_ = cached_.neverSavedCount();
     }
     if (!evicted.empty())
         spdlog::warn("sessions evicted from memory while the store is unavailable count={}", evicted.size());
@@ -171,7 +173,7 @@ void WriteBehindStore::remove(const std::string& id) {
 }
 
 /// Removes the object keys of a session that was evicted from memory, unless a client has opened the session again.
-void WriteBehindStore::dropKeys(const std::string& id) {
+void WriteBehindStore::forgetObjectKeys(const std::string& id) {
     const std::lock_guard lock(mutex_);
     if (!cached_.contains(id)) objects_.forget(id);
 }
@@ -184,7 +186,7 @@ void WriteBehindStore::discardFetched(const std::string& id) {
 std::size_t WriteBehindStore::sessionCount() const {
     const std::lock_guard lock(mutex_);
     // If servers share the store (at_once), the number of stored sessions does not describe the load of this server.
-    return writePolicy_ == Store::WritePolicy::at_once ? cached_.size() : storedCount_ + neverSaved_;
+    return writePolicy_ == Store::WriteTiming::at_once ? cached_.size() : storedCount_ + neverSaved_;
 }
 
 std::size_t WriteBehindStore::unsaved() const {
@@ -197,9 +199,9 @@ std::string WriteBehindStore::lastError() const {
     return lastError_;
 }
 
-bool WriteBehindStore::isReadyToWrite() const { return hasPendingChanges() && now_() >= retryAt_; }
+bool WriteBehindStore::isWriteDue() const { return hasPendingChanges() && now_() >= retryAt_; }
 
-WriteBehindStore::Clock::time_point WriteBehindStore::nextWake() const {
+WriteBehindStore::Clock::time_point WriteBehindStore::nextWakeTime() const {
     const auto next = hasPendingChanges() ? std::min(pollAt_, retryAt_) : pollAt_;
     return stopping_ ? std::min(next, stopAt_) : next;
 }
@@ -210,7 +212,7 @@ void WriteBehindStore::runThread() {
     bool isOthersTurn = false;
     std::unique_lock lock(mutex_);
     for (;;) {
-        const bool mustYield = isOthersTurn && (isReadyToWrite() || now_() >= pollAt_);
+        const bool mustYield = isOthersTurn && (isWriteDue() || now_() >= pollAt_);
         if (auto* const due = !tasks_.empty() ? &tasks_ : !requests_.empty() && !mustYield ? &requests_ : nullptr) {
             isOthersTurn = isOthersTurn || due == &requests_;
             const auto task = std::move(due->front());
@@ -221,16 +223,16 @@ void WriteBehindStore::runThread() {
             if (const std::size_t left = cached_.queueLength(); left > 0)
                 spdlog::error("sessions not written count={} store={}", left, name_);
             return;
-        } else if (isReadyToWrite()) {
+        } else if (isWriteDue()) {
             isOthersTurn = false;
             lock.unlock();
-            write();
+            writeQueued();
         } else if (now_() >= pollAt_) {
             isOthersTurn = false;
             lock.unlock();
             poll();
         } else {
-            wake_.wait_for(lock, nextWake() - now_());
+            wake_.wait_for(lock, nextWakeTime() - now_());
             continue;
         }
         lock.lock();
@@ -240,7 +242,7 @@ void WriteBehindStore::runThread() {
 /// Calls `operation`, an operation of the store, and returns its result. Reports its duration and success to the
 /// listener under the metric name `name`.
 template <typename Operation>
-auto WriteBehindStore::runTimed(const char* name, Operation operation) {
+auto WriteBehindStore::runAndReportTime(const char* name, Operation operation) {
     const auto start = Clock::now();
     const auto report = [&](bool done) {
         listener_.operationEnded(name, std::chrono::duration<double>(Clock::now() - start).count(), done);
@@ -255,21 +257,21 @@ auto WriteBehindStore::runTimed(const char* name, Operation operation) {
     }
 }
 
-void WriteBehindStore::storeFailed(const std::exception& fault) {
+void WriteBehindStore::onStoreFailed(const std::exception& fault) {
     const std::string why = fault.what();
-    const bool readable = dynamic_cast<const NotWritable*>(&fault) != nullptr;
+    const bool readable = dynamic_cast<const StoreNotWritable*>(&fault) != nullptr;
     if (!readable) objects_.markAllObjectsLost();  // the store may have lost its data
-    const Milliseconds pause = backoff_.next();
+    const Milliseconds pause = backoff_.nextPause();
     const std::lock_guard lock(mutex_);
     retryAt_ = pollAt_ = now_() + pause;
     readAt_ = readable ? Clock::time_point() : retryAt_;
-    neverSaved_ = cached_.neverSaved();
+    neverSaved_ = cached_.neverSavedCount();
     if (lastError_.empty())
         spdlog::error("store unavailable, changes stay in memory until it is available again fault=\"{}\"", why);
     lastError_ = why;
 }
 
-void WriteBehindStore::storeWorked() {
+void WriteBehindStore::onStoreSucceeded() {
     backoff_.reset();
     {
         const std::lock_guard lock(mutex_);
@@ -283,83 +285,83 @@ void WriteBehindStore::storeWorked() {
 // --- Writing
 
 /// Takes a batch of sessions from the queue, and encodes their changes as updates.
-void WriteBehindStore::takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates) {
+void WriteBehindStore::takeBatch(std::vector<WriteJob>& jobs, std::vector<RecordUpdate>& updates) {
     const std::size_t maxBytes = std::min(kBatchBytes, settings_.quota / 8);
     std::size_t bytes = 0;
     while (jobs.size() < kBatch && bytes < maxBytes) {
         {
             const std::lock_guard lock(mutex_);
-            const auto id = cached_.takeQueued();
+            const auto id = cached_.takeFirstQueued();
             if (!id) break;
             CachedSession& cached = *cached_.find(*id);
             jobs.push_back({*id, std::exchange(cached.pending, {}), {}});
             updates.push_back({cached.credentials, cached.fence, {}, {}, {}, {}, cached.closed, true});
         }
-        Job& job = jobs.back();
-        job.added = objects_.encode(job.id, job.changes, settings_.maxUndo, updates.back());
+        WriteJob& job = jobs.back();
+        job.added = objects_.encodeChanges(job.id, job.changes, settings_.maxUndo, updates.back());
         bytes += store::estimateStoredSize(updates.back());
     }
 }
 
-void WriteBehindStore::write() {
+void WriteBehindStore::writeQueued() {
     writeRemovals();
     std::vector<RecordUpdate> updates;
-    std::vector<Job> jobs;
+    std::vector<WriteJob> jobs;
     std::vector<std::optional<SaveResult>> results;
     try {
-        takeJobs(jobs, updates);
+        takeBatch(jobs, updates);
         if (jobs.empty()) return;
-        results = runTimed("save", [&] { return saveMakingRoom(updates); });
+        results = runAndReportTime("save", [&] { return saveMakingRoom(updates); });
     } catch (const std::exception& fault) {
-        storeFailed(fault);
-        for (Job& job : jobs) requeue(job);
+        onStoreFailed(fault);
+        for (WriteJob& job : jobs) requeue(job);
         return;
     }
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         if (results[i]) {
-            applyResult(jobs[i], updates[i], *results[i]);
+            applySaveResult(jobs[i], updates[i], *results[i]);
         } else {
             requeue(jobs[i]);
         }
     }
-    if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeWorked();
+    if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) onStoreSucceeded();
 }
 
 /// Saves the updates. If the store is full, evicts closed sessions from the store to make room. For updates that still
-/// do not fit, returns empty optionals and calls storeFailed(); the other updates are saved.
+/// do not fit, returns empty optionals and calls onStoreFailed(); the other updates are saved.
 std::vector<std::optional<SaveResult>> WriteBehindStore::saveMakingRoom(std::span<const RecordUpdate> updates) {
     std::vector<std::optional<SaveResult>> results;
     try {
         for (const SaveResult one : store_->save(updates)) results.emplace_back(one);
         return results;
-    } catch (const NotWritable&) {
-        evictFor(updates);
+    } catch (const StoreNotWritable&) {
+        evictToFit(updates);
     }
     for (const RecordUpdate& update : updates) {
         try {
             results.emplace_back(saveOneMakingRoom(update));
-        } catch (const NotWritable& fault) {
-            if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) storeFailed(fault);
+        } catch (const StoreNotWritable& fault) {
+            if (std::ranges::all_of(results, [](const auto& one) { return one.has_value(); })) onStoreFailed(fault);
             results.emplace_back();
         }
     }
     return results;
 }
 
-/// Saves one update. If the store is full, evicts closed sessions from the store to make room. Throws NotWritable if
-/// the update still does not fit.
+/// Saves one update. If the store is full, evicts closed sessions from the store to make room. Throws StoreNotWritable
+/// if the update still does not fit.
 SaveResult WriteBehindStore::saveOneMakingRoom(const RecordUpdate& update) {
     const std::span<const RecordUpdate> one(&update, 1);
     try {
         return store_->save(one).at(0);
-    } catch (const NotWritable&) {
-        if (evictFor(one) == 0) throw;
+    } catch (const StoreNotWritable&) {
+        if (evictToFit(one) == 0) throw;
     }
     return store_->save(one).at(0);
 }
 
 /// Evicts closed sessions from the store until the updates fit. Returns the number of evicted sessions.
-std::size_t WriteBehindStore::evictFor(std::span<const RecordUpdate> updates) {
+std::size_t WriteBehindStore::evictToFit(std::span<const RecordUpdate> updates) {
     const std::size_t count = store_->evict(updates, [this](const std::string& id) {
         const std::lock_guard lock(mutex_);
         return cached_.contains(id);
@@ -378,9 +380,9 @@ void WriteBehindStore::writeRemovals() {
     }
     if (ids.empty()) return;
     try {
-        runTimed("remove", [&] { return store_->remove(ids), true; });
+        runAndReportTime("remove", [&] { return store_->remove(ids), true; });
     } catch (const std::exception& fault) {
-        storeFailed(fault);
+        onStoreFailed(fault);
         return;
     }
     const std::lock_guard lock(mutex_);
@@ -388,7 +390,7 @@ void WriteBehindStore::writeRemovals() {
     pollAt_ = Clock::time_point();  // poll soon, to update the number of stored sessions
 }
 
-void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveResult result) {
+void WriteBehindStore::applySaveResult(WriteJob& job, const RecordUpdate& update, SaveResult result) {
     if (result == SaveResult::saved) {
         objects_.recordSaved(job.id, job.added, update);
         const std::lock_guard lock(mutex_);
@@ -414,7 +416,7 @@ void WriteBehindStore::applyResult(Job& job, const RecordUpdate& update, SaveRes
 
 /// Makes the changes of a failed write pending again, unless newer changes are pending. If the store is unavailable,
 /// also queues the session and calls the waiting callbacks, so that no caller waits for the store.
-void WriteBehindStore::requeue(Job& job) {
+void WriteBehindStore::requeue(WriteJob& job) {
     std::vector<SaveCallback> released;
     {
         const std::lock_guard lock(mutex_);
@@ -432,7 +434,7 @@ void WriteBehindStore::requeue(Job& job) {
 
 /// Removes a session from memory if another server has claimed it with the fence `fence` or a later one. Keeps the
 /// session if this server has claimed it back.
-void WriteBehindStore::dropIfTakenOver(const std::string& id, Fence fence) {
+void WriteBehindStore::dropIfTakenOver(const std::string& id, FencingToken fence) {
     std::optional<CachedSession> dropped;
     {
         const std::lock_guard lock(mutex_);
@@ -455,22 +457,22 @@ void WriteBehindStore::poll() {
     std::size_t stored = 0;
     try {
         if (now_() >= refreshAt_) renewAndExpireSessions();
-        for (const auto& [id, fence] : runTimed("pulse", [&] { return store_->pollTakenOverSessions(); }))
+        for (const auto& [id, fence] : runAndReportTime("pulse", [&] { return store_->pollTakenOverSessions(); }))
             dropIfTakenOver(id, fence);
         stored = store_->size();  // called without holding mutex_, because a store may wait for its own lock
     } catch (const std::exception& fault) {
-        storeFailed(fault);
+        onStoreFailed(fault);
         return;
     }
     bool waiting = false;
     {
         const std::lock_guard lock(mutex_);
         storedCount_ = stored;
-        neverSaved_ = cached_.neverSaved();
+        neverSaved_ = cached_.neverSavedCount();
         waiting = hasPendingChanges();
     }
     // While changes wait, only a write shows whether the store works: even a full store can be polled.
-    if (!waiting) storeWorked();
+    if (!waiting) onStoreSucceeded();
 }
 
 /// Restarts the expiry period of open sessions, and deletes sessions whose expiry period has ended.
@@ -482,29 +484,29 @@ void WriteBehindStore::renewAndExpireSessions() {
         const std::lock_guard lock(mutex_);
         pollAt_ = std::min(pollAt_, refreshAt_);
         for (const std::string& id : cached_.removeClosedBefore(now_() - settings_.expiry)) objects_.forget(id);
-        open = cached_.openAndEverSaved();
+        open = cached_.idsOfOpenSavedSessions();
     }
     for (std::size_t i = 0; i < open.size(); i += kBatch) {
         const auto some = std::span(open).subspan(i, std::min(kBatch, open.size() - i));
-        runTimed("touch", [&] { return store_->restartExpiry(some), true; });
+        runAndReportTime("touch", [&] { return store_->restartExpiry(some), true; });
     }
-    const std::size_t expired = runTimed("expire", [&] { return store_->expire(settings_.expiry); });
+    const std::size_t expired = runAndReportTime("expire", [&] { return store_->expire(settings_.expiry); });
     if (expired > 0) spdlog::info("sessions expired count={}", expired);
 }
 
 // --- Reading
 
-void WriteBehindStore::runFetch(const SessionCredentials& credentials, Access access,
+void WriteBehindStore::runFetch(const SessionCredentials& credentials, FetchMode access,
                                 const std::function<void(FetchResult)>& done) {
     try {
         done(fetch(credentials, access));
     } catch (const std::exception& fault) {
-        storeFailed(fault);
+        onStoreFailed(fault);
         done(kNoAnswer);
     }
 }
 
-WriteBehindStore::FetchResult WriteBehindStore::fetch(const SessionCredentials& credentials, Access access) {
+WriteBehindStore::FetchResult WriteBehindStore::fetch(const SessionCredentials& credentials, FetchMode access) {
     {
         const std::lock_guard lock(mutex_);
         if (CachedSession* const cached = cached_.find(credentials.id)) {
@@ -519,17 +521,17 @@ WriteBehindStore::FetchResult WriteBehindStore::fetch(const SessionCredentials& 
         if (removals_.contains(credentials.id)) return kNotFound;
         if (now_() < readAt_) return kNoAnswer;
     }
-    const auto hash = runTimed("token", [&] { return store_->tokenHash(credentials.id); });
+    const auto hash = runAndReportTime("token", [&] { return store_->tokenHash(credentials.id); });
     if (!hash) return kNotFound;
     if (!equalInConstantTime(hashToken(credentials.token), *hash)) {
         // If the stored hash is damaged, the token may be correct.
-        return runTimed("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
+        return runAndReportTime("token", [&] { return store_->isDamaged(credentials.id); }) ? kNotFound : kBadToken;
     }
-    if (access == Access::read) {
-        auto stored = runTimed("read", [&] { return store_->read(credentials.id); });
+    if (access == FetchMode::read) {
+        auto stored = runAndReportTime("read", [&] { return store_->read(credentials.id); });
         return stored ? FetchResult(FetchedSession{{}, std::move(*stored)}) : kNotFound;
     }
-    auto record = runTimed("claim", [&] { return store_->claim(credentials.id); });
+    auto record = runAndReportTime("claim", [&] { return store_->claim(credentials.id); });
     if (!record) return kNotFound;
     const std::lock_guard lock(mutex_);
     cached_.addStored(credentials, record->fence);

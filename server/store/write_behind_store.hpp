@@ -77,12 +77,12 @@ class WriteBehindStore {
     WriteBehindStore& operator=(const WriteBehindStore&) = delete;
     ~WriteBehindStore();
 
-    Store::WritePolicy writePolicy() const { return writePolicy_; }
+    Store::WriteTiming writeTiming() const { return writePolicy_; }
     const std::string& name() const { return name_; }
 
     /// Creates a session that is open on this server, with the fence kFirstFence. Returns its credentials. The session
     /// is not in the store before it is saved.
-    SessionCredentials create();
+    SessionCredentials createSession();
 
     /// Makes the store thread read a session and pass it to `done`, without claiming the session. Errors are those of
     /// claimAndFetch(). The caller must not save a session that comes as `record`. Changes nothing in memory or in the
@@ -97,25 +97,26 @@ class WriteBehindStore {
     /// Returns whether this server still owns the session that it has created or fetched with this fence, as far as the
     /// cache knows. If the cache learns later that another server has claimed the session, it calls Listener::claimed,
     /// but not before this function has returned.
-    bool owns(const std::string& id, Fence fence) const;
+    bool ownsSession(const std::string& id, FencingToken fence) const;
 
     /// Records which objects of a fetched session are in the store, so that they are not written again.
     void setStoredKeys(const std::string& id, KeysBySerial keys);
 
     /// Records that a session has changes that will soon be saved. unsaved() then counts the session until save() or
-    /// close() is called. Does nothing if this server does not own the session with this fence.
-    void noteChange(const std::string& id, Fence fence);
+    /// closeSession() is called. Does nothing if this server does not own the session with this fence.
+    void recordUnsavedChange(const std::string& id, FencingToken fence);
 
     /// Queues the whole session, or only its current state (SaveScope::head), for writing. `fence` is the fence with
     /// which the caller has created or fetched the session. Calls `written(true)` when the session is stored; if the
     /// store is unavailable, at once, so that clients need not wait. Calls `written(false)` if the session will never
     /// be stored, because it was removed or evicted, or because another server has claimed it, so that `fence` is out
     /// of date.
-    void save(const std::string& id, Fence fence, session::Session value, SaveScope scope, SaveCallback written = {});
+    void save(const std::string& id, FencingToken fence, session::Session value, SaveScope scope,
+              SaveCallback written = {});
 
     /// Queues the last write of a session that no client has open anymore. The session stays in memory until it is
     /// written.
-    void close(const std::string& id, session::Session value);
+    void closeSession(const std::string& id, session::Session value);
 
     /// Deletes a closed session from memory and from the store. If the store is unavailable, the deletion from the
     /// store happens later. Does nothing if a client has the session open, on this or another server.
@@ -128,7 +129,7 @@ class WriteBehindStore {
     /// Returns the approximate number of sessions in the store and in memory together. If several servers share the
     /// store, returns only the number of sessions in this server's memory.
     std::size_t sessionCount() const;
-    /// Returns the number of sessions with changes that may not be in the store yet. With WritePolicy::at_close, open
+    /// Returns the number of sessions with changes that may not be in the store yet. With WriteTiming::at_close, open
     /// sessions do not count, because sessions are then written only when they are closed.
     std::size_t unsaved() const;
     /// Returns the text of the last error of the store, or an empty string while the store is available.
@@ -139,7 +140,7 @@ class WriteBehindStore {
 
   private:
     // A session that is being written, with its changes.
-    struct Job {
+    struct WriteJob {
         std::string id;
         PendingChanges changes;
         // The serial numbers (ObjectInfo::serial) of the objects that this write adds to the store.
@@ -147,37 +148,38 @@ class WriteBehindStore {
     };
 
     // How to fetch a session that is not in memory: only read its record, or also claim it.
-    enum class Access : std::uint8_t { read, claim };
-    void queueFetch(SessionCredentials credentials, Access access, std::function<void(FetchResult)> done);
+    enum class FetchMode : std::uint8_t { read, claim };
+    void queueFetch(SessionCredentials credentials, FetchMode access, std::function<void(FetchResult)> done);
 
     // The following functions run on the store thread.
     void runThread();
-    void write();
-    void takeJobs(std::vector<Job>& jobs, std::vector<RecordUpdate>& updates);
+    void writeQueued();
+    void takeBatch(std::vector<WriteJob>& jobs, std::vector<RecordUpdate>& updates);
     std::vector<std::optional<SaveResult>> saveMakingRoom(std::span<const RecordUpdate> updates);
     SaveResult saveOneMakingRoom(const RecordUpdate& update);
-    std::size_t evictFor(std::span<const RecordUpdate> updates);
+    std::size_t evictToFit(std::span<const RecordUpdate> updates);
     void writeRemovals();
-    void dropKeys(const std::string& id);
-    void applyResult(Job& job, const RecordUpdate& update, SaveResult result);
-    void requeue(Job& job);
-    void dropIfTakenOver(const std::string& id, Fence fence);
+    void forgetObjectKeys(const std::string& id);
+    void applySaveResult(WriteJob& job, const RecordUpdate& update, SaveResult result);
+    void requeue(WriteJob& job);
+    void dropIfTakenOver(const std::string& id, FencingToken fence);
     void poll();
     void renewAndExpireSessions();
-    void runFetch(const SessionCredentials& credentials, Access access, const std::function<void(FetchResult)>& done);
-    FetchResult fetch(const SessionCredentials& credentials, Access access);
+    void runFetch(const SessionCredentials& credentials, FetchMode access,
+                  const std::function<void(FetchResult)>& done);
+    FetchResult fetch(const SessionCredentials& credentials, FetchMode access);
     template <typename Operation>
-    auto runTimed(const char* name, Operation operation);
-    void storeFailed(const std::exception& fault);
-    void storeWorked();
+    auto runAndReportTime(const char* name, Operation operation);
+    void onStoreFailed(const std::exception& fault);
+    void onStoreSucceeded();
 
     // Callers of these functions must hold mutex_.
     bool hasPendingChanges() const { return cached_.queueLength() > 0 || !removals_.empty(); }
-    bool isReadyToWrite() const;
-    Clock::time_point nextWake() const;
+    bool isWriteDue() const;
+    Clock::time_point nextWakeTime() const;
 
     const std::unique_ptr<Store> store_;
-    const Store::WritePolicy writePolicy_;
+    const Store::WriteTiming writePolicy_;
     const std::string name_;
     const WriteBehindSettings settings_;
     const Listener listener_;
@@ -189,12 +191,11 @@ class WriteBehindStore {
     CachedSessions cached_;
     // Tasks that do not use the store. The store thread runs these tasks before all other work.
     std::deque<std::function<void()>> tasks_;
-    std::deque<std::function<void()>>
-        requests_;                    // calls of read(), claimAndFetch() and remove(), which take turns with writes and
-                                      // polls.
-    std::set<std::string> removals_;  // ids to remove from the store
-    std::size_t storedCount_ = 0;     // number of sessions in the store at the last poll
-    std::size_t neverSaved_ = 0;      // number of sessions that have never been in the store
+    std::deque<std::function<void()>> requests_;  // calls of read(), claimAndFetch() and remove(), which take turns
+                                                  // with writes and polls.
+    std::set<std::string> removals_;              // ids to remove from the store
+    std::size_t storedCount_ = 0;                 // number of sessions in the store at the last poll
+    std::size_t neverSaved_ = 0;                  // number of sessions that have never been in the store
     std::string lastError_;
     // retryAt_ is the earliest time of the next write, and pollAt_ the time of the next poll().
     Clock::time_point retryAt_, pollAt_;

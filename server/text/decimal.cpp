@@ -28,19 +28,19 @@ constexpr std::array<std::uint64_t, 10'000> smallIntegerTexts() {
 }
 
 // The JSON text after a number: "," within a vector, and "],[" after the last number of a vector.
-struct Separator {
+struct JsonSeparator {
     char text[4];
     std::size_t length;
 };
 template <std::size_t Size>
-constexpr std::array<Separator, Size> separators() {
-    std::array<Separator, Size> all{};
+constexpr std::array<JsonSeparator, Size> vectorSeparators() {
+    std::array<JsonSeparator, Size> all{};
     for (auto& each : all) each = {",", 1};
     all.back() = {"],[", 3};
     return all;
 }
 
-char* putSeparator(char* at, const Separator& separator) {
+char* putSeparator(char* at, const JsonSeparator& separator) {
     std::memcpy(at, separator.text, sizeof separator.text);
     return at + separator.length;
 }
@@ -52,8 +52,8 @@ constexpr float kExponentFrom = 1e5F;
 // of vectors with `Size` coordinates each, from the first coordinate of the first vector on. Returns the end of the
 // text.
 template <std::size_t Size>
-char* putPlain(char* at, const double* numbers, std::size_t begin, std::size_t end) {
-    static constexpr auto kSeparators = separators<Size>();
+char* putCoordinatesScalar(char* at, const double* numbers, std::size_t begin, std::size_t end) {
+    static constexpr auto kSeparators = vectorSeparators<Size>();
     for (std::size_t i = begin; i < end; ++i) {
         const auto number = static_cast<float>(numbers[i]);
         char* const room = at + 2 * kBytesPerNumber;
@@ -87,9 +87,9 @@ struct FormattedNumbers {
     // For each number: the next eight decimals, including trailing zeros, as bytes from 0 to 9. The lowest byte is the
     // first of these decimals.
     alignas(32) std::uint64_t digits[kBlock];
-    // For each group: whether putPlain() must write all numbers of the group instead. This is necessary in two cases: a
-    // number is too small or too large for `head` and `digits`, or a number has no nonzero digit after the second
-    // decimal. In the second case, `head` could end in superfluous zeros.
+    // For each group: whether putCoordinatesScalar() must write all numbers of the group instead. This is necessary in
+    // two cases: a number is too small or too large for `head` and `digits`, or a number has no nonzero digit after the
+    // second decimal. In the second case, `head` could end in superfluous zeros.
     bool needsFallback[kGroups];
 };
 
@@ -107,7 +107,7 @@ constexpr std::int32_t kMinExponent = -10, kExponents = 16;
 // kExponentMask selects the exponent bits of a float. Subtracting kHalfSpacing from these bits gives the bits of the
 // float 2^(e − 24), half the spacing of the floats from 2^e to 2^(e + 1).
 constexpr std::int32_t kExponentMask = 0x7F80'0000, kHalfSpacing = 24 << 23;
-// A bound for the rounding errors of convert(), in units of 10^−p.
+// A bound for the rounding errors of formatNumbers(), in units of 10^−p.
 constexpr double kMargin = 0x1p-20;
 
 // Tables for the unit 10^−p, with the index 10 − p. kUnitsPerOne contains 10^p. kUnitSize contains the unit as a
@@ -115,45 +115,45 @@ constexpr double kMargin = 0x1p-20;
 constexpr std::array<float, 8> kUnitsPerOne{1e10, 1e9, 1e8, 1e7, 1e6}, kUnitSize{1e0, 1e1, 1e2, 1e3, 1e4};
 
 // A number that rounds: adding kRounder to a number from −0.5 to 2^51 (exclusive) rounds it to an integer. This integer
-// is in the low bits of the sum, from which integerOf() extracts it.
+// is in the low bits of the sum, from which extractInteger() extracts it.
 constexpr double kRounder = 0x1.8p52;
-[[gnu::target("avx2")]] inline SimdUint64x4 integerOf(SimdDouble4 sum) {
+[[gnu::target("avx2")]] inline SimdUint64x4 extractInteger(SimdDouble4 sum) {
     return SimdUint64x4(sum) ^ std::bit_cast<std::uint64_t>(kRounder);
 }
 
-[[gnu::target("avx2")]] inline SimdDouble4 widened(SimdFloat4 numbers) {
+[[gnu::target("avx2")]] inline SimdDouble4 toDoubles(SimdFloat4 numbers) {
     return SimdDouble4(_mm256_cvtps_pd(__m128(numbers)));
 }
 
 // Returns table[which[i]] for each i.
-[[gnu::target("avx2")]] inline SimdDouble4 pick(const std::array<float, 8>& table, SimdInt32x4 which) {
+[[gnu::target("avx2")]] inline SimdDouble4 lookUp(const std::array<float, 8>& table, SimdInt32x4 which) {
     const __m256i places = _mm256_castsi128_si256(__m128i(which));
     const __m256 picked = _mm256_permutevar8x32_ps(_mm256_loadu_ps(table.data()), places);
-    return widened(SimdFloat4(_mm256_castps256_ps128(picked)));
+    return toDoubles(SimdFloat4(_mm256_castps256_ps128(picked)));
 }
 
-// Operations on 16-bit elements: plus() adds them, and highTimes() returns the upper 16 bits of the products.
-[[gnu::target("avx2")]] inline SimdUint64x4 plus(SimdUint64x4 a, SimdUint64x4 b) {
+// Operations on 16-bit elements: addWords() adds them, and multiplyHigh() returns the upper 16 bits of the products.
+[[gnu::target("avx2")]] inline SimdUint64x4 addWords(SimdUint64x4 a, SimdUint64x4 b) {
     return SimdUint64x4(_mm256_add_epi16(__m256i(a), __m256i(b)));
 }
-[[gnu::target("avx2")]] inline SimdUint64x4 highTimes(SimdUint64x4 a, short b) {
+[[gnu::target("avx2")]] inline SimdUint64x4 multiplyHigh(SimdUint64x4 a, short b) {
     return SimdUint64x4(_mm256_mulhi_epu16(__m256i(a), _mm256_set1_epi16(b)));
 }
 // Returns the products of the lower byte of each 16-bit number and `b`, which must be from −128 to 127.
-[[gnu::target("avx2")]] inline SimdUint64x4 lowTimes(SimdUint64x4 a, int b) {
+[[gnu::target("avx2")]] inline SimdUint64x4 multiplyLowBytes(SimdUint64x4 a, int b) {
     return SimdUint64x4(_mm256_maddubs_epi16(__m256i(a), _mm256_set1_epi16(b & 0xFF)));
 }
 
 // Converts each 32-bit half of each element to its four decimal digits, with one digit per byte. The lowest byte is the
 // most significant digit. Each half must be below 10,000.
 [[gnu::target("avx2")]] inline SimdUint64x4 fourDigits(SimdUint64x4 numbers) {
-    const auto hundreds = SimdUint64x4(SimdUint32x8(highTimes(numbers, 5243)) >> 3);
-    const SimdUint64x4 pairs = hundreds | plus(numbers, lowTimes(hundreds, -100)) << 16;
-    const SimdUint64x4 tens = highTimes(pairs, 6554);
-    return tens | plus(pairs, lowTimes(tens, -10)) << 8;
+    const auto hundreds = SimdUint64x4(SimdUint32x8(multiplyHigh(numbers, 5243)) >> 3);
+    const SimdUint64x4 pairs = hundreds | addWords(numbers, multiplyLowBytes(hundreds, -100)) << 16;
+    const SimdUint64x4 tens = multiplyHigh(pairs, 6554);
+    return tens | addWords(pairs, multiplyLowBytes(tens, -10)) << 8;
 }
 
-[[gnu::target("avx2")]] void convert(const double* numbers, FormattedNumbers& out) {
+[[gnu::target("avx2")]] void formatNumbers(const double* numbers, FormattedNumbers& out) {
     SimdInt32x4 bits[kGroups], drop[kGroups], outOfRange[kGroups];
     SimdDouble4 unitsPerOne[kGroups], exact[kGroups], rounder[kGroups], decimals[kGroups], upper[kGroups];
     SimdUint64x4 digits[kGroups], first[kGroups];
@@ -167,27 +167,27 @@ constexpr double kRounder = 0x1.8p52;
         drop[g] = (place * 1233 + 270) >> 12;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
-        unitsPerOne[g] = pick(kUnitsPerOne, drop[g]);
-        exact[g] = widened(SimdFloat4(bits[g] & 0x7FFF'FFFF)) * unitsPerOne[g];
+        unitsPerOne[g] = lookUp(kUnitsPerOne, drop[g]);
+        exact[g] = toDoubles(SimdFloat4(bits[g] & 0x7FFF'FFFF)) * unitsPerOne[g];
     }
     for (std::size_t g = 0; g < kGroups; ++g) rounder[g] = ((exact[g] * 0.1 + kRounder) - kRounder) * 10;
     for (std::size_t g = 0; g < kGroups; ++g) {
         const auto half = SimdFloat4((bits[g] & kExponentMask) - kHalfSpacing);
-        const SimdDouble4 reach = widened(half) * unitsPerOne[g] - kMargin;
+        const SimdDouble4 reach = toDoubles(half) * unitsPerOne[g] - kMargin;
         const SimdDouble4 off = SimdDouble4(SimdUint64x4(rounder[g] - exact[g]) & ~std::uint64_t{0} >> 1);
         const SimdDouble4 nearest = (exact[g] + kRounder) - kRounder;
-        decimals[g] = (off < reach ? rounder[g] : nearest) * pick(kUnitSize, drop[g]);
+        decimals[g] = (off < reach ? rounder[g] : nearest) * lookUp(kUnitSize, drop[g]);
     }
     for (std::size_t g = 0; g < kGroups; ++g) upper[g] = (decimals[g] - 49'999'999.5) * 1e-8 + kRounder;
     for (std::size_t g = 0; g < kGroups; ++g) {
         const SimdDouble4 eight = decimals[g] - (upper[g] - kRounder) * 1e8;
         const SimdDouble4 thousands = (eight - 4'999.5) * 1e-4 + kRounder;
-        digits[g] = integerOf(thousands) | integerOf(eight - (thousands - kRounder) * 1e4 + kRounder) << 32;
+        digits[g] = extractInteger(thousands) | extractInteger(eight - (thousands - kRounder) * 1e4 + kRounder) << 32;
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         digits[g] = fourDigits(digits[g]);
         // The digits of the tens, ones, tenths and hundredths.
-        first[g] = fourDigits(integerOf(upper[g]));
+        first[g] = fourDigits(extractInteger(upper[g]));
     }
     for (std::size_t g = 0; g < kGroups; ++g) {
         const SimdUint64x4 tens = first[g] & 0xFF;
@@ -209,13 +209,13 @@ constexpr double kRounder = 0x1.8p52;
 
 template <std::size_t Size>
 [[gnu::target("avx2")]] char* putBlock(char* at, const double* numbers, std::size_t count) {
-    static constexpr auto kSeparators = separators<Size>();
+    static constexpr auto kSeparators = vectorSeparators<Size>();
     FormattedNumbers block;
-    convert(numbers, block);
+    formatNumbers(numbers, block);
 #pragma GCC unroll 12
     for (std::size_t i = 0; i < count; ++i) {
         if (block.needsFallback[i / 4]) {
-            at = putPlain<Size>(at, numbers, i, i + 1);
+            at = putCoordinatesScalar<Size>(at, numbers, i, i + 1);
             continue;
         }
         std::memcpy(at, &block.head[i], 8);
@@ -240,25 +240,25 @@ template <std::size_t Size>
 }
 
 template <std::size_t Size>
-char* put(char* at, const double* numbers, std::size_t count) {
+char* putCoordinates(char* at, const double* numbers, std::size_t count) {
     static const bool blocks = __builtin_cpu_supports("avx2") != 0;
-    return blocks ? putBlocks<Size>(at, numbers, count) : putPlain<Size>(at, numbers, 0, count);
+    return blocks ? putBlocks<Size>(at, numbers, count) : putCoordinatesScalar<Size>(at, numbers, 0, count);
 }
 
 #else
 
 template <std::size_t Size>
-char* put(char* at, const double* numbers, std::size_t count) {
-    return putPlain<Size>(at, numbers, 0, count);
+char* putCoordinates(char* at, const double* numbers, std::size_t count) {
+    return putCoordinatesScalar<Size>(at, numbers, 0, count);
 }
 
 #endif
 
 template <typename V>
-char* putAll(char* at, std::span<const V> list) {
+char* putVectorList(char* at, std::span<const V> list) {
     if (list.empty()) return at;
     *at++ = '[';
-    at = put<sizeof(V) / sizeof(double)>(at, &list[0].x, list.size() * (sizeof(V) / sizeof(double)));
+    at = putCoordinates<sizeof(V) / sizeof(double)>(at, &list[0].x, list.size() * (sizeof(V) / sizeof(double)));
     return at - 2;  // omits the ",[" after the last vector
 }
 
@@ -274,7 +274,7 @@ char* putLargeInteger(char* at, std::uint32_t number) {
     return at + 4;
 }
 
-char* putVectorsAsJson(char* at, std::span<const glm::dvec3> list) { return putAll(at, list); }
-char* putVectorsAsJson(char* at, std::span<const glm::dvec4> list) { return putAll(at, list); }
+char* putVectorsAsJson(char* at, std::span<const glm::dvec3> list) { return putVectorList(at, list); }
+char* putVectorsAsJson(char* at, std::span<const glm::dvec4> list) { return putVectorList(at, list); }
 
 }  // namespace oval4d::text

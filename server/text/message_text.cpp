@@ -17,7 +17,7 @@ namespace {
 
 // Returns the Levenshtein distance of two texts. The running time is proportional to the product of their lengths, so
 // both must be short.
-std::size_t distance(std::string_view a, std::string_view b) {
+std::size_t editDistance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -68,7 +68,7 @@ std::string_view closestMatch(std::string_view text, std::span<const std::string
         if (candidate.size() > text.size() + least / 2) continue;
         // Among candidates at the same distance, prefer candidates of the same length: "25-cell" more likely means
         // 24-cell than 5-cell.
-        const std::size_t d = 2 * distance(text, candidate) + (candidate.size() == text.size() ? 0 : 1);
+        const std::size_t d = 2 * editDistance(text, candidate) + (candidate.size() == text.size() ? 0 : 1);
         if (d < least && d <= candidate.size() + 1) {
             least = d;
             best = candidate;
@@ -91,7 +91,7 @@ std::string commaSeparated(std::span<const std::string_view> names) {
     return list;
 }
 
-std::string alternatives(std::span<const std::string_view> names) {
+std::string joinedWithOr(std::span<const std::string_view> names) {
     if (names.size() < 2) return commaSeparated(names);
     return commaSeparated(names.first(names.size() - 1)) + " or " + std::string(names.back());
 }

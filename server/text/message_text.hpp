@@ -21,7 +21,7 @@ std::string didYouMean(std::string_view text, std::span<const std::string_view> 
 std::string commaSeparated(std::span<const std::string_view> names);
 
 /// Returns the names as alternatives: "a", "a or b", "a, b or c".
-std::string alternatives(std::span<const std::string_view> names);
+std::string joinedWithOr(std::span<const std::string_view> names);
 
 /// Returns whether `text` is valid UTF-8 (RFC 3629). All text in messages must be valid UTF-8.
 bool isUtf8(std::string_view text);

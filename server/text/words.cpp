@@ -10,7 +10,7 @@ namespace {
 
 bool isSeparator(char c) { return c == '-' || c == '_' || std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char toLower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 }  // namespace
 
@@ -30,7 +30,7 @@ std::vector<std::string> lowerCaseWords(std::string_view text) {
     for (const char c : text) {
         if (!isSeparator(c)) {
             if (apart) words.emplace_back();
-            words.back() += lower(c);
+            words.back() += toLower(c);
         }
         apart = isSeparator(c);
     }
@@ -46,12 +46,12 @@ std::string joined(const std::vector<std::string>& words, std::size_t first, std
 std::string normalizedName(std::string_view text) {
     std::string result;
     for (const char c : text) {
-        if (!isSeparator(c)) result += lower(c);
+        if (!isSeparator(c)) result += toLower(c);
     }
     return result;
 }
 
-std::size_t leadingUnicodeSpace(std::string_view text) {
+std::size_t leadingUnicodeSpaceLength(std::string_view text) {
     using namespace std::string_view_literals;
     constexpr auto kSpaces = std::to_array({"\xC2\xA0"sv, "\xE2\x80\xAF"sv, "\xE2\x81\x9F"sv, "\xE3\x80\x80"sv});
     for (const std::string_view space : kSpaces) {
@@ -68,7 +68,7 @@ std::string withPlainBlanks(std::string_view text) {
     std::string plain;
     plain.reserve(text.size());
     while (!text.empty()) {
-        const std::size_t space = leadingUnicodeSpace(text);
+        const std::size_t space = leadingUnicodeSpaceLength(text);
         plain += space > 0 ? ' ' : text[0];
         text.remove_prefix(std::max<std::size_t>(space, 1));
     }

@@ -24,9 +24,9 @@ std::string normalizedName(std::string_view text);
 
 /// Returns the number of bytes of the space character at the beginning of a UTF-8 text, if this is U+00A0, U+2000 to
 /// U+200A, U+202F, U+205F or U+3000. Returns 0 otherwise, also for the ASCII space.
-std::size_t leadingUnicodeSpace(std::string_view text);
+std::size_t leadingUnicodeSpaceLength(std::string_view text);
 
-/// Returns the text with U+0020 in place of each space that leadingUnicodeSpace() recognizes. An example is the
+/// Returns the text with U+0020 in place of each space that leadingUnicodeSpaceLength() recognizes. An example is the
 /// no-break space between a number and its unit.
 std::string withPlainBlanks(std::string_view text);
 

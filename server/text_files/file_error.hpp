@@ -22,7 +22,7 @@ struct FileError {
 
 /// Returns the error as a text for the user, such as "line 2, column 3: …". Returns only the reason if the line is
 /// unknown.
-inline std::string message(const FileError& error) {
+inline std::string fileErrorText(const FileError& error) {
     if (error.line == 0) return error.reason;
     std::string text = "line " + std::to_string(error.line);
     if (error.column > 0) text += ", column " + std::to_string(error.column);

@@ -51,7 +51,7 @@ bool isBelowOne(std::string_view number) {
 }
 
 // Returns ParsedCoordinate::fault for a word with a comma, such as "0,5" or "1,", in a text with decimal points.
-std::string faultOf(std::string_view word) {
+std::string commaFaultOf(std::string_view word) {
     CoordinateReader reader;
     if (word.ends_with(',') && reader.read(word.substr(0, word.size() - 1)).fault.empty())
         return "ends with a comma; write blanks between numbers";
@@ -92,7 +92,7 @@ ParsedCoordinate CoordinateReader::read(std::string_view word, DecimalMark mark)
     const char* const end = text_.data() + text_.size();
     const auto [stop, error] = std::from_chars(text_.data(), end, result.value);
     if (stop != end || error == std::errc::invalid_argument)
-        return failed(hasComma && mark == DecimalMark::point ? faultOf(word) : kNotANumber);
+        return failed(hasComma && mark == DecimalMark::point ? commaFaultOf(word) : kNotANumber);
     if (error == std::errc{} && !std::isfinite(result.value)) return failed(kNotFinite);
     const bool tooSmall = error == std::errc::result_out_of_range && isBelowOne(text_);
     if (tooSmall) result.value = 0;

@@ -44,8 +44,9 @@ constexpr auto kKinds = std::to_array<RefusedFileKind>({
     {"\0\0\xFE\xFF"sv, "is text in UTF-32; save it in UTF-8"},
 });
 
-/// Kinds of text files that are refused. plainText() compares the start of a text, in lowercase, with these signatures.
-/// The first signature must be the longest one, because plainText() converts only as many characters to lowercase.
+/// Kinds of text files that are refused. decodePlainText() compares the start of a text, in lowercase, with these
+/// signatures. The first signature must be the longest one, because decodePlainText() converts only as many characters
+/// to lowercase.
 constexpr auto kTextKinds = std::to_array<RefusedFileKind>({
     {"<!doctype html", "is an HTML page"},
     {"<html", "is an HTML page"},
@@ -66,12 +67,12 @@ std::string fromUtf16(std::string_view bytes, std::size_t low) {
 }
 
 // Returns the number of bytes of the space at the beginning of a text; 0 if there is none. Spaces are a vertical tab, a
-// form feed, a byte order mark, a zero-width space, and the spaces that text::leadingUnicodeSpace() recognizes.
+// form feed, a byte order mark, a zero-width space, and the spaces that text::leadingUnicodeSpaceLength() recognizes.
 std::size_t spaceAt(std::string_view text) {
     for (const std::string_view space : {"\v"sv, "\f"sv, "\xEF\xBB\xBF"sv, "\xE2\x80\x8B"sv}) {
         if (text.starts_with(space)) return space.size();
     }
-    return text::leadingUnicodeSpace(text);
+    return text::leadingUnicodeSpaceLength(text);
 }
 
 // Replaces the line ends CR LF and CR by LF. Replaces each space that spaceAt() recognizes by U+0020.
@@ -98,7 +99,7 @@ void normalizeSpace(std::string& text) {
 
 }  // namespace
 
-std::string plainText(std::string_view bytes) {
+std::string decodePlainText(std::string_view bytes) {
     for (const RefusedFileKind& kind : kKinds) {
         if (bytes.starts_with(kind.signature)) throwFileError(0, "the file " + std::string(kind.description));
     }

@@ -10,6 +10,6 @@ namespace oval4d::text_files {
 /// vertical tabs, form feeds and Unicode spaces by U+0020. Keeps bytes that are not valid UTF-8, because they are
 /// usually in comments. Throws a FileError if the file is empty, contains a zero byte, or begins like a file of another
 /// kind, such as a compressed file, a picture or a web page. The error names this kind.
-std::string plainText(std::string_view bytes);
+std::string decodePlainText(std::string_view bytes);
 
 }  // namespace oval4d::text_files

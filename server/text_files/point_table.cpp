@@ -33,7 +33,7 @@ struct ColumnLayout {
                            [](const auto& at) { return at.has_value(); });
     }
     // Returns whether the columns x, y, z and w come in this order.
-    bool isInOrder() const { return std::ranges::is_sorted(std::span(columns).first(kRadiusIndex)); }
+    bool isInAxisOrder() const { return std::ranges::is_sorted(std::span(columns).first(kRadiusIndex)); }
 };
 
 // Returns the name of a column without its unit, which may follow in brackets or after a slash, as in "t [s]" or "t/s".
@@ -60,7 +60,7 @@ void removeUnits(std::vector<std::string_view>& names) {
 
 // Returns the layout of a table whose columns have these names. Returns an empty optional if fewer than two names are
 // names of coordinates. If no column is called w, a column called t or time is w.
-std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
+std::optional<ColumnLayout> columnLayoutOf(std::span<const std::string_view> names) {
     ColumnLayout layout;
     layout.count = names.size();
     std::vector<std::string> normalized;
@@ -90,18 +90,18 @@ std::optional<ColumnLayout> layoutOf(std::span<const std::string_view> names) {
 // Reads names of columns from a line. Tries several separators, because the names may be separated in another way than
 // the rows. Returns the first layout for which `accepts` returns true, or an empty optional if there is none.
 // Overwrites `row`.
-std::optional<ColumnLayout> findLayout(std::string_view line, const TableFormat& format, TableRow& row,
-                                       const std::function<bool(const ColumnLayout&)>& accepts) {
+std::optional<ColumnLayout> findColumnLayout(std::string_view line, const TableFormat& format, SplitTableRow& row,
+                                             const std::function<bool(const ColumnLayout&)>& accepts) {
     for (const char separator : {format.separator, ';', '\t', ',', ' '}) {
-        split(line, separator, row);
+        splitColumns(line, separator, row);
         if (separator == ' ') removeUnits(row.columns);
-        if (auto layout = layoutOf(row.columns); layout && accepts(*layout)) return layout;
+        if (auto layout = columnLayoutOf(row.columns); layout && accepts(*layout)) return layout;
     }
     return {};
 }
 
 // Returns the part of a comment that may name the columns: "x, y, z, w" for "columns: (x, y, z, w)".
-std::string_view namesOfComment(std::string_view comment) {
+std::string_view columnNamesInComment(std::string_view comment) {
     if (const std::size_t colon = comment.find_last_of(":="); colon != std::string_view::npos)
         comment = text::trimmed(comment.substr(colon + 1));
     const std::size_t end = std::min(comment.find_first_of(" \t"), comment.size());
@@ -114,23 +114,23 @@ std::string_view namesOfComment(std::string_view comment) {
 }
 
 // Returns whether a line tells Excel the separator: "sep=;", for example, or "sep=" and a tab. The caller skips such a
-// line, because formatOf() finds the separator from the rows.
+// line, because tableFormatOf() finds the separator from the rows.
 bool isSeparatorStatement(std::string_view line) {
     line = text::trimmed(line);
     return line.size() <= 5 && text::normalizedName(line.substr(0, 4)) == "sep=";
 }
 
-class PointReader {
+class PointTableReader {
   public:
-    PointReader(std::string_view text, const PointTableOptions& options,
-                const std::function<void(const PointRow&)>& add)
-        : lines_(text), format_(formatOf(lines_)), options_(options), add_(add) {}
+    PointTableReader(std::string_view text, const PointTableOptions& options,
+                     const std::function<void(const PointRow&)>& add)
+        : lines_(text), format_(tableFormatOf(lines_)), options_(options), add_(add) {}
 
     std::vector<std::string> read() {
         bool first = true;  // true until a header or a row was read
         std::size_t titles = 0;
         std::vector<TableLine> comments;
-        while (const auto line = lines_.next()) {
+        while (const auto line = lines_.nextLine()) {
             if (text::trimmed(line->content).empty()) {
                 if (first && !line->comment.empty()) comments.push_back(*line);
                 continue;
@@ -153,7 +153,7 @@ class PointReader {
     // and returns false. Otherwise, reads `line` as the header or, if it names no columns, as a title, and returns
     // true.
     bool readHeader(const TableLine& line, std::span<const TableLine> comments) {
-        split(line.content, format_.separator, row_);
+        splitColumns(line.content, format_.separator, row_);
         const auto number = [&](std::string_view word) { return isNumber(word, format_.mark); };
         if (std::ranges::any_of(row_.columns, number)) {
             splitRow(line);
@@ -161,8 +161,8 @@ class PointReader {
             return false;
         }
         const bool likeNumbers = std::ranges::any_of(row_.columns, beginsLikeANumber);
-        auto layout = findLayout(line.content, format_, row_, &ColumnLayout::hasAllCoordinates);
-        if (!layout) layout = findLayout(line.content, format_, row_, [](const ColumnLayout&) { return true; });
+        auto layout = findColumnLayout(line.content, format_, row_, &ColumnLayout::hasAllCoordinates);
+        if (!layout) layout = findColumnLayout(line.content, format_, row_, [](const ColumnLayout&) { return true; });
         if (!layout && likeNumbers) return false;  // a faulty row; readRow() will report the word that is not a number
         if (!layout) {
             warnings_.push_back("line " + std::to_string(line.number) + ", " +
@@ -184,7 +184,7 @@ class PointReader {
     // columns are x, y, z, w in this order; a warning then names the first comment with another order, because it was
     // not used.
     void readComments(std::span<const TableLine> comments) {
-        const TableRow first = row_;
+        const SplitTableRow first = row_;
         const auto fits = [&](const ColumnLayout& layout) {
             const std::size_t size = first.columns.size();
             const bool sameSize = size == layout.count || (first.endsWithSeparator && size < layout.count);
@@ -192,13 +192,13 @@ class PointReader {
             return layout.hasAllCoordinates() && (sameSize || radiusMisses);
         };
         for (std::size_t i = comments.size(); i-- > 0;) {
-            if (auto layout = findLayout(namesOfComment(comments[i].comment), format_, row_, fits))
+            if (auto layout = findColumnLayout(columnNamesInComment(comments[i].comment), format_, row_, fits))
                 return setLayout(std::move(*layout));
         }
         for (const TableLine& line : comments) {
             const auto layout =
-                findLayout(namesOfComment(line.comment), format_, row_, &ColumnLayout::hasAllCoordinates);
-            if (!layout || layout->isInOrder()) continue;
+                findColumnLayout(columnNamesInComment(line.comment), format_, row_, &ColumnLayout::hasAllCoordinates);
+            if (!layout || layout->isInAxisOrder()) continue;
             warnings_.push_back("the comment in line " + std::to_string(line.number) +
                                 " does not name each column of the rows, and was not read as a header");
             return;
@@ -217,7 +217,7 @@ class PointReader {
 
     // Returns whether the content of a column matters. The index `column` counts from 0. Without a header, every column
     // matters; with a header, only the coordinates and the radius.
-    bool isRead(std::size_t column) const {
+    bool isColumnRead(std::size_t column) const {
         return layout_.count == 0 || std::ranges::find(layout_.columns, std::optional(column)) != layout_.columns.end();
     }
 
@@ -227,7 +227,7 @@ class PointReader {
         const std::size_t needed = layout_.count > 0 ? layout_.count : std::max(firstSize_, kRadiusIndex);
         if (row_.endsWithSeparator && columns.size() < needed) columns.resize(needed);
         for (std::size_t i = 0; i < columns.size(); ++i) {
-            if (columns[i].empty() && isRead(i)) throwFileError(line, "the column is empty", i + 1);
+            if (columns[i].empty() && isColumnRead(i)) throwFileError(line, "the column is empty", i + 1);
         }
         const std::size_t size = columns.size();
         const bool radiusMisses = format_.separator == ' ' && layout_.radiusMayMiss && size + 1 == layout_.count;
@@ -253,7 +253,7 @@ class PointReader {
         const std::size_t last = content.find_last_not_of(" \t");
         // Drop a semicolon at the end of the row. In MATLAB, a semicolon ends each row of a matrix.
         if (format_.separator != ';' && content[last] == ';') content = content.substr(0, last);
-        split(content, format_.separator, row_);
+        splitColumns(content, format_.separator, row_);
     }
 
     void readRow(const TableLine& line) {
@@ -267,14 +267,14 @@ class PointReader {
         point.line = line.number;
         for (std::size_t i = 0; i < kRadiusIndex; ++i) {
             const std::size_t at = layout_.columns[i].value_or(i);
-            const ParsedCoordinate& read = coordinate(line, at, readers_[i]);
+            const ParsedCoordinate& read = parseCoordinate(line, at, readers_[i]);
             point.point[static_cast<int>(i)] = read.value;
             point.numbers[i] = read.text;
         }
         const std::optional<std::size_t> radius =
             layout_.count > 0 ? layout_.columns[kRadiusIndex] : std::optional(kRadiusIndex);
         if (radius && *radius < row_.columns.size()) {
-            point.radius = coordinate(line, *radius, readers_[kRadiusIndex]).value;
+            point.radius = parseCoordinate(line, *radius, readers_[kRadiusIndex]).value;
             if (point.radius < 0) throwFileError(line.number, "a radius is negative", *radius + 1);
             if (layout_.count == 0 && !std::exchange(warnedOfRadius_, true))
                 warnings_.emplace_back("the fifth column was read as radius");
@@ -282,7 +282,7 @@ class PointReader {
         add_(point);
     }
 
-    ParsedCoordinate coordinate(const TableLine& line, std::size_t column, CoordinateReader& reader) const {
+    ParsedCoordinate parseCoordinate(const TableLine& line, std::size_t column, CoordinateReader& reader) const {
         ParsedCoordinate read = reader.read(row_.columns[column], format_.mark);
         if (!read.fault.empty())
             throwFileError(line.number, text::inQuotes(row_.columns[column]) + ' ' + read.fault, column + 1);
@@ -294,7 +294,7 @@ class PointReader {
     const PointTableOptions& options_;
     const std::function<void(const PointRow&)>& add_;
     ColumnLayout layout_;
-    TableRow row_;
+    SplitTableRow row_;
     std::array<CoordinateReader, kRadiusIndex + 1> readers_;
     std::size_t rows_ = 0;
     std::size_t firstSize_ = 0;  // number of columns of the first row; 0 before the first row
@@ -306,7 +306,7 @@ class PointReader {
 
 std::vector<std::string> readPoints(std::string_view text, const PointTableOptions& options,
                                     const std::function<void(const PointRow&)>& add) {
-    return PointReader(text, options, add).read();
+    return PointTableReader(text, options, add).read();
 }
 
 }  // namespace oval4d::text_files

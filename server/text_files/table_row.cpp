@@ -35,9 +35,9 @@ struct TabColumnCounts {
     bool decimalCommas = false;  // whether a number has a decimal comma
 };
 
-TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
+TabColumnCounts countTabColumns(std::string_view line, SplitTableRow& row) {
     TabColumnCounts result;
-    split(line, '\t', row);
+    splitColumns(line, '\t', row);
     for (const std::string_view column : row.columns) {
         if (!column.empty()) ++result.filled;
         if (column.ends_with(',') || !isNumber(column, DecimalMark::comma)) continue;
@@ -50,8 +50,8 @@ TabColumnCounts countTabColumns(std::string_view line, TableRow& row) {
 // Splits a line into words at blanks and tabs, and returns whether a word has a decimal comma. Returns an empty
 // optional if commas may separate the columns: if there are fewer than four words, or a word has two commas, or a comma
 // at its beginning or end. Overwrites `row`.
-std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
-    split(line, ' ', row);
+std::optional<bool> hasDecimalCommas(std::string_view line, SplitTableRow& row) {
+    splitColumns(line, ' ', row);
     if (row.columns.size() < kMinColumns) return {};
     bool any = false;
     for (const std::string_view word : row.columns) {
@@ -65,7 +65,7 @@ std::optional<bool> hasDecimalCommas(std::string_view line, TableRow& row) {
 
 // Returns whether a line is a row of a table, and not a header or a title. A row begins with a number, or has at least
 // `least` numbers and at least as many numbers as other words.
-bool isRow(std::string_view line, std::size_t least) {
+bool isTableRow(std::string_view line, std::size_t least) {
     constexpr std::string_view kBetween = ";,\t \"";
     std::size_t numbers = 0, others = 0;
     for (std::size_t start = 0; (start = line.find_first_not_of(kBetween, start)) != std::string_view::npos;) {
@@ -104,15 +104,15 @@ std::string_view withoutTexts(std::string_view line, std::string& memory) {
     return memory;
 }
 
-// Returns the format that fits all lines for which isRow(line, least) is true. Returns an empty optional if there are
-// no such lines.
+// Returns the format that fits all lines for which isTableRow(line, least) is true. Returns an empty optional if there
+// are no such lines.
 std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
     bool semicolons = false, tabs = false, commas = false, decimalCommas = false, any = false;
-    TableRow row;
+    SplitTableRow row;
     std::string memory;
-    while (const auto line = lines.next()) {
+    while (const auto line = lines.nextLine()) {
         const std::string_view content = withoutTexts(line->content, memory);
-        if (!isRow(content, least)) continue;
+        if (!isTableRow(content, least)) continue;
         any = true;
         const TabColumnCounts between = countTabColumns(content, row);
         // In rows with fewer columns, tabs may be used like blanks.
@@ -134,7 +134,7 @@ std::optional<TableFormat> formatOfRows(TableLines lines, std::size_t least) {
 
 }  // namespace
 
-std::optional<TableLine> TableLines::next() {
+std::optional<TableLine> TableLines::nextLine() {
     if (rest_.empty()) return {};
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     const std::string_view whole = rest_.substr(0, end);
@@ -144,7 +144,7 @@ std::optional<TableLine> TableLines::next() {
     return TableLine{number_++, whole.substr(0, hash), text::trimmed(whole.substr(std::min(hash + 1, whole.size())))};
 }
 
-TableFormat formatOf(TableLines lines) {
+TableFormat tableFormatOf(TableLines lines) {
     // A line with fewer numbers than a point has coordinates may be a title. So first, a line that begins with a text
     // counts as a row only if it has at least kMinColumns numbers. If no line is a row by this rule, half as many
     // numbers are enough.
@@ -154,7 +154,7 @@ TableFormat formatOf(TableLines lines) {
     return {};
 }
 
-void split(std::string_view line, char separator, TableRow& row) {
+void splitColumns(std::string_view line, char separator, SplitTableRow& row) {
     row.columns.clear();
     const std::string separators = {separator, ' ', '\t'};
     std::string_view rest = line.substr(0, line.find_last_not_of(separators) + 1);

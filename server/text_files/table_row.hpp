@@ -21,11 +21,11 @@ struct TableLine {
 /// The lines of a text file, which next() returns one after another.
 class TableLines {
   public:
-    /// `text` must outlive this object and the lines that next() returns.
+    /// `text` must outlive this object and the lines that nextLine() returns.
     explicit TableLines(std::string_view text) : rest_(text) {}
 
     /// Returns the next line, or an empty optional at the end of the text.
-    std::optional<TableLine> next();
+    std::optional<TableLine> nextLine();
 
   private:
     std::string_view rest_;
@@ -39,15 +39,15 @@ struct TableFormat {
 };
 
 /// Returns the format that fits the rows of a table. Returns blanks and a decimal point if there are no rows.
-TableFormat formatOf(TableLines lines);
+TableFormat tableFormatOf(TableLines lines);
 
 /// The columns of a line of a table.
-struct TableRow {
+struct SplitTableRow {
     std::vector<std::string_view> columns;  ///< the columns without surrounding blanks and quotes; columns may be empty
     bool endsWithSeparator = false;         ///< whether a separator other than a blank follows the last column
 };
 
 /// Splits a line into columns, and stores them in `row`. `separator` is as in TableFormat.
-void split(std::string_view line, char separator, TableRow& row);
+void splitColumns(std::string_view line, char separator, SplitTableRow& row);
 
 }  // namespace oval4d::text_files

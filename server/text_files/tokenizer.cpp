@@ -15,7 +15,7 @@ bool isBlank(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
 
-std::string_view Tokenizer::next() {
+std::string_view Tokenizer::nextWord() {
     for (; at_ < text_.size(); ++at_) {
         if (text_[at_] == '#') {
             skipLine();
@@ -30,7 +30,7 @@ std::string_view Tokenizer::next() {
     return {};
 }
 
-std::string_view Tokenizer::nextOnLine() {
+std::string_view Tokenizer::nextWordOnLine() {
     while (at_ < text_.size() && isBlank(text_[at_])) ++at_;
     if (at_ == text_.size() || text_[at_] == '\n' || text_[at_] == '#') return {};
     return readWord();

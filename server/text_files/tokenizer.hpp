@@ -17,16 +17,16 @@ class Tokenizer {
     explicit Tokenizer(std::string_view text) : text_(text) {}
 
     /// Returns the number of the line with the last word, counted from 1.
-    std::size_t line() const { return line_; }
+    std::size_t lineNumber() const { return line_; }
 
     /// Returns the next word, on the current or a later line. Returns an empty string at the end of the text.
-    std::string_view next();
+    std::string_view nextWord();
 
     /// Returns the next word on the current line. Returns an empty string at the end of the line.
-    std::string_view nextOnLine();
+    std::string_view nextWordOnLine();
 
-    /// Skips the rest of the current line. Then nextOnLine() returns an empty string, and next() continues on the next
-    /// line.
+    /// Skips the rest of the current line. Then nextWordOnLine() returns an empty string, and next() continues on the
+    /// next line.
     void skipLine();
 
     /// Puts the last `count` bytes of the last word back, so that these bytes are the next word.

@@ -76,11 +76,11 @@ class BjdataWriter final : public BinaryWriter {
 
   private:
     /// The marker of a type of numbers, and the size of a number in bytes.
-    struct NumberType {
+    struct NumberMarker {
         char marker;
         std::size_t bytes;
     };
-    static NumberType numberTypeOf(ArrayType type) {
+    static NumberMarker numberTypeOf(ArrayType type) {
         switch (type) {
             case ArrayType::uint8:
                 return {'U', 1};
@@ -97,7 +97,7 @@ class BjdataWriter final : public BinaryWriter {
     }
 
     char* beginTypedArray(ArrayType type, std::size_t bytes) override {
-        const NumberType numbers = numberTypeOf(type);
+        const NumberMarker numbers = numberTypeOf(type);
         buffer_.put("[$");
         buffer_.put(numbers.marker);
         buffer_.put('#');
@@ -112,7 +112,7 @@ class BjdataWriter final : public BinaryWriter {
         std::memcpy(buffer_.append(sizeof number), &number, sizeof number);
     }
 
-    Buffer buffer_;
+    OutputBuffer buffer_;
 };
 
 }  // namespace oval4d::wire

@@ -2,9 +2,9 @@
 
 namespace oval4d::wire {
 
-Buffer::Buffer(std::string& out) : out_(out), at_(out_.data()), end_(at_ + out_.size()) {}
+OutputBuffer::OutputBuffer(std::string& out) : out_(out), at_(out_.data()), end_(at_ + out_.size()) {}
 
-void Buffer::grow(std::size_t size) {
+void OutputBuffer::grow(std::size_t size) {
     const auto used = static_cast<std::size_t>(at_ - out_.data());
     out_.resize(used + size + used / 8 + 256);
     at_ = out_.data() + used;

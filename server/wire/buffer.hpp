@@ -12,12 +12,12 @@ namespace oval4d::wire {
 /// A buffer that overwrites a string through a pointer. Enlarges the string as needed. The destructor truncates the
 /// string to the bytes that were written. A string that is overwritten again keeps its memory, so nothing is allocated
 /// or filled with zeros.
-class Buffer {
+class OutputBuffer {
   public:
-    explicit Buffer(std::string& out);
-    ~Buffer() { out_.resize(static_cast<std::size_t>(at_ - out_.data())); }
-    Buffer(const Buffer&) = delete;
-    Buffer& operator=(const Buffer&) = delete;
+    explicit OutputBuffer(std::string& out);
+    ~OutputBuffer() { out_.resize(static_cast<std::size_t>(at_ - out_.data())); }
+    OutputBuffer(const OutputBuffer&) = delete;
+    OutputBuffer& operator=(const OutputBuffer&) = delete;
 
     /// Ensures that the caller can write at least `size` bytes at at(). Invalidates earlier results of at().
     void reserveMore(std::size_t size) {
@@ -26,7 +26,7 @@ class Buffer {
     /// Returns a pointer to the current end of the text. The caller may write as many bytes there as it has reserved.
     char* at() { return at_; }
     /// Sets the end of the text to `at`, after the caller has written bytes there directly.
-    void moveTo(char* at) { at_ = at; }
+    void setEnd(char* at) { at_ = at; }
     /// Appends one character.
     void put(char c) {
         reserveMore(1);

@@ -25,23 +25,23 @@ class CborWriter final : public BinaryWriter {
 
     /// Writes single precision if it represents the number exactly, else double precision.
     void value(double number) override;
-    void value(std::uint64_t number) override { head(0, number); }
+    void value(std::uint64_t number) override { writeHead(0, number); }
     void value(std::int64_t number) override;
     void value(bool flag) override { buffer_.put(flag ? '\xF5' : '\xF4'); }
     void value(std::string_view text) override;
     using BinaryWriter::value;
     // Overloads that BinaryWriter also has, here without a virtual call for each number of an ordinary array.
-    void value(std::uint32_t number) { head(0, number); }
+    void value(std::uint32_t number) { writeHead(0, number); }
     void value(int number) { value(std::int64_t{number}); }
     void appendMembersOf(std::string_view object) override { buffer_.put(object.substr(1, object.size() - 2)); }
 
   private:
     char* beginTypedArray(ArrayType type, std::size_t bytes) override;
-    void head(std::uint8_t major, std::uint64_t argument);
+    void writeHead(std::uint8_t major, std::uint64_t argument);
     template <typename Word>
-    void bigEndian(char first, Word word);
+    void putBigEndian(char first, Word word);
 
-    Buffer buffer_;
+    OutputBuffer buffer_;
 };
 
 }  // namespace oval4d::wire

@@ -20,7 +20,7 @@ namespace oval4d::wire {
 namespace {
 
 /// A parser of the values of export options, with an overload for each type of options.
-struct OptionParser {
+struct ExportOptionParser {
     const exports::Format& format;
     int maxSlices;
 
@@ -32,13 +32,13 @@ struct OptionParser {
             return std::monostate{};
         }
         return Error{ErrorCode::bad_message, std::string(name) + " must be " +
-                                                 text::alternatives(text::namesOf(choices)) + ", not " +
+                                                 text::joinedWithOr(text::namesOf(choices)) + ", not " +
                                                  text::inQuotes(value)};
     }
 
     /// Parses a size, within the bounds for the file format.
     Result<std::monostate> parse(std::string_view name, const std::string& text, double& size) const {
-        const geometry::Range bounds = exports::sizeRangeOf(format);
+        const geometry::NumberRange bounds = exports::sizeRangeOf(format);
         const char* const end = text.data() + text.size();
         double value = 0;
         const auto [stopped, fault] = std::from_chars(text.data(), end, value);
@@ -74,7 +74,7 @@ struct OptionParser {
         const auto value = session::evaluate(text);
         if (!value) return Error{value.error().code, std::string(name) + ": " + value.error().message};
         if (*value != std::trunc(*value) || !(*value >= 1 && *value <= maxSlices))
-            return wrongFit(maxSlices, text::roundedDecimal(*value));
+            return invalidFitError(maxSlices, text::roundedDecimal(*value));
         fit = static_cast<int>(*value);
         return std::monostate{};
     }
@@ -82,7 +82,7 @@ struct OptionParser {
 
 }  // namespace
 
-Error wrongFit(int maxSlices, const std::string& given) {
+Error invalidFitError(int maxSlices, const std::string& given) {
     return {ErrorCode::out_of_range,
             "fit must be a whole number of slices from 1 to " + std::to_string(maxSlices) + ", not " + given};
 }
@@ -90,7 +90,7 @@ Error wrongFit(int maxSlices, const std::string& given) {
 Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& query, const exports::Format& format,
                                                     int maxSlices) {
     exports::ExportRequest request = exports::defaultRequestFor(format);
-    const OptionParser parser{format, maxSlices};
+    const ExportOptionParser parser{format, maxSlices};
     session::QueryParameters rest;
     bool hasContents = false;
     for (auto& parameter : query) {

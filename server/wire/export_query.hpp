@@ -20,6 +20,6 @@ Result<exports::ExportRequest> extractExportRequest(session::QueryParameters& qu
 
 /// Returns the error `out_of_range` for a wrong value `given` of "fit", which must be a whole number from 1 to
 /// `maxSlices`.
-Error wrongFit(int maxSlices, const std::string& given);
+Error invalidFitError(int maxSlices, const std::string& given);
 
 }  // namespace oval4d::wire

@@ -39,7 +39,7 @@ class FogWriter {
 /// Writes the member `fog` of the object `scene` in the message: the transfer function, which gives each value its
 /// color and opacity. Writes nothing if there is no fog.
 template <typename W>
-void writeFogTable(W& w, const scene::FogTable& table) {
+void writeFogTable(W& w, const scene::FogTransferTable& table) {
     if (table.empty()) return;
     w.key("fog");
     w.beginObject();

@@ -24,9 +24,9 @@ constexpr std::size_t kMaxValues = 10'000;
 
 // A handler of nlohmann-json's parser events that builds a value. Stops parsing if the text is nested too deeply or has
 // too many values.
-class Builder {
+class JsonValueBuilder {
   public:
-    Builder(json& root, int maxDepth) : root_(root), maxDepth_(maxDepth) {}
+    JsonValueBuilder(json& root, int maxDepth) : root_(root), maxDepth_(maxDepth) {}
 
     bool null() { return add(nullptr); }
     bool boolean(bool value) { return add(value); }
@@ -41,10 +41,10 @@ class Builder {
     bool string(std::string& value) { return add(std::move(value)); }
     bool binary(json::binary_t& /*value*/) { return false; }  // never called, because JSON text has no binary values
 
-    bool start_object(std::size_t /*size*/) { return open(json::object()); }
-    bool start_array(std::size_t /*size*/) { return open(json::array()); }
-    bool end_object() { return close(); }
-    bool end_array() { return close(); }
+    bool start_object(std::size_t /*size*/) { return openContainer(json::object()); }
+    bool start_array(std::size_t /*size*/) { return openContainer(json::array()); }
+    bool end_object() { return closeContainer(); }
+    bool end_array() { return closeContainer(); }
     bool key(std::string& name) {
         key_ = std::move(name);
         return true;
@@ -57,17 +57,17 @@ class Builder {
     }
 
     /// Returns the error message for the limit that the text exceeds; empty if it exceeds no limit.
-    const std::string& refusal() const { return refusal_; }
-    bool overflow() const { return overflow_; }
-    std::size_t position() const { return position_; }
+    const std::string& limitMessage() const { return refusal_; }
+    bool hasOverflow() const { return overflow_; }
+    std::size_t errorPosition() const { return position_; }
     const std::string& token() const { return token_; }
 
   private:
     template <typename T>
     bool add(T&& value) {
-        return place(json(std::forward<T>(value))) != nullptr;
+        return insertValue(json(std::forward<T>(value))) != nullptr;
     }
-    json* place(json&& value) {
+    json* insertValue(json&& value) {
         if (++values_ > kMaxValues) {
             refusal_ = "the message holds too many values; at most " + std::to_string(kMaxValues) + " are allowed";
             return nullptr;
@@ -77,17 +77,17 @@ class Builder {
         if (parent.is_object()) return &(parent[key_] = std::move(value));
         return &parent.emplace_back(std::move(value));
     }
-    bool open(json&& empty) {
+    bool openContainer(json&& empty) {
         if (open_.size() == static_cast<std::size_t>(maxDepth_)) {
             refusal_ = "the message nests too deeply; at most " + std::to_string(maxDepth_) + " levels are allowed";
             return false;
         }
         // The address of the new value stays valid: while one of its elements is open, an array does not grow.
-        json* placed = place(std::move(empty));
+        json* placed = insertValue(std::move(empty));
         if (placed) open_.push_back(placed);
         return placed != nullptr;
     }
-    bool close() {
+    bool closeContainer() {
         open_.pop_back();
         return true;
     }
@@ -107,10 +107,11 @@ constexpr auto kNotFinite = std::to_array<std::string_view>({"NaN", "Infinity", 
 
 // Returns the token at which the parser stopped, if it is NaN, ±Infinity or a number too large for a double. Otherwise
 // returns an empty string.
-std::string_view badNumberAt(std::string_view text, const Builder& builder) {
-    if (builder.position() == 0 || builder.position() > text.size()) return {};
-    if (builder.overflow()) return text.substr(builder.position() - builder.token().size(), builder.token().size());
-    const std::size_t start = builder.position() - (builder.token().starts_with('-') ? 2 : 1);
+std::string_view badNumberAt(std::string_view text, const JsonValueBuilder& builder) {
+    if (builder.errorPosition() == 0 || builder.errorPosition() > text.size()) return {};
+    if (builder.hasOverflow())
+        return text.substr(builder.errorPosition() - builder.token().size(), builder.token().size());
+    const std::size_t start = builder.errorPosition() - (builder.token().starts_with('-') ? 2 : 1);
     if (start >= text.size()) return {};
     for (const std::string_view name : kNotFinite) {
         if (text.substr(start).starts_with(name)) return text.substr(start, name.size());
@@ -147,7 +148,7 @@ std::size_t lengthOfWord(std::string_view text) {
 
 // Returns the text with null in place of NaN, ±Infinity and numbers too large for a double, outside of strings. Takes
 // linear time, because the text may come from an attacker.
-std::string withNulls(std::string_view text) {
+std::string replaceNonFiniteByNull(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size();) {
         const std::string_view rest = text.substr(i);
@@ -201,40 +202,40 @@ std::string withoutLoneSurrogates(std::string_view text, std::size_t& first) {
 
 ParsedJson parseJson(std::string_view text, int maxDepth) {
     ParsedJson result;
-    Builder builder(result.value, maxDepth);
+    JsonValueBuilder builder(result.value, maxDepth);
     if (json::sax_parse(text.begin(), text.end(), &builder)) return result;
-    if (!builder.refusal().empty()) {
-        result.fault = builder.refusal();
+    if (!builder.limitMessage().empty()) {
+        result.fault = builder.limitMessage();
         return result;
     }
     const std::string_view number = badNumberAt(text, builder);
     std::size_t surrogate = 0;
     const std::string characters = withoutLoneSurrogates(text, surrogate);
-    if (number.empty() && surrogate < builder.position()) {
+    if (number.empty() && surrogate < builder.errorPosition()) {
         result.fault = "the escape " + std::string(text.substr(surrogate, 6)) + " at byte " +
                        std::to_string(surrogate + 1) + " is a lone surrogate, which is no character";
-        const std::string repaired = withNulls(characters);
-        Builder again(result.value, maxDepth);
+        const std::string repaired = replaceNonFiniteByNull(characters);
+        JsonValueBuilder again(result.value, maxDepth);
         result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);
-        result.notJson = !result.repaired && again.refusal().empty();
+        result.notJson = !result.repaired && again.limitMessage().empty();
         return result;
     }
     if (number.empty()) {
         result.fault = "the text is not JSON: unexpected " +
-                       (builder.position() > text.size() ? std::string("end") : text::inQuotes(builder.token())) +
-                       " at byte " + std::to_string(builder.position()) +
+                       (builder.errorPosition() > text.size() ? std::string("end") : text::inQuotes(builder.token())) +
+                       " at byte " + std::to_string(builder.errorPosition()) +
                        "; a message is one JSON object such as {\"type\":\"undo\"}";
         result.notJson = true;
         return result;
     }
-    result.fault = std::string(number) + (builder.overflow() ? " is too large for a number" : " is not JSON") +
+    result.fault = std::string(number) + (builder.hasOverflow() ? " is too large for a number" : " is not JSON") +
                    " (byte " + std::to_string(static_cast<std::size_t>(number.data() - text.data()) + 1) +
                    "); numbers must be finite";
     // The message is refused, but parse all of it, so that the answer can contain the message's id.
-    const std::string repaired = withNulls(characters);
-    Builder again(result.value, maxDepth);
+    const std::string repaired = replaceNonFiniteByNull(characters);
+    JsonValueBuilder again(result.value, maxDepth);
     result.repaired = json::sax_parse(repaired.begin(), repaired.end(), &again);
-    result.notJson = !result.repaired && again.refusal().empty();
+    result.notJson = !result.repaired && again.limitMessage().empty();
     return result;
 }
 

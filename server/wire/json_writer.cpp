@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMaxNumberLength = 32;  // the maximum length of a number in bytes
 
 // Returns the number of bytes to reserve for an array of `numbers` coordinates or indices.
-std::size_t reserveFor(std::size_t numbers) { return (numbers + 2) * text::kBytesPerNumber; }
+std::size_t bytesToReserve(std::size_t numbers) { return (numbers + 2) * text::kBytesPerNumber; }
 
 // Writes numbers, each with a comma after it. Returns the end of the text.
 char* putIntegers(char* at, std::span<const std::uint32_t> list) {
@@ -34,57 +34,57 @@ char* putArraySeparator(char* at) {
 
 }  // namespace
 
-void JsonWriter::open(char bracket) {
-    separate();
+void JsonWriter::openBracket(char bracket) {
+    writeCommaIfNeeded();
     buffer_.put(bracket);
     comma_ = false;
 }
 
-void JsonWriter::close(char bracket) {
+void JsonWriter::closeContainer(char bracket) {
     buffer_.put(bracket);
     comma_ = true;
 }
 
 void JsonWriter::value(double number) {
-    separate();
+    writeCommaIfNeeded();
     buffer_.reserveMore(kMaxNumberLength);
     char* const end = buffer_.at() + kMaxNumberLength;
     // Convert integers separately: for 1000000, to_chars of a double would write 1e+06.
-    buffer_.moveTo(text::isExactInteger(number)
+    buffer_.setEnd(text::isExactInteger(number)
                        ? std::to_chars(buffer_.at(), end, static_cast<std::int64_t>(number)).ptr
                        : std::to_chars(buffer_.at(), end, number).ptr);
 }
 
 void JsonWriter::value(std::uint64_t number) {
-    separate();
+    writeCommaIfNeeded();
     buffer_.reserveMore(kMaxNumberLength);
-    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
+    buffer_.setEnd(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
 }
 
 void JsonWriter::value(std::int64_t number) {
-    separate();
+    writeCommaIfNeeded();
     buffer_.reserveMore(kMaxNumberLength);
-    buffer_.moveTo(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
+    buffer_.setEnd(std::to_chars(buffer_.at(), buffer_.at() + kMaxNumberLength, number).ptr);
 }
 
 void JsonWriter::value(bool flag) {
-    separate();
+    writeCommaIfNeeded();
     buffer_.put(flag ? "true" : "false");
 }
 
 void JsonWriter::null() {
-    separate();
+    writeCommaIfNeeded();
     buffer_.put("null");
 }
 
 void JsonWriter::raw(std::string_view text) {
-    separate();
+    writeCommaIfNeeded();
     buffer_.put(text);
 }
 
 void JsonWriter::value(std::string_view text) {
     constexpr std::string_view kHex = "0123456789abcdef";
-    separate();
+    writeCommaIfNeeded();
     buffer_.put('"');
     for (const char c : text) {
         const auto byte = static_cast<unsigned char>(c);
@@ -103,21 +103,21 @@ void JsonWriter::value(std::string_view text) {
 }
 
 void JsonWriter::vector(const glm::dvec3& v) {
-    separate();
-    buffer_.reserveMore(reserveFor(3));
-    buffer_.moveTo(text::putVectorsAsJson(buffer_.at(), std::span(&v, 1)));
+    writeCommaIfNeeded();
+    buffer_.reserveMore(bytesToReserve(3));
+    buffer_.setEnd(text::putVectorsAsJson(buffer_.at(), std::span(&v, 1)));
 }
 
 // Writes an array of `numbers` numbers. `put(at)` writes the content at `at`, and returns its end.
 template <typename Put>
-void JsonWriter::array(std::size_t numbers, Put put) {
-    separate();
-    buffer_.reserveMore(reserveFor(numbers));
+void JsonWriter::numberArray(std::size_t numbers, Put put) {
+    writeCommaIfNeeded();
+    buffer_.reserveMore(bytesToReserve(numbers));
     char* at = buffer_.at();
     *at++ = '[';
     at = put(at);
     *at++ = ']';
-    buffer_.moveTo(at);
+    buffer_.setEnd(at);
 }
 
 void JsonWriter::floatsForPictures(std::span<const float> list) {
@@ -128,7 +128,7 @@ void JsonWriter::floatsForPictures(std::span<const float> list) {
 }
 
 void JsonWriter::vectors(std::span<const glm::vec3> list) {
-    array(3 * list.size(), [list](char* at) {
+    numberArray(3 * list.size(), [list](char* at) {
         constexpr std::size_t kBatch = 256;
         std::array<glm::dvec3, kBatch> doubles;
         for (std::size_t begin = 0; begin < list.size(); begin += kBatch) {
@@ -142,16 +142,16 @@ void JsonWriter::vectors(std::span<const glm::vec3> list) {
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec3> list) {
-    array(3 * list.size(), [list](char* at) { return text::putVectorsAsJson(at, list); });
+    numberArray(3 * list.size(), [list](char* at) { return text::putVectorsAsJson(at, list); });
 }
 
 void JsonWriter::vectors(std::span<const glm::dvec4> list) {
-    array(4 * list.size(), [list](char* at) { return text::putVectorsAsJson(at, list); });
+    numberArray(4 * list.size(), [list](char* at) { return text::putVectorsAsJson(at, list); });
 }
 
 template <std::size_t Size>
 void JsonWriter::tuples(std::span<const std::array<std::uint32_t, Size>> list) {
-    array(Size * list.size(), [list](char* at) {
+    numberArray(Size * list.size(), [list](char* at) {
         if (list.empty()) return at;
         *at++ = '[';
         for (const auto& tuple : list) at = putArraySeparator(putIntegers(at, tuple) - 1);
@@ -163,11 +163,11 @@ void JsonWriter::pairs(std::span<const IndexPair> list) { tuples(list); }
 void JsonWriter::triples(std::span<const IndexTriple> list) { tuples(list); }
 
 void JsonWriter::numbers(std::span<const std::uint32_t> list) {
-    array(list.size(), [list](char* at) { return list.empty() ? at : putIntegers(at, list) - 1; });
+    numberArray(list.size(), [list](char* at) { return list.empty() ? at : putIntegers(at, list) - 1; });
 }
 
-void JsonWriter::lists(JaggedArrayView view) {
-    array(view.begin.size() + view.items.size(), [&view](char* at) {
+void JsonWriter::jaggedArray(JaggedArrayView view) {
+    numberArray(view.begin.size() + view.items.size(), [&view](char* at) {
         if (view.begin.size() < 2) return at;
         *at++ = '[';
         for (std::size_t i = 0; i + 1 < view.begin.size(); ++i) {
@@ -179,7 +179,7 @@ void JsonWriter::lists(JaggedArrayView view) {
 }
 
 void JsonWriter::image(std::span<const std::uint8_t> pixels, std::size_t columns) {
-    array(2 * pixels.size(), [=](char* at) {
+    numberArray(2 * pixels.size(), [=](char* at) {
         if (pixels.empty()) return at;
         *at++ = '[';
         for (std::size_t row = 0; row < pixels.size(); row += columns) {

@@ -21,10 +21,10 @@ class JsonWriter {
   public:
     explicit JsonWriter(std::string& out) : buffer_(out) {}
 
-    void beginObject() { open('{'); }
-    void endObject() { close('}'); }
-    void beginArray() { open('['); }
-    void endArray() { close(']'); }
+    void beginObject() { openBracket('{'); }
+    void endObject() { closeContainer('}'); }
+    void beginArray() { openBracket('['); }
+    void endArray() { closeContainer(']'); }
     /// Writes the name of a member, without escapes. Inline, because most names are known at compile time.
     void key(std::string_view name) {
         buffer_.reserveMore(name.size() + 4);
@@ -35,7 +35,7 @@ class JsonWriter {
         at += name.size();
         *at++ = '"';
         *at++ = ':';
-        buffer_.moveTo(at);
+        buffer_.setEnd(at);
         comma_ = false;
     }
 
@@ -65,7 +65,7 @@ class JsonWriter {
     void triples(std::span<const IndexTriple> list);
     void numbers(std::span<const std::uint32_t> list);
     void floatsForPictures(std::span<const float> list);  ///< rounds the numbers to four decimals
-    void lists(JaggedArrayView view);                     ///< writes each list as an array in an array
+    void jaggedArray(JaggedArrayView view);               ///< writes each list as an array in an array
     /// Writes `pixels`, a table with this number of columns, as an array of rows. Each row is an array.
     void image(std::span<const std::uint8_t> pixels, std::size_t columns);
 
@@ -76,18 +76,18 @@ class JsonWriter {
     }
 
   private:
-    void open(char bracket);
-    void close(char bracket);
+    void openBracket(char bracket);
+    void closeContainer(char bracket);
     template <typename Put>
-    void array(std::size_t numbers, Put put);
+    void numberArray(std::size_t numbers, Put put);
     template <std::size_t Size>
     void tuples(std::span<const std::array<std::uint32_t, Size>> list);
-    void separate() {
+    void writeCommaIfNeeded() {
         if (comma_) buffer_.put(',');
         comma_ = true;
     }
 
-    Buffer buffer_;
+    OutputBuffer buffer_;
     bool comma_ = false;
 };
 

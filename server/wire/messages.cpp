@@ -23,7 +23,7 @@ namespace {
 
 // Returns a message with this type and this id. `writeMembers` writes all other members.
 template <typename WriteMembers>
-std::string message(std::string_view type, std::optional<double> id, const WriteMembers& writeMembers) {
+std::string makeMessage(std::string_view type, std::optional<double> id, const WriteMembers& writeMembers) {
     std::string out;
     {
         JsonWriter w(out);
@@ -36,20 +36,20 @@ std::string message(std::string_view type, std::optional<double> id, const Write
 
 // Writes a member of an answer. Omits empty optionals and empty lists.
 template <typename Value>
-void writePresent(JsonWriter& w, std::string_view name, const Value& value) {
+void writeMemberIfPresent(JsonWriter& w, std::string_view name, const Value& value) {
     writeMember(w, name, value);
 }
 template <typename Value>
-void writePresent(JsonWriter& w, std::string_view name, const std::optional<Value>& value) {
+void writeMemberIfPresent(JsonWriter& w, std::string_view name, const std::optional<Value>& value) {
     if (value) writeMember(w, name, *value);
 }
 template <typename Value>
-void writePresent(JsonWriter& w, std::string_view name, const std::vector<Value>& list) {
+void writeMemberIfPresent(JsonWriter& w, std::string_view name, const std::vector<Value>& list) {
     if (!list.empty()) writeMember(w, name, list);
 }
 
 template <typename Number>
-void writePair(JsonWriter& w, std::string_view name, Number before, Number after) {
+void writeBeforeAndAfter(JsonWriter& w, std::string_view name, Number before, Number after) {
     w.key(name);
     w.beginArray();
     w.value(before);
@@ -57,7 +57,7 @@ void writePair(JsonWriter& w, std::string_view name, Number before, Number after
     w.endArray();
 }
 
-// Writes those members of an `at` message that describe an element. The parameters are the same as for atMessage().
+// Writes those members of an `at` message that describe an element. The parameters are the same as for pickMessage().
 void writeElementMembers(JsonWriter& w, const slicing::Element& element, const scene::Scene& scene,
                          const slicing::Object& object, const slicing::Object& source) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;
@@ -88,8 +88,8 @@ void writeElementMembers(JsonWriter& w, const slicing::Element& element, const s
 // Writes the members of an `at` message that describe a point of a field.
 void writeSampleMembers(JsonWriter& w, const slicing::FieldSample& sample) {
     writeMember(w, "place", sample.place);
-    writePresent(w, "value", sample.value);
-    writePresent(w, "second_value", sample.secondValue);
+    writeMemberIfPresent(w, "value", sample.value);
+    writeMemberIfPresent(w, "second_value", sample.secondValue);
 }
 
 }  // namespace
@@ -97,25 +97,25 @@ void writeSampleMembers(JsonWriter& w, const slicing::FieldSample& sample) {
 std::string answerMessage(const Answer& answer, std::optional<double> id) {
     return std::visit(
         [&]<typename Described>(const Described& described) {
-            return message(Described::kMessageType, id, [&](JsonWriter& w) {
+            return makeMessage(Described::kMessageType, id, [&](JsonWriter& w) {
                 using Members = boost::describe::describe_members<Described, boost::describe::mod_public>;
                 boost::mp11::mp_for_each<Members>(
-                    [&](auto member) { writePresent(w, member.name, described.*member.pointer); });
+                    [&](auto member) { writeMemberIfPresent(w, member.name, described.*member.pointer); });
             });
         },
         answer);
 }
 
-std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
-                      const slicing::Object& source, std::uint64_t revision, std::optional<double> id) {
+std::string pickMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
+                        const slicing::Object& source, std::uint64_t revision, std::optional<double> id) {
     const glm::dvec4& origin = slicing::infoOf(object).originInFile;
-    const auto writePickedIn = [&](JsonWriter& w, scene::PickedIn in, std::size_t slice) {
+    const auto writePickedIn = [&](JsonWriter& w, scene::PickLocation in, std::size_t slice) {
         w.member("in", text::nameOf(scene::kPickedIn, in));
-        if (in != scene::PickedIn::slice) return;
+        if (in != scene::PickLocation::slice) return;
         w.member("slice", scene.placements[slice].index);
         w.member("w", origin.w + scene.placements[slice].w);
     };
-    return message("at", id, [&](JsonWriter& w) {
+    return makeMessage("at", id, [&](JsonWriter& w) {
         w.member("revision", revision);
         w.key("highlight");
         writeValue(w, at.element ? std::optional(at.element->element) : std::nullopt);
@@ -136,7 +136,7 @@ std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const
 }
 
 std::string sampleMessage(const slicing::FieldSample& sample, std::uint64_t revision, std::optional<double> id) {
-    return message("at", id, [&](JsonWriter& w) {
+    return makeMessage("at", id, [&](JsonWriter& w) {
         w.member("revision", revision);
         w.key("highlight");
         writeValue(w, std::optional<slicing::Element>());
@@ -145,7 +145,7 @@ std::string sampleMessage(const slicing::FieldSample& sample, std::uint64_t revi
 }
 
 std::string errorMessage(const Error& error, std::optional<double> id) {
-    return message("error", id, [&](JsonWriter& w) {
+    return makeMessage("error", id, [&](JsonWriter& w) {
         w.member("code", protocolName(error.code));
         w.member("message", std::string_view(error.message));
     });
@@ -153,7 +153,7 @@ std::string errorMessage(const Error& error, std::optional<double> id) {
 
 std::string criticalMessage(const slicing::CriticalSections& sections, double originW, std::uint64_t revision,
                             std::optional<double> id) {
-    return message("critical", id, [&](JsonWriter& w) {
+    return makeMessage("critical", id, [&](JsonWriter& w) {
         w.member("revision", revision);
         w.member("least_w", originW + sections.least);
         w.member("most_w", originW + sections.greatest);
@@ -170,9 +170,10 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
             } else {
                 const auto& [components, cavities, euler] = section.before;
                 w.member("level", std::uint64_t{section.levelIndex});
-                writePair(w, "components", std::uint64_t{components}, std::uint64_t{section.after.components});
-                writePair(w, "cavities", std::uint64_t{cavities}, std::uint64_t{section.after.cavities});
-                writePair(w, "euler", std::int64_t{euler}, std::int64_t{section.after.euler});
+                writeBeforeAndAfter(w, "components", std::uint64_t{components},
+                                    std::uint64_t{section.after.components});
+                writeBeforeAndAfter(w, "cavities", std::uint64_t{cavities}, std::uint64_t{section.after.cavities});
+                writeBeforeAndAfter(w, "euler", std::int64_t{euler}, std::int64_t{section.after.euler});
             }
             w.endObject();
         }
@@ -182,7 +183,7 @@ std::string criticalMessage(const slicing::CriticalSections& sections, double or
 
 std::string welcomeMessage(std::string_view session, std::string_view token, std::string_view limits,
                            std::optional<double> id) {
-    return message("welcome", id, [&](JsonWriter& w) {
+    return makeMessage("welcome", id, [&](JsonWriter& w) {
         w.member("session", session);
         w.member("token", token);
         w.member("protocol", 1);
@@ -196,7 +197,7 @@ std::string catalogueMessage(std::optional<double> id, std::span<const slicing::
                              std::span<const std::string> data) {
     // The elements of a field's domain, which is a 4-D box: vertices, edges, 2-faces and cells.
     constexpr ElementCounts kBox{16, 32, 24, 8};
-    return message("catalogue", id, [&](JsonWriter& w) {
+    return makeMessage("catalogue", id, [&](JsonWriter& w) {
         w.key("polytopes");
         w.beginArray();
         for (const polytopes::CatalogueEntry& entry : polytopes::catalogue()) {
@@ -238,7 +239,7 @@ std::string keymapMessage(std::optional<double> id) {
         nlohmann::ordered_json::parse(protocol_data::embeddedFile("keymap.json"));
     static const std::string groups = table.at("groups").dump();
     static const std::string keys = table.at("keys").dump();
-    return message("keymap", id, [&](JsonWriter& w) {
+    return makeMessage("keymap", id, [&](JsonWriter& w) {
         w.key("groups");
         w.raw(groups);
         w.key("keys");

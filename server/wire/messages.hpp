@@ -37,8 +37,8 @@ struct PictureAtPixel {
 /// Returns the `at` message, which describes what a picture shows at a pixel. `scene` is the picture of `object`.
 /// `source` is the object before it was transformed to the frame of reference (see session::State). A 2-face has the
 /// shape for which it is named only in `source`.
-std::string atMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
-                      const slicing::Object& source, std::uint64_t revision, std::optional<double> id);
+std::string pickMessage(const PictureAtPixel& at, const scene::Scene& scene, const slicing::Object& object,
+                        const slicing::Object& source, std::uint64_t revision, std::optional<double> id);
 
 /// Returns the `at` message that answers a request for the values of a field at a point.
 std::string sampleMessage(const slicing::FieldSample& sample, std::uint64_t revision, std::optional<double> id);

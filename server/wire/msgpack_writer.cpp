@@ -10,13 +10,14 @@ namespace {
 constexpr std::size_t kContainerHead = 5;  // a format byte, and four bytes for the size
 
 // Returns the least k for which an unsigned integer with 2^k bytes can represent `number`.
-unsigned widthOf(std::uint64_t number) {
+unsigned log2ByteWidth(std::uint64_t number) {
     return number <= 0xFF ? 0 : number <= 0xFFFF ? 1 : number <= 0xFFFFFFFF ? 2 : 3;
 }
 
-// Returns widthOf() of the length of a text or a typed array. Throws std::length_error if the length is 4 GiB or more.
-unsigned lengthWidthOf(std::size_t length) {
-    const unsigned k = widthOf(length);
+// Returns log2ByteWidth() of the length of a text or a typed array. Throws std::length_error if the length is 4 GiB or
+// more.
+unsigned log2ByteWidthOfLength(std::size_t length) {
+    const unsigned k = log2ByteWidth(length);
     if (k > 2) throw std::length_error("a text or an array is too long for MessagePack");
     return k;
 }
@@ -28,19 +29,19 @@ void writeBigEndian(char* at, unsigned k, std::uint64_t integer) {
 
 }  // namespace
 
-void MsgpackWriter::head(unsigned format, unsigned k, std::uint64_t integer) {
+void MsgpackWriter::writeHead(unsigned format, unsigned k, std::uint64_t integer) {
     buffer_.put(static_cast<char>(format));
     writeBigEndian(buffer_.append(std::size_t{1} << k), k, integer);
 }
 
-void MsgpackWriter::begin(char format) {
+void MsgpackWriter::beginContainer(char format) {
     countItem();
     buffer_.put(format);
     const char* const size = buffer_.append(kContainerHead - 1);
     open_.push_back({static_cast<std::size_t>(size - out_.data()), 0});
 }
 
-void MsgpackWriter::end(std::uint32_t itemsPerElement) {
+void MsgpackWriter::endContainer(std::uint32_t itemsPerElement) {
     writeBigEndian(out_.data() + open_.back().sizeAt, 2, open_.back().items / itemsPerElement);
     open_.pop_back();
 }
@@ -57,9 +58,9 @@ void MsgpackWriter::value(double number) {
     countItem();
     const auto shorter = static_cast<float>(number);
     if (shorter == number) {
-        head(0xCA, 2, std::bit_cast<std::uint32_t>(shorter));
+        writeHead(0xCA, 2, std::bit_cast<std::uint32_t>(shorter));
     } else {
-        head(0xCB, 3, std::bit_cast<std::uint64_t>(number));
+        writeHead(0xCB, 3, std::bit_cast<std::uint64_t>(number));
     }
 }
 
@@ -68,8 +69,8 @@ void MsgpackWriter::value(std::uint64_t number) {
     if (number < 0x80) {
         buffer_.put(static_cast<char>(number));
     } else {
-        const unsigned k = widthOf(number);
-        head(0xCC + k, k, number);
+        const unsigned k = log2ByteWidth(number);
+        writeHead(0xCC + k, k, number);
     }
 }
 
@@ -83,8 +84,8 @@ void MsgpackWriter::value(std::int64_t number) {
     } else {
         countItem();
         // ~bits is −1 − number. The factor 2 makes room for the sign bit.
-        const unsigned k = widthOf(2 * ~bits);
-        head(0xD0 + k, k, bits);
+        const unsigned k = log2ByteWidth(2 * ~bits);
+        writeHead(0xD0 + k, k, bits);
     }
 }
 
@@ -98,8 +99,8 @@ void MsgpackWriter::value(std::string_view text) {
     if (text.size() < 32) {
         buffer_.put(static_cast<char>(0xA0 + text.size()));
     } else {
-        const unsigned k = lengthWidthOf(text.size());
-        head(0xD9 + k, k, text.size());
+        const unsigned k = log2ByteWidthOfLength(text.size());
+        writeHead(0xD9 + k, k, text.size());
     }
     buffer_.put(text);
 }
@@ -109,8 +110,8 @@ char* MsgpackWriter::beginTypedArray(ArrayType type, std::size_t bytes) {
     if (bytes <= 16 && std::has_single_bit(bytes)) {
         buffer_.put(static_cast<char>(0xD4 + std::countr_zero(bytes)));
     } else {
-        const unsigned k = lengthWidthOf(bytes);
-        head(0xC7 + k, k, bytes);
+        const unsigned k = log2ByteWidthOfLength(bytes);
+        writeHead(0xC7 + k, k, bytes);
     }
     buffer_.put(static_cast<char>(type));
     return buffer_.append(bytes);

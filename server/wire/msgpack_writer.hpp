@@ -21,10 +21,10 @@ class MsgpackWriter final : public BinaryWriter {
 
     // Objects (maps in MessagePack) and arrays begin with their sizes, which are known only at their ends. So each size
     // is written as 32 bits, and filled in at the end.
-    void beginObject() override { begin('\xDF'); }
-    void endObject() override { end(2); }
-    void beginArray() override { begin('\xDD'); }
-    void endArray() override { end(1); }
+    void beginObject() override { beginContainer('\xDF'); }
+    void endObject() override { endContainer(2); }
+    void beginArray() override { beginContainer('\xDD'); }
+    void endArray() override { endContainer(1); }
     void key(std::string_view name) override { value(name); }
 
     /// Writes single precision if it represents the number exactly, else double precision.
@@ -47,14 +47,14 @@ class MsgpackWriter final : public BinaryWriter {
     };
 
     char* beginTypedArray(ArrayType type, std::size_t bytes) override;
-    void begin(char format);
-    void end(std::uint32_t itemsPerElement);
+    void beginContainer(char format);
+    void endContainer(std::uint32_t itemsPerElement);
     void countItem() { ++open_.back().items; }
     /// Writes a format byte, and then an integer of 2^k bytes.
-    void head(unsigned format, unsigned k, std::uint64_t integer);
+    void writeHead(unsigned format, unsigned k, std::uint64_t integer);
 
     std::string& out_;
-    Buffer buffer_;
+    OutputBuffer buffer_;
     // The first entry counts the message itself. The last entry is the innermost container.
     std::vector<OpenContainer> open_;
 };

@@ -32,18 +32,18 @@ struct InvalidRequest {
 };
 
 template <typename T>
-void take(const json& object, std::string_view name, std::optional<T>& into) {
+void readIfPresent(const json& object, std::string_view name, std::optional<T>& into) {
     if (const auto member = object.find(name); member != object.end()) into = member->get<T>();
 }
 
-geometry::Turn turnOf(const json& object, const std::string& where) {
+geometry::RotationAngles turnFromJson(const json& object, const std::string& where) {
     const json& planes = object.at("planes");
     const json& angles = object.at("angles");
     if (planes.size() != angles.size()) {
         throw InvalidRequest{where + "/angles must hold one angle for each plane: " + std::to_string(planes.size()) +
                              ", not " + std::to_string(angles.size())};
     }
-    geometry::Turn turn;
+    geometry::RotationAngles turn;
     for (std::size_t i = 0; i < planes.size(); ++i) {
         const auto& name = planes[i].get_ref<const std::string&>();
         std::optional<double>& angle = turn[*geometry::planeNamed(name)];
@@ -71,7 +71,7 @@ auto choiceOf(const json& name, const Choices& choices) {
 }
 
 template <typename Choices, typename Value>
-void choose(const json& message, const char* member, const Choices& choices, Value& into) {
+void readChoice(const json& message, const char* member, const Choices& choices, Value& into) {
     if (const auto name = message.find(member); name != message.end()) into = choiceOf(*name, choices);
 }
 
@@ -91,7 +91,7 @@ void readValue(const json& coordinates, glm::vec<length, double>& into) {
 void readValue(const json& points, std::vector<slicing::FogControlPoint>& into) {
     for (const json& point : points) {
         into.push_back({point.at("value"), point.at("opacity")});
-        take(point, "color", into.back().color);
+        readIfPresent(point, "color", into.back().color);
     }
 }
 void readValue(const json& element, std::optional<slicing::Element>& into) {
@@ -105,7 +105,7 @@ void readValue(const json& value, std::optional<Value>& into) {
 
 // Returns the body of a valid message. Members that the message lacks keep their defaults.
 template <typename T>
-T bodyOf(const json& message) {
+T parseMembers(const json& message) {
     T body;
     using Members = boost::describe::describe_members<T, boost::describe::mod_public>;
     boost::mp11::mp_for_each<Members>([&](auto member) {
@@ -116,13 +116,13 @@ T bodyOf(const json& message) {
 }
 
 template <>
-Hello bodyOf(const json& message) {
+Hello parseMembers(const json& message) {
     Hello hello;
-    choose(message, "stream", kStreams, hello.stream);
-    choose(message, "encoding", kEncodings, hello.encoding);
+    readChoice(message, "stream", kStreams, hello.stream);
+    readChoice(message, "encoding", kEncodings, hello.encoding);
     hello.viewport = viewportOf(message);
-    choose(message, "scheme", scene::kSchemes, hello.scheme);
-    take(message, "token", hello.token);
+    readChoice(message, "scheme", scene::kSchemes, hello.scheme);
+    readIfPresent(message, "token", hello.token);
     return hello;
 }
 
@@ -147,7 +147,7 @@ std::optional<session::LoadObject> formulaOf(const json& field, const std::strin
 }
 
 /// Returns the value of a setting in a `set` message, or nullptr if the message lacks the setting.
-const json* memberOf(const json& message, const session::SettingName& name) {
+const json* settingValueIn(const json& message, const session::SettingName& name) {
     const json* object = &message;
     if (!name.object.empty()) {
         const auto found = message.find(name.object);
@@ -159,8 +159,8 @@ const json* memberOf(const json& message, const session::SettingName& name) {
 }
 
 template <>
-session::Set bodyOf(const json& message) {
-    session::Set set;
+session::ChangeSettings parseMembers(const json& message) {
+    session::ChangeSettings set;
     set.continues = message.value("continues", false);
     if (const auto polytope = message.find("polytope"); polytope != message.end()) {
         set.object = polytope->is_object() ? polytope->at("name").get<std::string>() : polytope->get<std::string>();
@@ -175,16 +175,17 @@ session::Set bodyOf(const json& message) {
         }
     }
     session::forEachSetting([&](const auto& setting) {
-        if (const json* const value = memberOf(message, setting.name)) readValue(*value, setting.ofSet(set).emplace());
+        if (const json* const value = settingValueIn(message, setting.name))
+            readValue(*value, setting.ofSet(set).emplace());
     });
     if (const auto last = message.find("last"); last != message.end() && !last->is_null())
-        set.lastTurn = turnOf(*last, "set: /last");
+        set.lastTurn = turnFromJson(*last, "set: /last");
     return set;
 }
 
 template <>
-session::Rotate bodyOf(const json& message) {
-    return {turnOf(message, "rotate: "), message.value("continues", false)};
+session::Rotate parseMembers(const json& message) {
+    return {turnFromJson(message, "rotate: "), message.value("continues", false)};
 }
 
 geometry::Centering centerOf(const json& center) {
@@ -203,7 +204,7 @@ geometry::Centering centerOf(const json& center) {
 }
 
 template <>
-session::LoadObject bodyOf(const json& message) {
+session::LoadObject parseMembers(const json& message) {
     if (!message.contains("data") && !message.contains("path"))
         throw InvalidRequest{"load: /data is missing: the text of a file, or else /path, a name in the data folder"};
     if (message.contains("data") && message.contains("path"))
@@ -224,7 +225,7 @@ session::LoadObject bodyOf(const json& message) {
 
 /// Returns the numbers in `value`: a JSON array of numbers, or a text with expressions, separated by commas. Error
 /// messages call the value `where`.
-std::vector<double> numbersOf(const json& value, const std::string& where) {
+std::vector<double> parseNumberList(const json& value, const std::string& where) {
     if (value.is_array()) return value.get<std::vector<double>>();
     auto list = session::evaluateList(value.get_ref<const std::string&>());
     if (!list) throw InvalidRequest{where + ": " + list.error().message, list.error().code};
@@ -244,7 +245,7 @@ exports::ExportRequest exportRequestOf(const json& message) {
         const auto value = message.find(name);
         if (value == message.end()) return;
         if constexpr (std::is_same_v<Value, std::vector<double>>) {
-            into = numbersOf(*value, "get: /" + std::string(name));
+            into = parseNumberList(*value, "get: /" + std::string(name));
         } else {
             readValue(*value, into);
         }
@@ -254,13 +255,13 @@ exports::ExportRequest exportRequestOf(const json& message) {
 }
 
 template <>
-Get bodyOf(const json& message) {
+Get parseMembers(const json& message) {
     if (message.contains("width") != message.contains("height"))
         throw InvalidRequest{"get: give /width and /height together, or neither"};
     Get get;
-    choose(message, "what", kGetTargets, get.what);
+    readChoice(message, "what", kGetTargets, get.what);
     get.viewport = viewportOf(message);
-    choose(message, "background", scene::kBackgrounds, get.background);
+    readChoice(message, "background", scene::kBackgrounds, get.background);
     if (const auto highlight = message.find("highlight"); highlight != message.end())
         readValue(*highlight, get.highlight);
     const bool hasX = message.contains("x"), hasY = message.contains("y");
@@ -280,35 +281,35 @@ using RequestBody = decltype(Request::body);
 
 // A message type, and the function that parses valid messages of this type. The function may move strings out of the
 // message.
-struct RequestType {
+struct RequestTypeRow {
     std::string_view name;
     RequestBody (*parse)(json& message);
 };
 template <typename T>
-RequestBody parse(json& message) {
+RequestBody parseBody(json& message) {
     if constexpr (std::is_same_v<T, session::LoadObject>) {
-        auto load = bodyOf<session::LoadObject>(message);
+        auto load = parseMembers<session::LoadObject>(message);
         // Move the text of the file, because it may have many megabytes.
         if (const auto data = message.find("data"); data != message.end())
             load.data = std::move(data->get_ref<std::string&>());
         return session::Command{std::move(load)};
     } else if constexpr (boost::mp11::mp_contains<session::Command, T>::value) {
-        return session::Command{bodyOf<T>(message)};
+        return session::Command{parseMembers<T>(message)};
     } else {
-        return bodyOf<T>(message);
+        return parseMembers<T>(message);
     }
 }
 template <typename... T>
-constexpr auto typesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
-    return std::to_array<RequestType>({{T::kMessageType, parse<T>}...});
+constexpr auto requestTypesOf(std::type_identity<std::variant<T...>> /*bodies*/) {
+    return std::to_array<RequestTypeRow>({{T::kMessageType, parseBody<T>}...});
 }
 // mp_flatten replaces the variant session::Command in RequestBody by its alternatives, the types of commands.
-constexpr auto kRequestTypes = typesOf(std::type_identity<boost::mp11::mp_flatten<RequestBody>>{});
+constexpr auto kRequestTypes = requestTypesOf(std::type_identity<boost::mp11::mp_flatten<RequestBody>>{});
 
 // A handler of JSON parser events that records the type and the id of a message, and builds no value.
 class TypeAndIdListener : public nlohmann::json_sax<json> {
   public:
-    explicit TypeAndIdListener(RequestPeek& seen) : seen_(seen) {}
+    explicit TypeAndIdListener(RequestTypeAndId& seen) : seen_(seen) {}
 
     bool null() override { return true; }
     bool boolean(bool /*value*/) override { return true; }
@@ -320,8 +321,8 @@ class TypeAndIdListener : public nlohmann::json_sax<json> {
         return true;
     }
     bool binary(binary_t& /*value*/) override { return true; }
-    bool start_object(std::size_t /*size*/) override { return enter(); }
-    bool start_array(std::size_t /*size*/) override { return enter(); }
+    bool start_object(std::size_t /*size*/) override { return enterContainer(); }
+    bool start_array(std::size_t /*size*/) override { return enterContainer(); }
     bool end_object() override { return leave(); }
     bool end_array() override { return leave(); }
     bool key(string_t& name) override {
@@ -338,7 +339,7 @@ class TypeAndIdListener : public nlohmann::json_sax<json> {
         if (depth_ == 1 && key_ == "id") seen_.id = value;
         return true;
     }
-    bool enter() {
+    bool enterContainer() {
         ++depth_;
         return true;
     }
@@ -347,7 +348,7 @@ class TypeAndIdListener : public nlohmann::json_sax<json> {
         return true;
     }
 
-    RequestPeek& seen_;
+    RequestTypeAndId& seen_;
     std::string key_;
     std::size_t depth_ = 0;
 };
@@ -372,7 +373,7 @@ std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
                       "a message must have a member \"type\", one of " + text::commaSeparated(requestTypes()));
     }
     const std::string& name = type->get_ref<const std::string&>();
-    const auto known = std::ranges::find(kRequestTypes, name, &RequestType::name);
+    const auto known = std::ranges::find(kRequestTypes, name, &RequestTypeRow::name);
     if (known == kRequestTypes.end()) {
         return refuse(ErrorCode::unknown_type, "no message has the type " + text::inQuotes(name) +
                                                    text::didYouMean(name, requestTypes()) +
@@ -395,7 +396,7 @@ std::variant<Request, BadRequest> requestOf(ParsedJson&& read) {
 std::span<const std::string_view> requestTypes() {
     static const auto names = [] {
         std::array<std::string_view, kRequestTypes.size()> all;
-        std::ranges::transform(kRequestTypes, all.begin(), &RequestType::name);
+        std::ranges::transform(kRequestTypes, all.begin(), &RequestTypeRow::name);
         return all;
     }();
     return names;
@@ -405,14 +406,14 @@ std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDep
     return requestOf(parseJson(text, maxDepth));
 }
 
-RequestPeek peekRequest(std::string_view beginning) {
-    RequestPeek seen;
+RequestTypeAndId peekRequest(std::string_view beginning) {
+    RequestTypeAndId seen;
     TypeAndIdListener listener(seen);
     json::sax_parse(beginning.begin(), beginning.end(), &listener);
     return seen;
 }
 
-Result<session::Set> setCommandFromState(std::string_view text) {
+Result<session::ChangeSettings> setCommandFromState(std::string_view text) {
     constexpr int kDepth = 8;
     ParsedJson read = parseJson(text, kDepth);
     // If the text is not JSON, the value contains only what precedes the fault. The type may then be missing.
@@ -425,10 +426,10 @@ Result<session::Set> setCommandFromState(std::string_view text) {
     }
     auto request = requestOf(std::move(read));
     if (auto* bad = std::get_if<BadRequest>(&request)) return std::move(bad->error);
-    return std::get<session::Set>(std::get<session::Command>(std::get<Request>(request).body));
+    return std::get<session::ChangeSettings>(std::get<session::Command>(std::get<Request>(request).body));
 }
 
-Result<session::Set> setCommandFromFile(std::string_view file, std::size_t maxMessage) {
+Result<session::ChangeSettings> setCommandFromFile(std::string_view file, std::size_t maxMessage) {
     const auto message = image::isPng(file) ? image::stateTextIn(file) : file;
     if (!message)
         return Error{ErrorCode::bad_message,

@@ -30,22 +30,22 @@ struct BadRequest {
 std::variant<Request, BadRequest> parseRequest(std::string_view text, int maxDepth = 32);
 
 /// The type and the id of a message, as far as they could be read.
-struct RequestPeek {
+struct RequestTypeAndId {
     std::optional<std::string> type;
     std::optional<double> id;
 };
 /// Reads the type and the id from the beginning of a message. The rest of the message may be missing or invalid.
-RequestPeek peekRequest(std::string_view beginning);
+RequestTypeAndId peekRequest(std::string_view beginning);
 
 /// Parses a `state` message, such as the one in the iTXt chunk of a picture's PNG file. Returns the command that
 /// restores the state. Errors: `bad_json`, `bad_message`, `out_of_range`.
-Result<session::Set> setCommandFromState(std::string_view text);
+Result<session::ChangeSettings> setCommandFromState(std::string_view text);
 
 /// Parses the `state` message in a file: a picture made by oval4d, or a JSON file with only this message. Returns the
 /// command that restores the state. Errors: `bad_message` if the file is a PNG file without a state; `too_large` if the
 /// message has more than `maxMessage` bytes; the errors of setCommandFromState().
-Result<session::Set> setCommandFromFile(std::string_view file,
-                                        std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
+Result<session::ChangeSettings> setCommandFromFile(std::string_view file,
+                                                   std::size_t maxMessage = std::numeric_limits<std::size_t>::max());
 
 /// Returns whether setCommandFromFile() may be able to read a file: it starts like a PNG file or a JSON object.
 bool mayContainState(std::string_view file);

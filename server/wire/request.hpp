@@ -26,23 +26,23 @@
 namespace oval4d::wire {
 
 /// What the server sends to a client after each change of the session, in addition to the new state.
-enum class Stream : std::uint8_t {
+enum class StreamKind : std::uint8_t {
     none,      ///< nothing besides the state
     geometry,  ///< a `slices` message, from which the client draws the picture itself
     frames,    ///< a picture of the state as a PNG file
 };
-inline constexpr auto kStreams = text::completeTable<text::NamedValue<Stream>>(
-    {{"none", Stream::none}, {"geometry", Stream::geometry}, {"frames", Stream::frames}});
+inline constexpr auto kStreams = text::completeTable<text::NamedValue<StreamKind>>(
+    {{"none", StreamKind::none}, {"geometry", StreamKind::geometry}, {"frames", StreamKind::frames}});
 
 /// The first message on a connection, which joins or creates a session. A later `hello` changes the stream of the
 /// connection.
 struct Hello {
     static constexpr std::string_view kMessageType = "hello";
-    Stream stream = Stream::none;
+    StreamKind stream = StreamKind::none;
     Encoding encoding = Encoding::json;
     std::optional<scene::Viewport> viewport;  ///< the size of the pictures; if absent, the server chooses the size
     /// The color scheme of pictures with scene::Background::automatic.
-    scene::Scheme scheme = scene::Scheme::dark;
+    scene::ColorScheme scheme = scene::ColorScheme::dark;
     /// The secret token of the session to join. Present only if the address of the connection names a session.
     std::optional<std::string> token;
     bool operator==(const Hello&) const = default;

@@ -122,10 +122,10 @@ const MessageSchema& schemaOf(std::string_view type) {
 }
 
 // Returns the name in a step of valijson's path to an error. Steps have the form "<root>", "[angles]" or "[0]".
-std::string stepName(const std::string& step) { return step.substr(1, step.size() - 2); }
+std::string pathStepName(const std::string& step) { return step.substr(1, step.size() - 2); }
 
 // Returns the error with the longest path, because this is the most specific error. Returns nullptr if there is none.
-const valijson::ValidationResults::Error* innermost(const valijson::ValidationResults& results) {
+const valijson::ValidationResults::Error* mostSpecificError(const valijson::ValidationResults& results) {
     const valijson::ValidationResults::Error* deepest = nullptr;
     for (const auto& error : results) {
         if (!deepest || error.context.size() > deepest->context.size()) deepest = &error;
@@ -136,7 +136,7 @@ const valijson::ValidationResults::Error* innermost(const valijson::ValidationRe
 // Returns the end of an error message after "must be": the title of the schema, such as "a finite number of radians".
 // For a schema without a title, returns "a number from 0.25 to 4" or "an integer from 1 to 9" if the schema has both
 // bounds, and otherwise "different".
-std::string expected(const json& schema) {
+std::string expectedValueText(const json& schema) {
     if (schema.contains("title") || !schema.contains("minimum") || !schema.contains("maximum"))
         return schema.value("title", "different");
     const std::string kind = schema.at("type") == "integer" ? "an integer" : "a number";
@@ -145,13 +145,13 @@ std::string expected(const json& schema) {
 }
 
 // Returns the description of a missing or unknown member of an object; an empty string if there is no such member.
-std::string membersFault(const json& schema, const json& value, const std::string& path) {
+std::string describeMembersFault(const json& schema, const json& value, const std::string& path) {
     if (!value.is_object() || !schema.contains("properties")) return {};
     const json& properties = schema.at("properties");
     if (schema.contains("required")) {
         for (const std::string name : schema.at("required")) {
             if (!value.contains(name))
-                return path + "/" + name + " is missing; it must be " + expected(properties.at(name));
+                return path + "/" + name + " is missing; it must be " + expectedValueText(properties.at(name));
         }
     }
     if (schema.value("additionalProperties", json(true)) != json(false)) return {};
@@ -166,7 +166,7 @@ std::string membersFault(const json& schema, const json& value, const std::strin
 }
 
 // Returns whether a value is a number of the right type, but outside the bounds of its schema.
-bool outOfBounds(const json& schema, const json& value) {
+bool isOutOfBounds(const json& schema, const json& value) {
     if (!value.is_number()) return false;
     const json type = schema.value("type", json());
     if (type == "integer" && !value.is_number_integer()) return false;
@@ -191,7 +191,7 @@ std::string numberText(const json& schema, const json& value) {
 
 // Returns the end of an error message: ", not " and the value. Returns an empty string for an array or object, whose
 // text may be long.
-std::string notThis(const json& schema, const json& value) {
+std::string actualValueText(const json& schema, const json& value) {
     if (value.is_structured()) return {};
     if (value.is_number()) return ", not " + numberText(schema, value);
     return ", not " + (value.is_string() ? text::inQuotes(value.get<std::string>()) : value.dump());
@@ -212,9 +212,9 @@ std::optional<Error> validationError(std::string_view type, const json& message)
     const json* node = &schema.text;
     const json* value = &message;
     std::string path;
-    if (const auto* fault = innermost(results)) {
+    if (const auto* fault = mostSpecificError(results)) {
         for (std::size_t i = 1; i < fault->context.size(); ++i) {
-            const std::string step = stepName(fault->context[i]);
+            const std::string step = pathStepName(fault->context[i]);
             const json* next = nullptr;
             if (value->is_object() && value->contains(step)) {
                 if (node->contains("properties") && node->at("properties").contains(step))
@@ -230,11 +230,11 @@ std::optional<Error> validationError(std::string_view type, const json& message)
         }
     }
     const std::string prefix = std::string(type) + ": ";
-    if (std::string text = membersFault(*node, *value, path); !text.empty())
+    if (std::string text = describeMembersFault(*node, *value, path); !text.empty())
         return Error{ErrorCode::bad_message, prefix + text};
-    return Error{
-        outOfBounds(*node, *value) ? ErrorCode::out_of_range : ErrorCode::bad_message,
-        prefix + (path.empty() ? "the message" : path) + " must be " + expected(*node) + notThis(*node, *value)};
+    return Error{isOutOfBounds(*node, *value) ? ErrorCode::out_of_range : ErrorCode::bad_message,
+                 prefix + (path.empty() ? "the message" : path) + " must be " + expectedValueText(*node) +
+                     actualValueText(*node, *value)};
 }
 
 }  // namespace oval4d::wire

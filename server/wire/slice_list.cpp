@@ -12,27 +12,27 @@ namespace {
 using scene::Scene;
 using scene::SlicePlacement;
 using slicing::SliceSet;
-using NumberSpan = std::span<const std::uint32_t>;
+using IndexSpan = std::span<const std::uint32_t>;
 
 template <typename T>
-std::span<const T> part(const std::vector<T>& all, std::uint32_t begin, std::uint32_t end) {
+std::span<const T> subspanOf(const std::vector<T>& all, std::uint32_t begin, std::uint32_t end) {
     return std::span<const T>(all).subspan(begin, end - begin);
 }
 
 // The sources of the elements of one slice or several. The source of an element is the index of the element of the
 // object from which it was cut (see SliceSet).
-struct ElementSources {
-    NumberSpan vertices, edges, faces;
+struct ElementSourceNumbers {
+    IndexSpan vertices, edges, faces;
 };
 
-ElementSources sourcesOf(const SliceSet& slices, std::size_t from, std::size_t to) {
-    return {part(slices.vertexSource, slices.vertexBegin[from], slices.vertexBegin[to]),
-            part(slices.edgeSource, slices.edgeBegin[from], slices.edgeBegin[to]),
-            part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to])};
+ElementSourceNumbers elementSourcesOf(const SliceSet& slices, std::size_t from, std::size_t to) {
+    return {subspanOf(slices.vertexSource, slices.vertexBegin[from], slices.vertexBegin[to]),
+            subspanOf(slices.edgeSource, slices.edgeBegin[from], slices.edgeBegin[to]),
+            subspanOf(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to])};
 }
 
 template <typename W>
-void writeSources(W& w, const ElementSources& of) {
+void writeElementSources(W& w, const ElementSourceNumbers& of) {
     w.key("of");
     w.beginObject();
     w.key("vertices");
@@ -49,8 +49,8 @@ template <typename W>
 void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells, std::size_t from,
                      std::size_t to) {
     if (faceCells.empty()) return;
-    const NumberSpan sources = part(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
-    const NumberSpan cells = part(faceCells, slices.faceBegin[from], slices.faceBegin[to]);
+    const IndexSpan sources = subspanOf(slices.faceSource, slices.faceBegin[from], slices.faceBegin[to]);
+    const IndexSpan cells = subspanOf(faceCells, slices.faceBegin[from], slices.faceBegin[to]);
     if (std::ranges::equal(sources, cells)) return;
     w.key("tints");
     w.numbers(cells);
@@ -58,9 +58,9 @@ void writeColorCells(W& w, const SliceSet& slices, const std::vector<std::uint32
 
 // Writes the visibility of each element. Writes nothing if all elements are fully visible.
 template <typename W>
-void writeVisibilities(W& w, const slicing::VisibilityBySource& visibilities, const ElementSources& of) {
+void writeVisibilities(W& w, const slicing::VisibilityBySource& visibilities, const ElementSourceNumbers& of) {
     if (visibilities.allVisible()) return;
-    const auto write = [&](std::string_view name, NumberSpan elements, const std::vector<slicing::Visibility>& by) {
+    const auto write = [&](std::string_view name, IndexSpan elements, const std::vector<slicing::Visibility>& by) {
         std::vector<std::uint32_t> list;
         for (const std::uint32_t element : elements) list.push_back(static_cast<std::uint32_t>(by[element]));
         w.key(name);
@@ -82,16 +82,16 @@ void writeBalls(W& w, const SliceSet& slices, std::size_t from, std::size_t to) 
     w.key("balls");
     w.beginObject();
     w.key("scale");
-    w.floatsForPictures(part(slices.ballScale, begin, end));
+    w.floatsForPictures(subspanOf(slices.ballScale, begin, end));
     w.key("opacity");
-    w.floatsForPictures(part(slices.ballOpacity, begin, end));
+    w.floatsForPictures(subspanOf(slices.ballOpacity, begin, end));
     w.endObject();
 }
 
 // The triangles that clients draw instead of faces that may cross each other or themselves (see Scene::fill and
 // ObjectProjection::fill). A "part" is a part of the projection. Indices in a triangle count from the first point of
 // the triangle's slice or part.
-struct FillTriangles {
+struct FilledFaceTriangles {
     std::vector<glm::dvec3> points;
     std::vector<IndexTriple> triangles;
     std::vector<std::uint32_t> colorCells, visibilities;
@@ -100,14 +100,14 @@ struct FillTriangles {
 // Adds the triangles of the visible faces of one slice or part. `colorCells` contains, for each face, the cell that
 // determines its color.
 void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>& colorCells,
-             const slicing::VisibilityBySource& visibilities, std::size_t slice, FillTriangles& fill) {
+             const slicing::VisibilityBySource& visibilities, std::size_t slice, FilledFaceTriangles& fill) {
     const std::size_t begin = fill.points.size();
     for (std::uint32_t f = from.faceBegin[slice]; f < from.faceBegin[slice + 1]; ++f) {
         const slicing::Visibility visibility = visibilities.face(from.faces[f].source);
         if (visibility == slicing::Visibility::hidden) continue;
         for (std::uint32_t k = from.pieceBegin[f]; k < from.pieceBegin[f + 1]; ++k) {
             const auto first = static_cast<std::uint32_t>(fill.points.size() - begin);
-            const auto corners = part(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
+            const auto corners = subspanOf(from.corners, from.cornerBegin[k], from.cornerBegin[k + 1]);
             fill.points.insert(fill.points.end(), corners.begin(), corners.end());
             for (std::uint32_t c = 2; c < corners.size(); ++c) {
                 fill.triangles.push_back({first, first + c - 1, first + c});
@@ -119,7 +119,7 @@ void addFill(const slicing::FilledFaces& from, const std::vector<std::uint32_t>&
 }
 
 template <typename W>
-void writeTriangles(W& w, const FillTriangles& fill, const slicing::VisibilityBySource& visibilities) {
+void writeTriangles(W& w, const FilledFaceTriangles& fill, const slicing::VisibilityBySource& visibilities) {
     w.key("points");
     w.vectors(std::span<const glm::dvec3>(fill.points));
     w.key("triangles");
@@ -136,7 +136,7 @@ void writeTriangles(W& w, const FillTriangles& fill, const slicing::VisibilityBy
 void writeFill(JsonWriter& w, const slicing::FilledFaces& faces, const std::vector<std::uint32_t>& colorCells,
                const slicing::VisibilityBySource& visibilities, std::size_t i) {
     if (faces.empty() || faces.faceBegin[i] == faces.faceBegin[i + 1]) return;
-    FillTriangles fill;
+    FilledFaceTriangles fill;
     addFill(faces, colorCells, visibilities, i, fill);
     w.key("fill");
     w.beginObject();
@@ -163,15 +163,15 @@ void writePlacement(JsonWriter&& w, const SlicePlacement& placement) {
 void writeElements(JsonWriter& w, const SliceSet& slices, const std::vector<std::uint32_t>& faceCells,
                    const slicing::VisibilityBySource& visibilities, std::size_t i) {
     const std::uint32_t f0 = slices.faceBegin[i], f1 = slices.faceBegin[i + 1];
-    const ElementSources of = sourcesOf(slices, i, i + 1);
+    const ElementSourceNumbers of = elementSourcesOf(slices, i, i + 1);
     w.key("vertices");
-    w.vectors(part(slices.vertices, slices.vertexBegin[i], slices.vertexBegin[i + 1]));
+    w.vectors(subspanOf(slices.vertices, slices.vertexBegin[i], slices.vertexBegin[i + 1]));
     w.key("edges");
-    w.pairs(part(slices.edges, slices.edgeBegin[i], slices.edgeBegin[i + 1]));
+    w.pairs(subspanOf(slices.edges, slices.edgeBegin[i], slices.edgeBegin[i + 1]));
     w.key("faces");
-    w.lists(
-        {part(slices.cornerBegin, f0, f1 + 1), part(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
-    writeSources(w, of);
+    w.jaggedArray({subspanOf(slices.cornerBegin, f0, f1 + 1),
+                   subspanOf(slices.corners, slices.cornerBegin[f0], slices.cornerBegin[f1])});
+    writeElementSources(w, of);
     writeColorCells(w, slices, faceCells, i, i + 1);
     writeBalls(w, slices, i, i + 1);
     writeVisibilities(w, visibilities, of);
@@ -211,7 +211,7 @@ void writeColumn(BinaryWriter& w, std::string_view name, const std::vector<Slice
 }
 
 template <typename W>
-void writePart(W& w, const scene::ProjectionPartLook& part) {
+void writePartLook(W& w, const scene::ProjectionPartLook& part) {
     w.member("ball", part.ballRadius);
     w.member("bar", part.barRadius);
     w.member("ball_color", part.ballColor);
@@ -247,7 +247,7 @@ void SliceListWriter::writePlacements(BinaryWriter& w, const std::vector<SlicePl
     w.endObject();
 }
 
-void SliceListWriter::writeRangeLengths(BinaryWriter& w, std::string_view name, NumberSpan begin) {
+void SliceListWriter::writeRangeLengths(BinaryWriter& w, std::string_view name, IndexSpan begin) {
     sizes_.resize(begin.size() - 1);
     for (std::size_t i = 0; i < sizes_.size(); ++i) sizes_[i] = begin[i + 1] - begin[i];
     w.key(name);
@@ -258,7 +258,7 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
                                     const std::vector<std::uint32_t>& faceCells,
                                     const slicing::VisibilityBySource& visibilities) {
     const std::size_t count = slices.vertexBegin.size() - 1;
-    const ElementSources of = sourcesOf(slices, 0, count);
+    const ElementSourceNumbers of = elementSourcesOf(slices, 0, count);
     w.key("counts");
     w.beginObject();
     writeRangeLengths(w, "vertices", slices.vertexBegin);
@@ -272,7 +272,7 @@ void SliceListWriter::writeElements(BinaryWriter& w, const SliceSet& slices,
     writeRangeLengths(w, "sides", slices.cornerBegin);
     w.key("corners");
     w.numbers(slices.corners);
-    writeSources(w, of);
+    writeElementSources(w, of);
     writeColorCells(w, slices, faceCells, 0, count);
     writeBalls(w, slices, 0, count);
     writeVisibilities(w, visibilities, of);
@@ -282,7 +282,7 @@ void SliceListWriter::writeFills(BinaryWriter& w, const slicing::FilledFaces& fa
                                  const std::vector<std::uint32_t>& colorCells,
                                  const slicing::VisibilityBySource& visibilities) {
     if (faces.empty()) return;
-    FillTriangles fill;
+    FilledFaceTriangles fill;
     std::vector<std::uint32_t> points{0}, triangles{0};
     for (std::size_t i = 0; i + 1 < faces.faceBegin.size(); ++i) {
         addFill(faces, colorCells, visibilities, i, fill);
@@ -315,7 +315,7 @@ void SliceListWriter::writeProjection(JsonWriter& w, const Scene& scene) {
     w.beginArray();
     for (std::size_t i = 0; i < projection.parts.size(); ++i) {
         w.beginObject();
-        writePart(w, projection.parts[i]);
+        writePartLook(w, projection.parts[i]);
         wire::writeElements(w, projection.elements, projection.faceCells, scene.visibilities, i);
         writeFill(w, projection.fill, projection.fillCells, scene.visibilities, i);
         w.endObject();
@@ -330,7 +330,7 @@ void SliceListWriter::writeProjection(BinaryWriter& w, const Scene& scene) {
     w.beginArray();
     for (const scene::ProjectionPartLook& part : projection.parts) {
         w.beginObject();
-        writePart(w, part);
+        writePartLook(w, part);
         w.endObject();
     }
     w.endArray();

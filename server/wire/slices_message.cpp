@@ -61,7 +61,7 @@ void writeCamera(W& w, const scene::Camera& camera) {
 }
 
 template <typename W>
-void writeColors(W& w, const scene::Style& style, const std::vector<scene::Color>& cells) {
+void writeColors(W& w, const scene::PictureStyle& style, const std::vector<scene::Color>& cells) {
     w.key("colors");
     w.beginObject();
     w.member("background", style.background);
@@ -95,7 +95,7 @@ void writeContours(W& w, const slicing::PlanarContours& contours) {
 }
 
 // Returns the number of columns of the image in Scene::plotTones; 0 if there is no image.
-int columnsOf(const scene::CoordinatesLayout& layout) {
+int plotColumnCount(const scene::ParallelCoordinatesLayout& layout) {
     if (layout.panel > 0) return slicing::CoordinateValueHistograms::kColumns;
     return layout.isDensityStrip ? scene::DensityPlot::kColumns : 0;
 }
@@ -133,7 +133,7 @@ void writePictureUnits(W& w, const fields::PictureUnits& units) {
 }
 
 template <typename W>
-void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
+void writeCoordinatesLayout(W& w, const scene::ParallelCoordinatesLayout& layout) {
     w.key("coordinates");
     w.beginObject();
     w.member("rows", layout.rows);
@@ -146,19 +146,19 @@ void writeCoordinatesLayout(W& w, const scene::CoordinatesLayout& layout) {
     w.member("line_width", layout.lineWidth);
     w.member("amplitude", layout.amplitude);
     w.member("named", layout.named);
-    w.member("columns", columnsOf(layout));
+    w.member("columns", plotColumnCount(layout));
     w.member("panel", layout.panel);
     w.endObject();
 }
 
 template <typename W>
 void writeStaticScene(W&& w, const SlicesMessageWriter::StaticScene& fixed) {
-    const scene::Style& style = scene::style();
+    const scene::PictureStyle& style = scene::style();
     w.beginObject();
     w.member("view", text::nameOf(scene::kViews, fixed.view));
     w.key("shown");
     w.beginObject();
-    for (const scene::NamedPart& part : scene::kParts) w.member(part.name, fixed.shown.*part.flag);
+    for (const scene::NamedPicturePart& part : scene::kParts) w.member(part.name, fixed.shown.*part.flag);
     w.endObject();
     w.key("viewport");
     w.beginObject();
@@ -224,7 +224,7 @@ void SlicesMessageWriter::writeMessage(W&& w, CachedTexts& texts, const Scene& s
         }
         if (!scene.coordinates.hasLines()) {
             w.key("density");
-            w.image(scene.plotTones, columnsOf(scene.coordinates));
+            w.image(scene.plotTones, plotColumnCount(scene.coordinates));
         }
         if (scene.showsHistogram()) writeHistogram(w, scene.histogram);
     }

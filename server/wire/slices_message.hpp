@@ -34,7 +34,7 @@ class SlicesMessageWriter {
         /// `ball`, `bar` and `opacity` are Scene::ballRadius, Scene::barRadius and Scene::faceOpacity.
         double scale = 0, circumradius = 0, ball = 0, bar = 0, opacity = 0;
         scene::AxesSymbolLayout axes;
-        scene::CoordinatesLayout coordinates;
+        scene::ParallelCoordinatesLayout coordinates;
         bool operator==(const StaticScene&) const = default;
     };
 

@@ -20,7 +20,7 @@ namespace oval4d::wire {
 
 namespace {
 
-void writeObject(JsonWriter& w, const slicing::Object& object, scene::Scheme scheme) {
+void writeObject(JsonWriter& w, const slicing::Object& object, scene::ColorScheme scheme) {
     const geometry::ObjectInfo& info = slicing::infoOf(object);
     w.key("polytope");
     w.beginObject();
@@ -51,7 +51,7 @@ void writeMatrix(JsonWriter& w, const glm::dmat4& matrix) {
     w.endArray();
 }
 
-void writeLastTurn(JsonWriter& w, const std::optional<geometry::Turn>& turn) {
+void writeLastTurn(JsonWriter& w, const std::optional<geometry::RotationAngles>& turn) {
     w.key("last");
     if (!turn) return w.null();
     w.beginObject();
@@ -117,9 +117,9 @@ void writePart(JsonWriter& w, const fields::Field& field) {
 }
 
 // Writes the member `values`: the second function of a field, if it has one, and the color scale of its values.
-void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme) {
+void writeValues(JsonWriter& w, const fields::Field& field, scene::ColorScheme scheme) {
     constexpr int kColors = 9;
-    const scene::ValueScale scale = scene::valueScaleFor(field.coloringRange->typicalRange(), scheme);
+    const scene::ValueColorScale scale = scene::valueScaleFor(field.coloringRange->typicalRange(), scheme);
     w.key("values");
     w.beginObject();
     if (field.second && field.second->array) {
@@ -137,13 +137,13 @@ void writeValues(JsonWriter& w, const fields::Field& field, scene::Scheme scheme
     w.beginArray();
     for (int i = 0; i < kColors; ++i) {
         const double at = static_cast<double>(i) / (kColors - 1);
-        w.value(std::uint64_t{scale.color(scale.least + at * (scale.greatest - scale.least))});
+        w.value(std::uint64_t{scale.colorOf(scale.least + at * (scale.greatest - scale.least))});
     }
     w.endArray();
     w.endObject();
 }
 
-void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& look, scene::Scheme scheme) {
+void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& look, scene::ColorScheme scheme) {
     w.key("field");
     w.beginObject();
     if (field.array) {
@@ -172,13 +172,13 @@ void writeField(JsonWriter& w, const fields::Field& field, const scene::Look& lo
 // nothing if there is no such coordinate.
 void writeCommonCoordinate(JsonWriter& w, const session::State& state) {
     const fields::Field* const field = slicing::fieldIn(state.object);
-    const auto common = field == nullptr ? std::nullopt : fields::commonCoordinate(*field, state.orientation);
+    const auto common = field == nullptr ? std::nullopt : fields::constantSliceCoordinate(*field, state.orientation);
     if (!common) return;
     const auto axis = static_cast<std::size_t>(common->axis);
     w.key("coordinate");
     w.beginObject();
     w.member("axis", std::string_view("xyzw").substr(axis, 1));
-    w.member("value", common->at(state.focusW()));
+    w.member("value", common->coordinateAt(state.focusW()));
     if (!field->units.at(axis).empty()) w.member("unit", std::string_view(field->units.at(axis)));
     w.endObject();
 }
@@ -207,8 +207,8 @@ void writeSettings(JsonWriter& w, const session::State& state) {
 // Writes the `state` message to `out`. Omits the serial number of the object if `serial` is empty.
 void writeState(std::string& out, const session::State& state, const slicing::SectionNamePair& section,
                 std::uint64_t revision, std::optional<std::uint64_t> serial, std::optional<double> id,
-                slicing::Quality quality, scene::Scheme viewer) {
-    const scene::Scheme scheme = scene::schemeOn(state.look.background, viewer);
+                slicing::Quality quality, scene::ColorScheme viewer) {
+    const scene::ColorScheme scheme = scene::schemeForBackground(state.look.background, viewer);
     JsonWriter w(out);
     beginMessage(w, "state", id);
     w.member("revision", revision);
@@ -237,12 +237,12 @@ constexpr std::size_t kTypicalBytes = 1024;
 }  // namespace
 
 void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
-                  std::optional<double> id, std::string& out, slicing::Quality quality, scene::Scheme viewer) {
+                  std::optional<double> id, std::string& out, slicing::Quality quality, scene::ColorScheme viewer) {
     writeState(out, state, section, revision, slicing::infoOf(state.source).serial, id, quality, viewer);
 }
 
 std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
-                         std::optional<double> id, slicing::Quality quality, scene::Scheme viewer) {
+                         std::optional<double> id, slicing::Quality quality, scene::ColorScheme viewer) {
     std::string out;
     out.reserve(kTypicalBytes);
     stateMessage(state, section, revision, id, out, quality, viewer);
@@ -252,7 +252,7 @@ std::string stateMessage(const session::State& state, const slicing::SectionName
 std::string stateMessageOutsideSessions(const session::State& state, const slicing::SectionNamePair& section) {
     std::string out;
     out.reserve(kTypicalBytes);
-    writeState(out, state, section, 0, {}, {}, slicing::Quality::full, scene::Scheme::dark);
+    writeState(out, state, section, 0, {}, {}, slicing::Quality::full, scene::ColorScheme::dark);
     return out;
 }
 

@@ -21,11 +21,11 @@ namespace oval4d::wire {
 /// reference is one of the settings in the message.
 std::string stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                          std::optional<double> id = {}, slicing::Quality quality = slicing::Quality::full,
-                         scene::Scheme viewer = scene::Scheme::dark);
+                         scene::ColorScheme viewer = scene::ColorScheme::dark);
 /// Writes the `state` message to `out`. Overwrites `out` and reuses its memory.
 void stateMessage(const session::State& state, const slicing::SectionNamePair& section, std::uint64_t revision,
                   std::optional<double> id, std::string& out, slicing::Quality quality = slicing::Quality::full,
-                  scene::Scheme viewer = scene::Scheme::dark);
+                  scene::ColorScheme viewer = scene::ColorScheme::dark);
 
 /// Returns the `state` message for a picture outside of sessions: with revision 0, in the dark color scheme, and
 /// without the serial number of the object. So equal pictures are equal files.

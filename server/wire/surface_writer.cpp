@@ -15,7 +15,7 @@ void SurfaceWriter::clear() {
     capColors_.clear();
 }
 
-void SurfaceWriter::add(const scene::Scene& scene, std::size_t slice) {
+void SurfaceWriter::addSlice(const scene::Scene& scene, std::size_t slice) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     points_.insert(points_.end(), surface.points.begin(), surface.points.end());
     normals_.insert(normals_.end(), surface.normals.begin(), surface.normals.end());
@@ -56,7 +56,7 @@ void SurfaceWriter::writeArrays(W& w, const scene::Scene& scene) const {
 void SurfaceWriter::write(JsonWriter& w, const scene::Scene& scene, std::size_t i) {
     if (scene.surfaces.empty() || scene.slices->surfaces[i].triangles.empty()) return;
     clear();
-    add(scene, i);
+    addSlice(scene, i);
     w.key("surface");
     w.beginObject();
     if (!scene.surfaces.sliceColors.empty()) w.member("color", scene.surfaces.sliceColors[i]);
@@ -70,7 +70,7 @@ void SurfaceWriter::write(BinaryWriter& w, const scene::Scene& scene) {
     pointCounts_.clear();
     triangleCounts_.clear();
     for (std::size_t i = 0; i < scene.slices->surfaces.size(); ++i) {
-        add(scene, i);
+        addSlice(scene, i);
         pointCounts_.push_back(static_cast<std::uint32_t>(scene.slices->surfaces[i].points.size()));
         triangleCounts_.push_back(static_cast<std::uint32_t>(scene.slices->surfaces[i].triangles.size()));
     }

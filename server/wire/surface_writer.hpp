@@ -43,7 +43,7 @@ class SurfaceWriter {
 
   private:
     void clear();
-    void add(const scene::Scene& scene, std::size_t slice);
+    void addSlice(const scene::Scene& scene, std::size_t slice);
     template <typename W>
     void writeArrays(W& w, const scene::Scene& scene) const;
 

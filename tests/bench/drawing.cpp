@@ -80,14 +80,14 @@ class Drawer {
         : state_(state), rasterizer_(&forkJoin), encoder_(&forkJoin) {}
 
     void draw(int i) {
-        state_.orientation = geometry::Rotation(
-            geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
+        state_.orientation = geometry::Rotation(geometry::RotationAngles{
+            geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
         const scene::Viewport viewport;
         image.width = viewport.width;
         image.height = viewport.height;
         image.pixels.resize(image::byteCount(viewport.width, viewport.height));
         raster::DrawTimes times;
-        session::writePicture(state_, viewport, slicing::Quality::full, picture_);
+        session::writePictureRequest(state_, viewport, slicing::Quality::full, picture_);
         rasterizer_.draw(picture_, image.pixels, times);
     }
     void encode() { encoder_.encode(image, "", png_); }

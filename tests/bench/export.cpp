@@ -51,7 +51,7 @@ session::State stateOf(const std::string& polytope) {
     if (!read) throw std::runtime_error(read.error().message);
     session::State state = *read;
     state.slices.spacing = std::sqrt(10.0) / 4 * slicing::infoOf(state.object).circumradius / 10;
-    state.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.3, 0.2});
+    state.orientation = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, 0.3, 0.2});
     return state;
 }
 
@@ -72,7 +72,7 @@ constexpr FileToExport kFiles[] = {
 };
 
 json files(const std::string& polytope, int turns) {
-    const scene::PictureRequest picture = session::pictureOf(stateOf(polytope));
+    const scene::PictureRequest picture = session::pictureRequestOf(stateOf(polytope));
     json rows = json::array();
     for (const FileToExport& file : kFiles) {
         rows.push_back({{"format", file.format}, {"about", file.about}, {"bytes", 0}, {"ms", json::array()}});

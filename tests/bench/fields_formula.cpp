@@ -59,7 +59,7 @@ void countPoints(benchmark::State& state) {
     state.counters["per point"] = benchmark::Counter(count, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void evaluateWith(benchmark::State& state, const fields::Kernels& kernels) {
+void evaluateWith(benchmark::State& state, const fields::TapeKernels& kernels) {
     const fields::FormulaFunction function(formula(state), kernels);
     for (auto _ : state) function.evaluate(points().batch(), points().values);
     countPoints(state);

@@ -140,12 +140,12 @@ class Bench {
     }
 
     void turn(int i) {
-        state_.orientation = geometry::Rotation(
-            geometry::Turn{geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
+        state_.orientation = geometry::Rotation(geometry::RotationAngles{
+            geometry::Plane::xw, 0.3 + i * std::numbers::pi / 97, 0.2 + i * std::numbers::pi / 131});
     }
 
     const scene::PictureRequest& picture(slicing::Quality quality = slicing::Quality::full) {
-        session::writePicture(state_, job_.viewport, quality, picture_);
+        session::writePictureRequest(state_, job_.viewport, quality, picture_);
         return picture_;
     }
 

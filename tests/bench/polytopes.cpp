@@ -19,8 +19,12 @@ struct Subject {
     int p, q, r;                 ///< the symbol {p, q, r}
     std::array<bool, 4> ringed;  ///< the ringed nodes of the diagram
 
-    polytopes::Diagram diagram() const { return polytopes::Diagram::linear({p, 1}, {q, 1}, {r, 1}, ringed); }
-    polytopes::Polytope build() const { return polytopes::wythoff(name, diagram(), polytopes::mirrorsOf(diagram())); }
+    polytopes::CoxeterDiagram diagram() const {
+        return polytopes::CoxeterDiagram::linear({p, 1}, {q, 1}, {r, 1}, ringed);
+    }
+    polytopes::Polytope build() const {
+        return polytopes::wythoffConstruction(name, diagram(), polytopes::mirrorsOf(diagram()));
+    }
 };
 constexpr Subject kSubjects[] = {
     {"5-cell", 3, 3, 3, {true, false, false, false}},
@@ -70,7 +74,7 @@ std::string off4(const polytopes::Polytope& p) {
     return out.str();
 }
 
-void read(benchmark::State& state, polytopes::FileFormat format, const std::string& text) {
+void read(benchmark::State& state, polytopes::PolytopeFileFormat format, const std::string& text) {
     for (auto _ : state) benchmark::DoNotOptimize(polytopes::importPolytope(format, text, "p", {}));
     state.counters["bytes"] = static_cast<double>(text.size());
 }
@@ -78,18 +82,18 @@ void read(benchmark::State& state, polytopes::FileFormat format, const std::stri
 void importOff4(benchmark::State& state) {
     const auto polytope = subject(state.range(0));
     state.SetLabel(polytope->name + ", " + std::to_string(polytope->edges.size()) + " edges");
-    read(state, polytopes::FileFormat::off4, off4(*polytope));
+    read(state, polytopes::PolytopeFileFormat::off4, off4(*polytope));
 }
 
 // Measures the import of the duoprism of two n-gons, which has 2 n² edges.
 void importDuoprism(benchmark::State& state) {
-    polytopes::Diagram diagram;
+    polytopes::CoxeterDiagram diagram;
     const auto n = static_cast<int>(state.range(0));
     for (int i = 0; i < 4; i += 2) diagram.branches[i][i + 1] = diagram.branches[i + 1][i] = {n, 1};
     diagram.ringed = {true, false, true, false};
-    const auto polytope = polytopes::wythoff("duoprism", diagram, polytopes::mirrorsOf(diagram), 100'000);
+    const auto polytope = polytopes::wythoffConstruction("duoprism", diagram, polytopes::mirrorsOf(diagram), 100'000);
     state.SetLabel(std::to_string(polytope.edges.size()) + " edges");
-    read(state, polytopes::FileFormat::off4, off4(polytope));
+    read(state, polytopes::PolytopeFileFormat::off4, off4(polytope));
 }
 
 void importPoints(benchmark::State& state) {
@@ -97,7 +101,7 @@ void importPoints(benchmark::State& state) {
     state.SetLabel("hull of " + std::to_string(polytope->vertices.size()) + " points");
     std::ostringstream text;
     writePoints(*polytope, text);
-    read(state, polytopes::FileFormat::points, text.str());
+    read(state, polytopes::PolytopeFileFormat::points, text.str());
 }
 
 BENCHMARK(build)->DenseRange(0, std::ssize(kSubjects) - 1)->Unit(benchmark::kMillisecond);

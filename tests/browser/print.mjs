@@ -6,7 +6,7 @@ import { drawBy } from "./support/drawing.mjs";
 import { covered, decode, pixelAt } from "./support/pixels.mjs";
 import { startServer } from "./support/server.mjs";
 import { test } from "./support/suite.mjs";
-import { onWhite } from "./node_modules/.oval4d/on_white.mjs";
+import { recolorForWhite } from "./node_modules/.oval4d/on_white.mjs";
 
 const kWhite = [255, 255, 255];
 
@@ -72,7 +72,7 @@ test("print: faces are as opaque as in a picture of the server on white", async 
     for (const polytope of ["24-cell", "small stellated 120-cell"]) {
         for (const opacity of [0.25, 1, 2, 4]) {
             const settings = { polytope, view: "single", opacity };
-            const printed = onWhite(await pictureOn("dark", settings)).scene.opacity;
+            const printed = recolorForWhite(await pictureOn("dark", settings)).scene.opacity;
             const expected = (await pictureOn("white", settings)).scene.opacity;
             assert.ok(Math.abs(printed - expected) < 1e-9, `${polytope}, ${opacity}: ${printed}, not ${expected}`);
         }

@@ -59,7 +59,7 @@ void judge(const net::AccessCheckInput& who) {
         require(who.token == kToken || who.authorization.ends_with(kToken) || contains(who.cookie, "oval4d_token="),
                 "without the token nobody is let in");
     }
-    const std::string cookie = open.cookieFor(who);
+    const std::string cookie = open.tokenCookieFor(who);
     require(cookie.empty() || who.token == kToken, "the cookie is for who has the token");
     if (cookie.empty()) return;
     net::AccessCheckInput back = who;

@@ -51,7 +51,7 @@ void requireMistake(std::string_view text, const fields::FormulaMistake& mistake
     fuzz::requireSentence(error);
 }
 
-void requireWithinBounds(const fields::Formula& formula, const fields::Kernels& kernels, const fields::Box& box,
+void requireWithinBounds(const fields::Formula& formula, const fields::TapeKernels& kernels, const fields::Box& box,
                          Points& points) {
     const fields::FormulaFunction function(formula, kernels);
     const fields::ValueBounds bounds = function.boundsIn(box);
@@ -97,7 +97,7 @@ OVAL4D_FUZZER(formula) {
 
     if (formula->constants().empty()) return 0;
     const fields::FormulaConstant changed{formula->constants()[0].name, box.min.x};
-    const auto other = formula->with(std::span(&changed, 1));
+    const auto other = formula->withConstants(std::span(&changed, 1));
     if (!other) {
         fuzz::requireSentence(other.error());
     } else {

@@ -19,7 +19,7 @@ OVAL4D_FUZZER(import) {
     }
     static slicing::Slicer slicer;
     static slicing::SliceSet slices;
-    const geometry::Rotation turned(geometry::Turn{geometry::Plane::zw, 0.3, {}});
+    const geometry::Rotation turned(geometry::RotationAngles{geometry::Plane::zw, 0.3, {}});
     for (const geometry::Rotation& orientation : {geometry::Rotation{}, turned}) {
         const double spacing = slicing::infoOf(read->object).circumradius / 2;
         slicer.sliceWithoutSurfaces(read->object, orientation, {-2, 5, spacing}, slices);

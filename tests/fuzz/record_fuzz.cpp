@@ -45,7 +45,7 @@ void requireUsable(const session::Session& session) {
     for (const char* key : {"y", "l", "G", "}", "u"}) {
         session::Session next = session;
         session::ObjectLoader loader(wide, fuzz::cache());
-        (void)session::apply(next, session::Key{key}, wide, loader);
+        (void)session::apply(next, session::KeyPress{key}, wide, loader);
         fuzz::requireSound(next.current, wide);
     }
 }

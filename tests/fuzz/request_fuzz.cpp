@@ -45,7 +45,7 @@ OVAL4D_FUZZER(request) {
         requireEcho(text, request.id, nullptr);
         if (const auto* command = std::get_if<session::Command>(&request.body)) {
             fuzz::execute(session, *command);
-            if (session.current.turning || session.current.playing) session::advance(session, 0.01);
+            if (session.current.turning || session.current.playing) session::advanceMotionBy(session, 0.01);
         }
     }
     fuzz::requireHistory(session);

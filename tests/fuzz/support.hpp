@@ -84,7 +84,7 @@ inline polytopes::PolytopeCache& cache() {
 /// or if the polytope has at most kLimits.maxVertices vertices.
 inline bool isSmall(std::string_view name) {
     const auto named = polytopes::designNamed(name, kLimits.maxVertices);
-    const auto* design = std::get_if<polytopes::Design>(&named);
+    const auto* design = std::get_if<polytopes::PolytopeDesign>(&named);
     return design == nullptr || polytopes::elementCounts(*design).vertices <= kLimits.maxVertices;
 }
 
@@ -94,7 +94,7 @@ inline std::string polytopeIn(const session::Command& command, const session::St
         const auto parsed = session::parseCommandLine(line->line, state);
         return parsed ? polytopeIn(*parsed, state) : "";
     }
-    const auto* set = std::get_if<session::Set>(&command);
+    const auto* set = std::get_if<session::ChangeSettings>(&command);
     return set ? set->object.value_or("") : "";
 }
 
@@ -140,7 +140,7 @@ inline void requireSound(const session::State& state, const session::Limits& lim
         require(seconds > 0 && seconds <= session::OngoingTurnToward::kMaxSeconds,
                 "a turn toward an element ends within its bound");
     }
-    require(session::isTransferFunction(state.look.field.fog), "the fog is a transfer function");
+    require(session::isValidTransferFunction(state.look.field.fog), "the fog is a transfer function");
     require(slicing::fieldIn(state.object) != nullptr || state.look.field.fog.empty(), "only fields have fog");
     for (int axis = 0; axis < 3; ++axis)
         require(within(state.look.focusPoint[axis] / info.circumradius, session::kMaxOffset * (1 + 1e-9)),
@@ -190,7 +190,8 @@ inline void requireSentence(const Error& error) {
 /// is unchanged. If the command must first load an object, executes it only if the object is small.
 inline void execute(session::Session& session, const session::Command& command) {
     const session::Session before = session;
-    const bool small = isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::Key>(command);
+    const bool small =
+        isSmall(polytopeIn(command, session.current)) && !std::holds_alternative<session::KeyPress>(command);
     session::ObjectLoader loader(kLimits, cache(), session::ObjectLoader::LoadingMode::deferred, session::readObject);
     session::ComputedOutcome outcome;
     for (int orders = 0; session::needsLoading(session, command, kLimits, loader, outcome); ++orders) {
@@ -205,7 +206,8 @@ inline void execute(session::Session& session, const session::Command& command) 
         requireSentence(done.error());
         session::Session expected = before;
         // A refused key also ends a key sequence that has begun.
-        if (std::holds_alternative<session::Key>(command) && session.pendingKey.empty()) expected.pendingKey.clear();
+        if (std::holds_alternative<session::KeyPress>(command) && session.pendingKey.empty())
+            expected.pendingKey.clear();
         require(session == expected, "an error leaves the session as it was:", done.error().message);
     } else {
         requireSound(session, kLimits);

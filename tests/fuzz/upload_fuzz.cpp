@@ -9,7 +9,7 @@ using fuzz::require;
 
 namespace {
 
-void requireSound(const net::Upload& upload, std::string_view method, std::string_view path) {
+void requireSound(const net::UploadRequest& upload, std::string_view method, std::string_view path) {
     if (!upload.load) {
         require(method == "PUT" && path.ends_with("/sessions/" + upload.session + "/state"),
                 "a state is put at its path");

@@ -159,7 +159,7 @@ def test_the_client_rejoins_its_session_after_restarts(tmp_path):
 
 def test_a_client_can_be_closed_while_it_reconnects(server, monkeypatch):
     reconnects, closed = threading.Event(), asyncio.Event()
-    original = oval4d_client.Client._open
+    original = oval4d_client.Client._open_socket
 
     async def open_late(self, *arguments):
         reconnects.set()
@@ -195,7 +195,7 @@ class RefusingSocket:
 
 def test_the_client_waits_for_a_server_that_can_open_its_session(server, monkeypatch):
     attempts = []
-    really_open = oval4d_client.Client._open
+    really_open = oval4d_client.Client._open_socket
 
     async def open_refused_twice(self, url, headers):
         attempts.append(url)
@@ -250,9 +250,9 @@ def test_a_picture_of_the_stream_right_after_the_answer_to_a_call_is_not_held(se
         frame = oval.frame(32, 18)
         oval._waiting[1000] = None  # a call whose thread does not run before the next picture arrives
         oval._wants_bytes.add(1000)
-        assert oval._receive(frame) == []
-        assert oval._receive('{"type":"done","id":1000,"revision":0}') == []
-        assert oval._receive(frame) == [(0, frame)]
+        assert oval._handle_message(frame) == []
+        assert oval._handle_message('{"type":"done","id":1000,"revision":0}') == []
+        assert oval._handle_message(frame) == [(0, frame)]
 
 
 def test_a_notebook_shows_every_change(server, tmp_path, monkeypatch):

@@ -212,9 +212,9 @@ def test_an_array_is_colored_by_another_one(server):
 
 
 def test_uploads_and_the_data_folder_take_second_functions(tmp_path):
-    from oval4d_client import _netcdf
+    from oval4d_client import _netcdf_file
     field, values = (array.astype("f4") for array in ball_and_x((4, 20, 20, 20)))
-    body = _netcdf({"vorticity": field, "pressure": values, "plane": values[:]})
+    body = _netcdf_file({"vorticity": field, "pressure": values, "plane": values[:]})
     (tmp_path / "run.nc").write_bytes(body)
     with Server("--data", tmp_path) as server, connect(server.url, timeout=DEADLINE) as oval:
         oval.hello()

@@ -5,9 +5,9 @@
 import { Client, RequestError } from "@oval4d/protocol";
 import type { Command, Done, Keymap, PolytopeElement, Settings, State } from "@oval4d/protocol";
 
-import { Clicks } from "./clicks";
+import { ClickHandler } from "./clicks";
 import { ColorControls } from "./color_controls";
-import { ColorScheme, groundOf, type SchemeChoice } from "./color_scheme";
+import { ColorScheme, opaqueBackgroundOf, type ColorSchemeChoice } from "./color_scheme";
 import { CommandLine } from "./command_line";
 import { namesOfServerKeys } from "./completion";
 import { ConnectionStatus } from "./connection_status";
@@ -17,7 +17,7 @@ import { ElementMeasurements } from "./element_measurements";
 import { ExportDialog } from "./export_dialog";
 import { FieldPanel } from "./field_panel";
 import { FieldSamples } from "./field_samples";
-import { fieldOfLine, loadOf, type FormulaWithBox } from "./fields";
+import { fieldInCommandLine, formulaLoadOf, type FormulaWithBox } from "./fields";
 import { FileLoading } from "./file_loading";
 import { nameOf } from "./files";
 import { WelcomeLine } from "./first_visit";
@@ -25,34 +25,35 @@ import { FocusPointControl } from "./focus_point_control";
 import { FocusPointDrag } from "./focus_point_drag";
 import { FocusSlider } from "./focus_slider";
 import { FrameHitTesterCache } from "./frame_hit_tester_cache";
-import { FrameMatrixCache } from "./frame_matrix_cache";
-import { FramePointing } from "./frame_pointing";
-import { FullScreen } from "./full_screen";
+import { FrameSectionMatrixCache } from "./frame_matrix_cache";
+import { FramePointerHighlighter } from "./frame_pointing";
+import { FullScreenMode } from "./full_screen";
 import { listenForGamepads } from "./gamepad";
 import { listenForGestures } from "./gestures";
 import { HeaderValues } from "./header_values";
-import { Help } from "./help";
+import { HelpDialog } from "./help";
 import { KeyRepeatLimiter } from "./key_repeat_limiter";
 import { Keyboard } from "./keyboard";
-import { Latency } from "./latency";
+import { LatencyMeter } from "./latency";
 import { extractInitialView, rememberSession } from "./link";
 import { Notice } from "./notice";
 import { OrbitControl } from "./orbit";
 import { PageSession } from "./page_session";
-import { pageSections, showFullScreenPressed, showModePressed, showSchemePressed, showTiltPressed } from "./page_tools";
+import { pageToolSections, showFullScreenPressed, showModePressed, showSchemePressed, showTiltPressed } from "./page_tools";
 import { executePageCommand } from "./page_commands";
 import { PhoneLinkDialog } from "./phone_link_dialog";
 import { PolytopePicker } from "./picker";
 import type { HitTester } from "./picture/hit_tester";
 import { type RenderingMode, Stage } from "./picture/stage";
-import { PointedLabel } from "./pointed_label";
-import { Pointing } from "./pointing";
+import { PointerLabel } from "./pointed_label";
+import { PointerHighlighter } from "./pointing";
 import { PrintView } from "./print_view";
+import { showRefining } from "./refining";
 import { RenderingModeSwitch } from "./rendering_mode_switch";
-import { Sharing } from "./sharing";
-import { RotationControl } from "./rotation";
+import { SessionSharing } from "./sharing";
+import { RotationSender } from "./rotation";
 import { TiltControl } from "./tilt";
-import { Tools } from "./tools";
+import { ToolsPanel } from "./tools";
 import { Tour } from "./tour";
 import { TourObjectSwitch } from "./tour_object_switch";
 
@@ -64,9 +65,9 @@ export class App {
     private readonly drawing = byId("drawing");
     private readonly polytopeButton = byId("polytope");
     private readonly notice = new Notice();
-    private readonly connection = new ConnectionStatus(() => this.session.beginNew(this.state));
+    private readonly connection = new ConnectionStatus(() => this.session.beginNewSession(this.state));
     private readonly keyRepeatLimiter = new KeyRepeatLimiter();
-    private readonly latency = new Latency();
+    private readonly latency = new LatencyMeter();
     private readonly initialView = extractInitialView();
     private readonly colorScheme = new ColorScheme(() => this.schemeChanged());
     private readonly stage = new Stage(this.drawing, {
@@ -122,7 +123,7 @@ export class App {
     private readonly orbit: OrbitControl = new OrbitControl(
         this.client,
         this.stage,
-        () => this.stage.hitTester ?? this.frameHitTesterCache.currentOrRequest(),
+        () => this.stage.hitTester ?? this.frameHitTesterCache.currentOrRequestHitTester(),
         (reason) => this.notice.show(reason),
     );
     private readonly slider: FocusSlider = new FocusSlider(this.client, {
@@ -130,15 +131,15 @@ export class App {
         send: (command) => void this.send(command),
         failed: (error) => this.notice.show(error.message),
     });
-    private readonly frameMatrixCache = new FrameMatrixCache(this.client, this.stage);
+    private readonly frameMatrixCache = new FrameSectionMatrixCache(this.client, this.stage);
     private readonly focusPointControl = new FocusPointControl(this.client, {
-        began: () => this.slider.stop(),
+        gestureBegan: () => this.slider.stop(),
         failed: (error) => this.notice.show(error.message),
     });
     private readonly focusPointDrag = new FocusPointDrag(this.drawing, this.stage, this.focusPointControl, () =>
         this.stage.hitTester ? this.stage.hitTester.picture.matrix : this.frameMatrixCache.current,
     );
-    private readonly rotation = new RotationControl((rotation) => this.send(rotation));
+    private readonly rotation = new RotationSender((rotation) => this.send(rotation));
     private readonly tilt: TiltControl = new TiltControl(
         this.rotation,
         () => showTiltPressed(this.tilt.ball),
@@ -149,7 +150,7 @@ export class App {
         ({ element, number }) => this.client.request({ type: "measure", element, number, highlight: true }),
         () => {
             this.pointedLabel.update();
-            this.pointing.complete();
+            this.pointing.completeHighlight();
         },
     );
     private readonly samples: FieldSamples = new FieldSamples(
@@ -157,8 +158,8 @@ export class App {
         (point) => this.client.request({ type: "get", what: "at", point }),
         () => this.pointedLabel.update(),
     );
-    private readonly pointedLabel = new PointedLabel(this.drawing, () => this.state, this.measurements, this.samples);
-    private readonly pointing: Pointing = new Pointing(
+    private readonly pointedLabel = new PointerLabel(this.drawing, () => this.state, this.measurements, this.samples);
+    private readonly pointing: PointerHighlighter = new PointerHighlighter(
         this.drawing,
         this.stage,
         this.pointedLabel,
@@ -166,7 +167,7 @@ export class App {
         () => this.state,
         (revision) => revision >= this.objectSince,
     );
-    private readonly framePointing: FramePointing = new FramePointing(
+    private readonly framePointing: FramePointerHighlighter = new FramePointerHighlighter(
         this.drawing,
         this.stage,
         this.client,
@@ -177,7 +178,7 @@ export class App {
         changed: (mode) => this.modeChanged(mode),
         tell: (message) => this.notice.show(message),
     });
-    private readonly clicks: Clicks = new Clicks(this.drawing, this.stage, this.pointing, {
+    private readonly clicks: ClickHandler = new ClickHandler(this.drawing, this.stage, this.pointing, {
         state: () => this.state,
         hitTester: () => this.requestHitTester(),
         began: () => this.slider.stop(),
@@ -185,12 +186,12 @@ export class App {
         send: (command) => void this.send(command),
         exportElement: (element) => this.openExport(element),
     });
-    private readonly help = new Help();
+    private readonly help = new HelpDialog();
     private readonly commandLine = new CommandLine({
-        run: (line) => this.execute(line),
+        runLine: (line) => this.execute(line),
         closed: () => this.drawing.focus(),
         failedLater: (error) => this.notice.show(error.message),
-        names: () => ({
+        completableNames: () => ({
             polytopes: this.picker.catalogue,
             kinds: this.state?.polytope.kinds?.map(({ name }) => name) ?? [],
             keys: namesOfServerKeys(this.keyboard.keys),
@@ -204,11 +205,11 @@ export class App {
     private readonly fileLoading = new FileLoading(this.client, (state) =>
         this.request({ ...state, type: "set", turning: false, playing: false }),
     );
-    private readonly sharing = new Sharing(this.client, this.notice);
+    private readonly sharing = new SessionSharing(this.client, this.notice);
     private readonly phoneLinkDialog = new PhoneLinkDialog(this.client);
     private readonly fieldPanel = new FieldPanel({
-        load: (...change) => this.loadField(...change),
-        set: (settings) => this.request({ type: "set", ...settings }),
+        loadFormula: (...change) => this.loadField(...change),
+        changeSettings: (settings) => this.request({ type: "set", ...settings }),
         shareAddress: (address) => void this.sharing.copyLink(address, "It opens this field"),
         closed: () => this.drawing.focus(),
     });
@@ -229,7 +230,7 @@ export class App {
             export: () => this.openExport(),
         },
     });
-    private readonly tools = new Tools({ press: (...binding) => this.keyboard.press(...binding) });
+    private readonly tools = new ToolsPanel({ press: (...binding) => this.keyboard.press(...binding) });
     private readonly tourObjectSwitch = new TourObjectSwitch(
         this.client,
         (command) => this.request(command),
@@ -245,7 +246,7 @@ export class App {
         closed: () => this.drawing.focus(),
     });
     private readonly colorControls = new ColorControls((change) => void this.send({ type: "set", ...change }));
-    private readonly fullScreen = new FullScreen((isOn) => this.fullScreenChanged(isOn));
+    private readonly fullScreen = new FullScreenMode((isOn) => this.fullScreenChanged(isOn));
     private state: State | undefined;
     private objectSince = 0; // the revision of the first state with the present object
     private resizing: ReturnType<typeof setTimeout> | undefined;
@@ -322,7 +323,7 @@ export class App {
     private applyKeymap(keymap: Keymap): void {
         this.keyboard.keys = keymap.keys;
         this.help.show(keymap);
-        const page = pageSections({
+        const page = pageToolSections({
             mode: this.stage.mode,
             canDrawGeometry: this.stage.canDrawGeometry,
             setMode: (mode) => this.renderingModeSwitch.choose(mode),
@@ -376,7 +377,7 @@ export class App {
         const isContinued = before && before.object_serial === state.object_serial && before.revision <= state.revision;
         if (!isContinued) this.objectSince = state.revision;
         this.state = state;
-        document.documentElement.dataset["ground"] = groundOf(state.background, this.colorScheme.current);
+        document.documentElement.dataset["ground"] = opaqueBackgroundOf(state.background, this.colorScheme.current);
         this.orbit.adoptCamera(state);
         this.frameHitTesterCache.update(state);
         this.frameMatrixCache.update(state);
@@ -419,7 +420,7 @@ export class App {
         if (this.state) this.frameMatrixCache.update(this.state);
     }
 
-    private chooseScheme(choice: SchemeChoice): void {
+    private chooseScheme(choice: ColorSchemeChoice): void {
         this.colorScheme.choice = choice;
         showSchemePressed(choice);
     }
@@ -482,7 +483,7 @@ export class App {
         });
         if (isOfPage) return undefined;
         const { revision } = await this.request({ type: "command", line });
-        const field = fieldOfLine(line);
+        const field = fieldInCommandLine(line);
         if (!field) return undefined;
         this.fieldPanel.adoptLoaded(field, revision);
         return undefined;
@@ -495,7 +496,7 @@ export class App {
      */
     private async loadField(field: FormulaWithBox, settings: Settings, continues = false): Promise<number> {
         // Both requests are sent at once, so that no picture shows the formula without the settings.
-        const answers = [this.request({ type: "load", ...loadOf(field), ...(continues && { continues }) })];
+        const answers = [this.request({ type: "load", ...formulaLoadOf(field), ...(continues && { continues }) })];
         if (Object.keys(settings).length > 0) {
             answers.push(this.request({ type: "set", continues: true, ...settings }));
         }
@@ -565,7 +566,7 @@ export class App {
 
     /** Sends a command, and tracks it until its picture is presented. Resolves to the server's answer. */
     private async request(command: Command): Promise<Done> {
-        if (command.type !== "rotate") this.tilt.endStep();
+        if (command.type !== "rotate") this.tilt.endUndoStep();
         const answer = this.client.request(command);
         try {
             await Promise.all([this.keyRepeatLimiter.track(answer), this.latency.track(command.type, answer)]);
@@ -593,7 +594,7 @@ export class App {
      */
     private async requestHitTester(): Promise<HitTester | undefined> {
         try {
-            return this.stage.hitTester ?? (await this.frameHitTesterCache.request());
+            return this.stage.hitTester ?? (await this.frameHitTesterCache.requestHitTester());
         } catch (error) {
             this.notice.show((error as Error).message);
             return undefined;

@@ -2,7 +2,7 @@
 
 import type { Credentials, Done, ErrorMessage } from "@oval4d/protocol";
 
-import { FileError, sizeText, utf16Of } from "./files";
+import { FileError, sizeText, detectUtf16 } from "./files";
 
 const kTooLarge = 413; // the HTTP status if a proxy or the server refuses a file because of its size
 const kMaxReason = 200; // the most characters of a proxy's answer that the page shows as the reason
@@ -11,7 +11,7 @@ const kHeader = 512; // isBinaryFile() reads this many bytes; in an array, they 
 /** Whether a file is binary, not a text. Only the server finds out whether it is an array, and in which format. */
 export async function isBinaryFile(file: File): Promise<boolean> {
     const bytes = new Uint8Array(await file.slice(0, kHeader).arrayBuffer());
-    if (utf16Of(bytes)) return false;
+    if (detectUtf16(bytes)) return false;
     return bytes.some((byte) => byte < 0x20 && !"\t\n\v\f\r".includes(String.fromCharCode(byte)));
 }
 
@@ -39,7 +39,7 @@ export function uploadArray(
         request.onload = () => {
             const answer = messageIn(request.responseText);
             if (answer?.type === "done") resolve(answer);
-            else reject(new FileError(answer?.message ?? refusalOf(request, limit)));
+            else reject(new FileError(answer?.message ?? uploadRefusalText(request, limit)));
         };
         request.send(file);
     });
@@ -62,7 +62,7 @@ function messageIn(text: string): Done | ErrorMessage | undefined {
  * The reason why a file was not loaded, made from an HTTP answer that is not a message of the server. Quotes the answer
  * only if its type is text/plain.
  */
-function refusalOf(request: XMLHttpRequest, limit: number): string {
+function uploadRefusalText(request: XMLHttpRequest, limit: number): string {
     const isPlain = /^text\/plain\b/i.test(request.getResponseHeader("Content-Type") ?? "");
     const reason = isPlain ? request.responseText.trim().slice(0, kMaxReason) : "";
     const said = `The file was not loaded: the answer was HTTP status ${request.status}${reason && `, ${reason}`}`;

@@ -3,7 +3,7 @@
 import type { CatalogueEntry } from "@oval4d/protocol";
 
 /** A family of polytopes, with those of its members that a search has found. */
-export interface Family {
+export interface PolytopeFamily {
     name: string;
     entries: CatalogueEntry[];
 }
@@ -14,10 +14,10 @@ const kMatch = { exact: 0, prefix: 1, wordPrefix: 2, substring: 3 };
 const kMostCompared = 64; // the search for similar names compares only this many letters at the start of a name
 const kLettersPerMistake = 3; // one mistake is allowed for every three letters typed, as in the server's suggestions
 
-interface SearchableEntry {
+interface SearchableCatalogueEntry {
     entry: CatalogueEntry;
     family: string;
-    /** The name, the aliases and the symbols of the entry, as normalize() returns them. */
+    /** The name, the aliases and the symbols of the entry, as normalizeForSearch() returns them. */
     names: string[];
     /**
      * The normalized names and family; then the names without blanks, so that a search for "120cell" finds "120 cell".
@@ -26,35 +26,35 @@ interface SearchableEntry {
 }
 
 export class Catalogue {
-    private readonly indexed: SearchableEntry[];
+    private readonly indexed: SearchableCatalogueEntry[];
     private readonly families: string[]; // the names of the families, in the order of the catalogue
 
     constructor(readonly entries: readonly CatalogueEntry[]) {
         this.indexed = entries.map((entry) => {
             const { name, aliases, schlaefli, diagram = "", family = "" } = entry;
-            const names = [name, ...aliases, schlaefli, diagram].map(normalize).filter((name) => name !== "");
+            const names = [name, ...aliases, schlaefli, diagram].map(normalizeForSearch).filter((name) => name !== "");
             const withoutBlanks = names.map((name) => name.replaceAll(" ", ""));
-            return { entry, family, names, searchText: [...names, normalize(family), ...withoutBlanks].join("\n") };
+            return { entry, family, names, searchText: [...names, normalizeForSearch(family), ...withoutBlanks].join("\n") };
         });
         this.families = [...new Set(this.indexed.map(({ family }) => family))];
     }
 
     /** The entries that contain every word of `query`, grouped by family; the best matches come first. */
-    find(query: string): Family[] {
-        const words = query.split(/\s+/).map(normalize);
+    find(query: string): PolytopeFamily[] {
+        const words = query.split(/\s+/).map(normalizeForSearch);
         const found = this.indexed.filter(({ searchText }) => words.every((word) => hasSearchWord(searchText, word)));
-        return this.byFamily(found, normalize(query));
+        return this.groupByFamily(found, normalizeForSearch(query));
     }
 
     /**
      * The entries whose names differ from `query` by the fewest spelling mistakes, grouped by family. Finds only names
      * that contain the same numbers as `query`, and have at most one mistake for every three letters of `query`.
      */
-    findSimilar(query: string): Family[] {
-        return this.byFamily(this.similar(normalize(query)), normalize(query));
+    findSimilar(query: string): PolytopeFamily[] {
+        return this.groupByFamily(this.similarEntries(normalizeForSearch(query)), normalizeForSearch(query));
     }
 
-    private byFamily(items: SearchableEntry[], wanted: string): Family[] {
+    private groupByFamily(items: SearchableCatalogueEntry[], wanted: string): PolytopeFamily[] {
         const found = items.map((item) => ({ ...item, match: matchQuality(item.names, wanted) }));
         const families = this.families
             .map((name) => ({ name, found: found.filter(({ family }) => family === name).sort(compareMatch) }))
@@ -63,14 +63,14 @@ export class Catalogue {
         return families.map((family) => ({ name: family.name, entries: family.found.map(({ entry }) => entry) }));
     }
 
-    private similar(wanted: string): SearchableEntry[] {
+    private similarEntries(wanted: string): SearchableCatalogueEntry[] {
         const text = wanted.replaceAll(" ", "").slice(0, kMostCompared);
         let least = Math.floor(text.length / kLettersPerMistake);
-        let similar: SearchableEntry[] = [];
+        let similar: SearchableCatalogueEntry[] = [];
         if (least === 0) return similar;
         for (const item of this.indexed) {
             for (const name of item.names) {
-                if (numbersIn(name) !== numbersIn(wanted)) continue;
+                if (numberSequenceOf(name) !== numberSequenceOf(wanted)) continue;
                 const distance = editDistance(text, name.replaceAll(" ", "").slice(0, kMostCompared), least);
                 if (distance > least) continue;
                 if (distance < least) similar = [];
@@ -83,7 +83,7 @@ export class Catalogue {
 
     /** The entry with this name, alias or symbol, regardless of case and hyphens. */
     findByName(text: string): CatalogueEntry | undefined {
-        const wanted = normalize(text);
+        const wanted = normalizeForSearch(text);
         return this.indexed.find(({ names }) => names.includes(wanted))?.entry;
     }
 }
@@ -96,7 +96,7 @@ function hasSearchWord(text: string, word: string): boolean {
     return false;
 }
 
-function numbersIn(text: string): string {
+function numberSequenceOf(text: string): string {
     return (text.match(/\d+/g) ?? []).join(" ");
 }
 
@@ -127,7 +127,7 @@ function compareMatch(a: { match: number }, b: { match: number }): number {
 }
 
 /** Lower-cases the text, strips diacritics, and replaces all but letters, numbers, '/' and '*' by single blanks. */
-function normalize(text: string): string {
+function normalizeForSearch(text: string): string {
     return text
         .normalize("NFKD")
         .replace(/\p{M}/gu, "")

@@ -7,7 +7,7 @@ import { capitalize } from "./format";
 import type { AreaPoint } from "./hover";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
-import { isElement, type Pointing } from "./pointing";
+import { isElement, type PointerHighlighter } from "./pointing";
 
 const kLeastDisc = 12; // pixels: a click this near to the center of a slice hits the slice, however small the slice is
 
@@ -29,13 +29,13 @@ interface ClickActions {
     exportElement: (element: PolytopeElement) => void;
 }
 
-export class Clicks {
+export class ClickHandler {
     private readonly menu: ElementMenu;
 
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
-        private readonly pointing: Pointing,
+        private readonly pointing: PointerHighlighter,
         private readonly actions: ClickActions,
     ) {
         this.menu = new ElementMenu(drawing);
@@ -60,7 +60,7 @@ export class Clicks {
         const pointed = this.pointing.targetAt(x, y, hitTester);
         const element = pointed && isElement(pointed) ? pointed : undefined;
         if (!element && this.actions.moveFocusPoint({ x, y })) return;
-        if (pointed && isTap) this.pointing.showName(pointed, hitTester, { x, y });
+        if (pointed && isTap) this.pointing.showTappedName(pointed, hitTester, { x, y });
         const slice = pointed
             ? pointed.slice
             : hitTester.sliceAt(x * ratio, y * ratio, orbit, size, kLeastDisc * ratio);

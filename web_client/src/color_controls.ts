@@ -35,7 +35,7 @@ const kColorings: Record<Coloring, { polytope?: LabelAndTooltip; field?: LabelAn
     growth: { field: { label: "Growth", title: "How fast the surface moves outward as w grows" } },
     value: { field: { label: "Value", title: "The value of the second function, or of the field itself" } },
 };
-interface ScaleLegend {
+interface ColorScaleLegend {
     least: string;
     most: string;
     text: string;
@@ -46,7 +46,7 @@ interface ScaleLegend {
 }
 
 /** The legends of the colorings whose color scale is the same for all objects. */
-const kScales: Partial<Record<Coloring, ScaleLegend>> = {
+const kScales: Partial<Record<Coloring, ColorScaleLegend>> = {
     w: { least: "\u2212w", most: "+w", text: "From blue at the lowest w through gray to amber at the highest" },
     growth: {
         least: "shrinks",
@@ -62,7 +62,7 @@ const kBackgrounds: Record<Background, { label: string; title: string }> = {
     transparent: { label: "Clear", title: "None in PNG files, for slides; white on this page" },
 };
 const kVisibilities = ["shown", "faded", "hidden"] as const;
-type Visibility = (typeof kVisibilities)[number];
+type CellKindVisibility = (typeof kVisibilities)[number];
 
 const kScaleDigits = 3; // the ends of a scale of values are rounded to this many significant digits of their difference
 const kMaxListedKinds = 24; // the list is limited: an imported polytope may have as many kinds of cells as cells
@@ -108,7 +108,7 @@ export class ColorControls {
     update(state: State): void {
         this.state = state;
         const { name } = state.polytope;
-        const kinds = kindsOf(state);
+        const kinds = cellKindsOf(state);
         const listed = JSON.stringify([name, kinds]);
         if (listed !== this.listedKinds) this.listKinds(kinds);
         this.listedKinds = listed;
@@ -136,7 +136,7 @@ export class ColorControls {
         }
         const seen = coloringSeen(state);
         checkRadio(this.colorings, seen);
-        const scale = scaleOf(state, seen);
+        const scale = colorScaleLegend(state, seen);
         this.scale.hidden = scale === undefined;
         const shown = JSON.stringify(scale);
         if (!scale || this.scale.dataset["of"] === shown) return;
@@ -148,7 +148,7 @@ export class ColorControls {
     }
 
     private listKinds(kinds: CellKind[]): void {
-        this.rows = kinds.slice(0, kMaxListedKinds).map(kindRow);
+        this.rows = kinds.slice(0, kMaxListedKinds).map(cellKindRow);
         const more = kinds.length - this.rows.length;
         const rest = element("p", {}, `${formatCount(more)} more kinds: use :hide, :fade and :show`);
         this.list.replaceChildren(...this.rows, ...(more > 0 ? [rest] : []));
@@ -160,7 +160,7 @@ export class ColorControls {
      */
     private applyChosenVisibilities(): void {
         const { hidden, faded } = this.state!;
-        const chosen = (visibility: Visibility, before: number[]): number[] => [
+        const chosen = (visibility: CellKindVisibility, before: number[]): number[] => [
             ...this.rows.flatMap((row, kind) =>
                 row.querySelector("input:checked")?.getAttribute("value") === visibility ? [kind] : [],
             ),
@@ -181,7 +181,7 @@ function coloringSeen(state: State): Coloring {
  * The legend of the picture's color scale; undefined if the picture has no color scale. It belongs to `seen`, the
  * coloring of the picture. If `seen` has no scale but the caps of a field are colored by value, it belongs to the caps.
  */
-function scaleOf(state: State, seen: Coloring): ScaleLegend | undefined {
+function colorScaleLegend(state: State, seen: Coloring): ColorScaleLegend | undefined {
     const { caps, field } = state;
     const values = field?.values;
     if (!values || (seen !== "value" && (caps !== "value" || kScales[seen]))) return kScales[seen];
@@ -203,24 +203,24 @@ export function spokenColoring(state: State): string {
 }
 
 /** The kinds of cells that can be shown, faded or hidden; none for a field, because its only cell is its box. */
-function kindsOf(state: State): CellKind[] {
+function cellKindsOf(state: State): CellKind[] {
     return isField(state) ? [] : (state.polytope.kinds ?? []);
 }
 
 /** A text for screen readers such as "cube hidden, tetrahedron faded", or "all kinds of cells shown". */
 export function spokenKinds(state: State): string {
-    const kinds = kindsOf(state);
-    const named = (list: number[], visibility: Visibility): string[] =>
+    const kinds = cellKindsOf(state);
+    const named = (list: number[], visibility: CellKindVisibility): string[] =>
         list.map((kind) => `${kinds[kind]?.name ?? `kind ${kind}`} ${visibility}`);
     const all = [...named(state.hidden, "hidden"), ...named(state.faded, "faded")];
     return all.length === 0 ? "all kinds of cells shown" : all.join(", ");
 }
 
-function visibilityOf({ hidden, faded }: State, kind: number): Visibility {
+function visibilityOf({ hidden, faded }: State, kind: number): CellKindVisibility {
     return hidden.includes(kind) ? "hidden" : faded.includes(kind) ? "faded" : "shown";
 }
 
-function kindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
+function cellKindRow({ name, cells, color }: CellKind, kind: number): HTMLElement {
     const swatch = element("i", { "aria-hidden": "true" });
     if (color !== undefined) swatch.style.background = cssColor(color);
     const radios = kVisibilities.map((visibility) => {

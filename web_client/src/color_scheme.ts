@@ -4,10 +4,10 @@
 import type { Background, Scheme } from "@oval4d/protocol";
 
 import colors from "../../protocol/colors.json";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 export const kSchemeChoices = ["system", "dark", "light"] as const;
-export type SchemeChoice = (typeof kSchemeChoices)[number];
+export type ColorSchemeChoice = (typeof kSchemeChoices)[number];
 
 /** The backgrounds that are a color: all except "auto" and "transparent". */
 export type OpaqueBackground = keyof typeof colors.grounds;
@@ -16,25 +16,25 @@ const kSchemeKey = "oval4d.scheme"; // storage key of the choice, in localStorag
 
 export class ColorScheme {
     private readonly system = matchMedia("(prefers-color-scheme: light)");
-    private chosen: SchemeChoice;
+    private chosen: ColorSchemeChoice;
     current: Scheme;
 
     /** `changed` is called when the scheme has changed. */
     constructor(private readonly changed: () => void) {
-        const stored = readStored<SchemeChoice>(kSchemeKey, true);
+        const stored = loadFromStorage<ColorSchemeChoice>(kSchemeKey, true);
         this.chosen = stored !== undefined && kSchemeChoices.includes(stored) ? stored : "system";
         this.current = this.wanted;
         this.applyToPage();
         this.system.addEventListener("change", () => this.update());
     }
 
-    get choice(): SchemeChoice {
+    get choice(): ColorSchemeChoice {
         return this.chosen;
     }
 
-    set choice(choice: SchemeChoice) {
+    set choice(choice: ColorSchemeChoice) {
         this.chosen = choice;
-        writeStored(kSchemeKey, choice, true);
+        saveToStorage(kSchemeKey, choice, true);
         this.update();
     }
 
@@ -57,7 +57,7 @@ export class ColorScheme {
 }
 
 /** The opaque background on which a viewer with this scheme sees a picture. A transparent picture is shown on white. */
-export function groundOf(background: Background, scheme: Scheme): OpaqueBackground {
+export function opaqueBackgroundOf(background: Background, scheme: Scheme): OpaqueBackground {
     if (background === "auto") return scheme;
     return background === "transparent" ? "white" : background;
 }

@@ -3,7 +3,7 @@
 import { byId, element } from "./element";
 import { commonPrefix, type CompletableNames, type Completions, completionsOf } from "./completion";
 import { toSentence } from "./format";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 const kHistoryKey = "oval4d.commands";
 const kMaxHistory = 100; // the most lines that the history keeps
@@ -11,12 +11,12 @@ const kPage = 0.8; // the fraction of the panel's height by which Page Down scro
 
 export interface CommandLineEvents {
     /** Executes a line; rejects with an Error whose message is shown to the user. */
-    run(line: string): Promise<unknown>;
+    runLine(line: string): Promise<unknown>;
     closed(): void;
     /** Called if a line fails after the command line was closed, or closed and opened again. */
     failedLater(error: Error): void;
     /** Returns the names that can complete a line, such as those of polytopes and keys. */
-    names(): CompletableNames;
+    completableNames(): CompletableNames;
 }
 
 /** The completions of a line. Each press of Tab inserts the next one. */
@@ -33,7 +33,7 @@ export class CommandLine {
     private readonly error = byId("command-error");
     private readonly list = byId("command-options");
     private readonly announcer = byId("spoken");
-    private history = readStored<string[]>(kHistoryKey) ?? [];
+    private history = loadFromStorage<string[]>(kHistoryKey) ?? [];
     private historyPosition = 0; // counted from the end of the history; 0 is the line being typed
     private draft = ""; // what the user has typed, while the input shows an earlier line
     private cycle: CompletionCycle | undefined;
@@ -124,7 +124,7 @@ export class CommandLine {
 
     /** The completions of the text before the caret. */
     private findCompletions(): Completions {
-        return completionsOf(this.input.value.slice(0, this.input.selectionEnd ?? undefined), this.events.names());
+        return completionsOf(this.input.value.slice(0, this.input.selectionEnd ?? undefined), this.events.completableNames());
     }
 
     /**
@@ -217,12 +217,12 @@ export class CommandLine {
         if (line === "") return this.close();
         this.history = [...this.history.filter((earlier) => earlier !== line), line].slice(-kMaxHistory);
         this.historyPosition = 0;
-        writeStored(kHistoryKey, this.history);
+        saveToStorage(kHistoryKey, this.history);
         const { openings } = this;
         // Returns false if the command line has been opened again since the line was submitted.
         const isSame = (): boolean => openings === this.openings;
         try {
-            await this.events.run(line);
+            await this.events.runLine(line);
             if (isSame()) this.close();
         } catch (error) {
             if (!isSame() || this.form.hidden) {

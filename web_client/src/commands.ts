@@ -29,7 +29,7 @@ interface SettingSchema {
 const kNotOnTheLine = ["orientation", "field", "last"];
 
 /** The settings of the command `set`, each with a list of its values; empty for a setting that is a number or name. */
-export const kSettings = new Map<string, string[]>(settingsOf(settings.properties as Record<string, SettingSchema>));
+export const kSettings = new Map<string, string[]>(settingsInSchema(settings.properties as Record<string, SettingSchema>));
 
 /**
  * The planes of single and double rotations, as the command `rotate` names them: "xy", "xw,yz". In the schema, the
@@ -46,11 +46,11 @@ export const kElementKinds = settings.properties.highlight.properties.element.en
  * or, if `parent` is given, to its member object `parent`. On the command line, `slices.count` is called `slices`.
  * Every other nested setting has its own name: `slices.spacing` is called `spacing`.
  */
-function settingsOf(properties: Record<string, SettingSchema>, parent = ""): [string, string[]][] {
+function settingsInSchema(properties: Record<string, SettingSchema>, parent = ""): [string, string[]][] {
     return Object.entries(properties).flatMap(([name, schema]): [string, string[]][] => {
         if (kNotOnTheLine.includes(name)) return [];
-        if (schema.$ref === "parts.schema.json") return settingsOf(parts.properties);
-        if (schema.type === "object") return settingsOf(schema.properties!, name);
+        if (schema.$ref === "parts.schema.json") return settingsInSchema(parts.properties);
+        if (schema.type === "object") return settingsInSchema(schema.properties!, name);
         const values = schema.type === "boolean" ? ["on", "off"] : (schema.enum ?? []).map(String);
         return [[name === "count" ? parent : name, values]];
     });

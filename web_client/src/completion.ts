@@ -41,7 +41,7 @@ export function completionsOf(line: string, names: CompletableNames): Completion
     if (completes === "setting") return settingCompletions(line, start, rest, names);
     if (completes === "format" && word !== rest) return fileOptionCompletions(line, rest, word);
     if (word !== rest) return { start, options: [], suffix: "" }; // of other commands, only the first argument
-    const options = valuesOf(completes, word, names);
+    const options = completionsOfKind(completes, word, names);
     return completionsUnlessComplete(line, start, options, completes === "highlight" ? beforeNumber(options, " ") : "");
 }
 
@@ -50,7 +50,7 @@ function settingCompletions(line: string, start: number, rest: string, names: Co
     // The value of `polytope` may contain blanks if `polytope` is the only setting in the line.
     const [, name = "", value = ""] = /^(polytope)=([^=]*)$/.exec(rest) ?? /(\S*?)=(\S*)$/.exec(rest) ?? [];
     if (name !== "") {
-        const options = valuesOf(name, value, names);
+        const options = completionsOfKind(name, value, names);
         const suffix = name === "highlight" ? beforeNumber(options, ":") : "";
         return completionsUnlessComplete(line, line.length - value.length, options, suffix);
     }
@@ -73,7 +73,7 @@ function fileOptionCompletions(line: string, rest: string, word: string): Comple
  * The names of the kind `kind`, such as "planes", that begin with `typed`. If there is no such kind of names, the
  * values of the setting `kind` that begin with `typed`.
  */
-function valuesOf(kind: string, typed: string, { polytopes, kinds, keys }: CompletableNames): string[] {
+function completionsOfKind(kind: string, typed: string, { polytopes, kinds, keys }: CompletableNames): string[] {
     if (kind === "polytope") return polytopeNames(polytopes, typed);
     const lists: Record<string, string[]> = {
         planes: kPlanes,

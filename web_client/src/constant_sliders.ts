@@ -1,19 +1,19 @@
 // Sliders for the named constants of a formula, such as a in "x^2 - a; a=0.7". Moving a slider rewrites the formula.
 
 import { element } from "./element";
-import { constantsOf, rangeFor, textOfSliderValue, valuesOfTexts, withConstant } from "./formula";
+import { constantsOf, sliderRangeFor, textOfSliderValue, constantValues, withConstant } from "./formula";
 
 const kDigits = 4; // significant digits of the values beside the sliders
 
 /** The slider of a constant, and the text that shows the constant's value. `step` is the slider's step. */
-interface SliderRow {
+interface ConstantSliderRow {
     slider: HTMLInputElement;
     value: HTMLOutputElement;
     step: number;
 }
 
 export class ConstantSliders {
-    private readonly rows = new Map<string, SliderRow>(); // by the constant's name
+    private readonly rows = new Map<string, ConstantSliderRow>(); // by the constant's name
     private readonly values = new Map<string, number>(); // by texts such as "pi/2": the computed numbers
     private formula = "";
 
@@ -28,7 +28,7 @@ export class ConstantSliders {
      * it; `written` is the same formula as the server writes it, with numbers.
      */
     learn(typed: string, written: string): void {
-        for (const [text, value] of valuesOfTexts(typed, written)) this.values.set(text, value);
+        for (const [text, value] of constantValues(typed, written)) this.values.set(text, value);
         this.update(this.formula);
     }
 
@@ -47,10 +47,10 @@ export class ConstantSliders {
         for (const { name, value } of constants) this.show(this.rows.get(name)!, value);
     }
 
-    private show(row: SliderRow, value: number): void {
+    private show(row: ConstantSliderRow, value: number): void {
         const { slider } = row;
         if (slider.min === "" || value < Number(slider.min) || value > Number(slider.max)) {
-            const { min, max, step } = rangeFor(value);
+            const { min, max, step } = sliderRangeFor(value);
             Object.assign(slider, { min: String(min), max: String(max), step: String(step) });
             row.step = step;
         }
@@ -58,7 +58,7 @@ export class ConstantSliders {
         slider.value = String(value);
     }
 
-    private makeRow(name: string): SliderRow {
+    private makeRow(name: string): ConstantSliderRow {
         const slider = element("input", { type: "range", "data-constant": name, "aria-label": name });
         const value = element("output");
         element("label", {}, element("i", { "aria-hidden": "true" }, name), slider, value);

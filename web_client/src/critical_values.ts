@@ -77,10 +77,10 @@ export class CriticalValues {
 
     private scheduleRequest(): void {
         clearTimeout(this.timer);
-        this.timer = setTimeout(() => void this.request(), this.restTime);
+        this.timer = setTimeout(() => void this.requestCriticalValues(), this.restTime);
     }
 
-    private async request(): Promise<void> {
+    private async requestCriticalValues(): Promise<void> {
         if (this.isAsking) return;
         const key = this.knownFor;
         this.isAsking = true;

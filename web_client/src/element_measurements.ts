@@ -20,7 +20,7 @@ export class ElementMeasurements {
      * The newest answer about an element; undefined if there is none, or if the server has refused to answer. While the
      * object moves, the range of w in the answer may be that of an earlier picture.
      */
-    of(element: PolytopeElement): Measured | undefined {
+    measurementsOf(element: PolytopeElement): Measured | undefined {
         return this.newest.about === this.identityOf(element) ? this.newest.answer : undefined;
     }
 
@@ -29,13 +29,13 @@ export class ElementMeasurements {
      * one question at a time. If another element is wanted before a question is sent, only the newer one is asked
      * about.
      */
-    want(element: PolytopeElement | undefined): void {
+    askAbout(element: PolytopeElement | undefined): void {
         this.wanted = element;
-        if (!this.isAsking) void this.askAboutWanted();
+        if (!this.isAsking) void this.requestMeasurementOfWanted();
     }
 
     /** Asks about the wanted element, again and again, until the answer about the newest wanted element is known. */
-    private async askAboutWanted(): Promise<void> {
+    private async requestMeasurementOfWanted(): Promise<void> {
         this.isAsking = true;
         while (this.wanted && this.questionAbout(this.wanted) !== this.asked) {
             const { wanted } = this;

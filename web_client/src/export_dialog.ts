@@ -7,24 +7,24 @@ import { download, fileName } from "./download";
 import { byId, element } from "./element";
 import { type ExportFormat, type FileOptionName, kFormats } from "./export_formats";
 import { focusW, toSentence } from "./format";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 const kChoicesKey = "oval4d.export";
 const kAllFormats = kFormats.flatMap(({ formats }) => formats);
 
 /** The chosen options of a file, without its format. protocol/README.md describes them for the message `get`. */
-type OptionValue = string | number | boolean;
-type ChosenOptions = Record<string, OptionValue>;
-const kOptionReaders: Record<FileOptionName, (value: string) => OptionValue> = {
+type ExportOptionValue = string | number | boolean;
+type ExportChoices = Record<string, ExportOptionValue>;
+const kOptionReaders: Record<FileOptionName, (value: string) => ExportOptionValue> = {
     of: String,
     body: String,
     size: Number,
     label: String,
     at: String,
     fit: Number,
-    exact: switchOf,
+    exact: parseOnOff,
 };
-const kOptions: Record<string, (value: string) => OptionValue> = kOptionReaders;
+const kOptions: Record<string, (value: string) => ExportOptionValue> = kOptionReaders;
 
 type RequestedFile = [file: ExportedFile, state: State];
 
@@ -76,7 +76,7 @@ export class ExportDialog {
      */
     async save(description: string, state: State): Promise<void> {
         const [name = "", ...words] = description.trim().split(/\s+/);
-        const given = optionsOf(words);
+        const given = parseOptions(words);
         const format = kAllFormats.find((one) => one.name === name.toLowerCase());
         if (!format) {
             const names = [...kAllFormats.map((one) => one.name), "latency"].join(", ");
@@ -91,7 +91,7 @@ export class ExportDialog {
             if (format.name === "png" && words.length > 0) {
                 throw new Error("the size of a PNG is chosen in the export dialog");
             }
-            const changed = withChanges(this.options, given);
+            const changed = withChangedOptions(this.options, given);
             return { options: changed, file: this.requestFile(format, changed) };
         });
         this.saveFile(await file, format, options);
@@ -117,7 +117,7 @@ export class ExportDialog {
         this.state = state;
         byId("export-of").textContent = state.polytope.name;
         this.showSliceValues();
-        byId("export-highlight").textContent = nameOf(state.highlight);
+        byId("export-highlight").textContent = elementNameOf(state.highlight);
         byId("export-coordinates").textContent = state.field ? "Histogram" : "Parallel coordinates";
         const limits = this.client.welcome?.limits;
         const pageSize = this.size();
@@ -203,9 +203,9 @@ export class ExportDialog {
         const choices = this.formValues();
         if (this.isForElement) for (const name of ["format", "of", "body"]) delete choices[name];
         else if (this.bodyToRestore !== undefined) choices["body"] = this.bodyToRestore;
-        const stored = { ...readStored<Record<string, string>>(kChoicesKey), ...choices };
+        const stored = { ...loadFromStorage<Record<string, string>>(kChoicesKey), ...choices };
         if ("width" in choices && !("preset" in choices)) delete stored["preset"]; // no preset has this size
-        writeStored(kChoicesKey, stored);
+        saveToStorage(kChoicesKey, stored);
     }
 
     private closed(): void {
@@ -219,7 +219,7 @@ export class ExportDialog {
 
     /** Restores the choices that storeChoices() has stored in this tab, if any. */
     private restoreChoices(): void {
-        for (const [name, value] of Object.entries(readStored<Record<string, string>>(kChoicesKey) ?? {})) {
+        for (const [name, value] of Object.entries(loadFromStorage<Record<string, string>>(kChoicesKey) ?? {})) {
             const field = this.form.elements.namedItem(name) as RadioNodeList | HTMLInputElement | null;
             if (field) field.value = value;
         }
@@ -313,7 +313,7 @@ export class ExportDialog {
     }
 
     /** The chosen options, without those that the format does not use: their fields are disabled. */
-    private get options(): ChosenOptions {
+    private get options(): ExportChoices {
         const { side, ...values } = this.formValues(); // `side` is the size of a drawing
         const all = side === undefined ? values : { ...values, size: side };
         const chosen = Object.entries(all).filter(([name]) => name in kOptions);
@@ -324,7 +324,7 @@ export class ExportDialog {
      * Requests the state and a file. The state is the one that the file shows, because the server executes the two
      * requests one after the other.
      */
-    private async requestFile({ name: format }: ExportFormat, options: ChosenOptions): Promise<RequestedFile> {
+    private async requestFile({ name: format }: ExportFormat, options: ExportChoices): Promise<RequestedFile> {
         const state = this.client.request({ type: "get", what: "state" });
         if (format !== "png") {
             const chosen = options as unknown as Partial<FileOptions>;
@@ -341,7 +341,7 @@ export class ExportDialog {
         return [{ bytes, warnings: [] }, shown];
     }
 
-    private saveFile([{ bytes, warnings }, state]: RequestedFile, format: ExportFormat, options: ChosenOptions): void {
+    private saveFile([{ bytes, warnings }, state]: RequestedFile, format: ExportFormat, options: ExportChoices): void {
         download(bytes, fileNameFor(state, format, options), format.type);
         this.warn(warnings);
     }
@@ -362,12 +362,12 @@ export class ExportDialog {
 function fileNameFor(
     state: State,
     { name, choices }: ExportFormat,
-    { of, fit, at, body, exact }: ChosenOptions,
+    { of, fit, at, body, exact }: ExportChoices,
 ): string {
     const parts = [state.polytope.name];
     if (fit !== undefined) parts.push(`${fit} slices`);
     else if (at !== undefined) parts.push("slices");
-    else if (of === "highlight") parts.push(nameOf(state.highlight));
+    else if (of === "highlight") parts.push(elementNameOf(state.highlight));
     else if (of === "focus") parts.push(`w ${focusW(state).replace("\u2212", "-")}`);
     else if (of === "coordinates" && state.field) parts.push("histogram");
     else if (of !== undefined && choices.includes("of")) parts.push(String(of));
@@ -377,20 +377,20 @@ function fileNameFor(
 }
 
 /** The name of an element, such as "cell 17". */
-function nameOf(element: State["highlight"]): string {
+function elementNameOf(element: State["highlight"]): string {
     return element ? `${element.element} ${element.number}` : "";
 }
 
 /** Parses the value of an option that is on or off; throws an Error for another value. */
-function switchOf(text: string): boolean {
+function parseOnOff(text: string): boolean {
     if (["on", "true", "yes", "1"].includes(text)) return true;
     if (["off", "false", "no", "0"].includes(text)) return false;
     throw new Error(`exact must be on or off, not “${text}”`);
 }
 
 /** Parses options from words such as "fit=5"; throws an Error if a word is not an option. */
-function optionsOf(words: string[]): ChosenOptions {
-    const options: ChosenOptions = {};
+function parseOptions(words: string[]): ExportChoices {
+    const options: ExportChoices = {};
     for (const word of words) {
         const [, name = "", text = ""] = /^(\w+)=(.+)$/.exec(word) ?? [];
         if (!Object.hasOwn(kOptions, name)) {
@@ -408,7 +408,7 @@ function optionsOf(words: string[]): ChosenOptions {
  * The chosen options after applying `changes`. The options `of`, `at` and `fit` choose slices together: if `changes`
  * contains one of the three, the chosen values of all three are discarded.
  */
-function withChanges({ of, at, fit, ...others }: ChosenOptions, changes: ChosenOptions): ChosenOptions {
+function withChangedOptions({ of, at, fit, ...others }: ExportChoices, changes: ExportChoices): ExportChoices {
     const changesSlices = ["of", "at", "fit"].some((name) => name in changes);
     const kept = { ...(of !== undefined && { of }), ...(at !== undefined && { at }), ...(fit !== undefined && { fit }) };
     return { ...others, ...(changesSlices ? {} : kept), ...changes };

@@ -57,11 +57,11 @@ const kPng: ExportFormat = {
 
 export const kFormats: { title: string; formats: ExportFormat[] }[] = table.groups.map(({ name: group, title }) => ({
     title,
-    formats: [...(group === "figure" ? [kPng] : []), ...table.formats.filter((row) => row.group === group).map(format)],
+    formats: [...(group === "figure" ? [kPng] : []), ...table.formats.filter((row) => row.group === group).map(formatFromRow)],
 }));
 
 /** A row of protocol/export_formats.json, which describes its members. */
-interface FormatTableRow {
+interface ExportFormatRow {
     name: string;
     label: string;
     about: string;
@@ -75,7 +75,7 @@ interface FormatTableRow {
     objects?: string;
 }
 
-function format(row: FormatTableRow): ExportFormat {
+function formatFromRow(row: ExportFormatRow): ExportFormat {
     const { name, label, about, of, objects } = row;
     return {
         name,
@@ -89,7 +89,7 @@ function format(row: FormatTableRow): ExportFormat {
     };
 }
 
-function choicesOf(row: FormatTableRow): ExportOption[] {
+function choicesOf(row: ExportFormatRow): ExportOption[] {
     const exact = row.surfaces ? ["exact" as const] : [];
     if (row.bodies) return ["of", "body", ...exact, "size", "label"];
     const side = row.group === "figure" ? ["side" as const] : [];

@@ -5,24 +5,24 @@ import type { Box, Caps, Inside, RequestError, Settings, Slices, State } from "@
 
 import { byId, element } from "./element";
 import { kExamples } from "./field_examples";
-import { isField, kFormulaName, kMaxLevels, kUsualBox, labelOfQuantity, parseNumbers, queryOf, type FormulaWithBox } from "./fields";
+import { isField, kFormulaName, kMaxLevels, kUsualBox, labelOfQuantity, parseNumbers, fieldQuery, type FormulaWithBox } from "./fields";
 import { FogEditor } from "./fog_editor";
 import { toSentence } from "./format";
-import { comparisonOf } from "./formula";
+import { comparisonOperatorIn } from "./formula";
 import { FormulaInput } from "./formula_input";
 import { ConstantSliders } from "./constant_sliders";
-import { NewestOnly } from "./newest_only";
+import { NewestValueSender } from "./newest_only";
 import { ObserverControls } from "./observer_controls";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 export interface FieldPanelEvents {
     /**
      * Loads a formula, then changes settings; resolves to the revision after both commands. `continues` tells whether
      * both belong to the undo step of the previous command. Rejects with an Error if the server refuses the formula.
      */
-    load(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
+    loadFormula(field: FormulaWithBox, settings: Settings, continues: boolean): Promise<number>;
     /** Changes settings; rejects with an Error whose message is shown. */
-    set(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
+    changeSettings(settings: Settings & { continues?: boolean }): Promise<{ revision: number }>;
     /** Gives the user `address`, a link that opens the field of the panel. */
     shareAddress(address: string): void;
     /** Called when the panel has been closed. */
@@ -49,12 +49,12 @@ export class FieldPanel {
         this.formula.value = text;
         this.scheduleLoad(0);
     });
-    private readonly loads = new NewestOnly<FormulaWithBox>((field) => this.load(field));
-    private readonly levelSettings = new NewestOnly<number[]>((levels) => this.applySettings({ levels }));
-    private readonly capSettings = new NewestOnly<Caps>((caps) => this.applySettings({ caps }));
-    private readonly insideSettings = new NewestOnly<Inside>((inside) => this.applySettings({ inside }));
-    private readonly fog = new FogEditor((settings) => this.events.set(settings));
-    private readonly observer = new ObserverControls((settings) => this.events.set(settings));
+    private readonly loads = new NewestValueSender<FormulaWithBox>((field) => this.loadFormula(field));
+    private readonly levelSettings = new NewestValueSender<number[]>((levels) => this.applySettings({ levels }));
+    private readonly capSettings = new NewestValueSender<Caps>((caps) => this.applySettings({ caps }));
+    private readonly insideSettings = new NewestValueSender<Inside>((inside) => this.applySettings({ inside }));
+    private readonly fog = new FogEditor((settings) => this.events.changeSettings(settings));
+    private readonly observer = new ObserverControls((settings) => this.events.changeSettings(settings));
     private loaded: FormulaWithBox | undefined; // the formula that this page loaded last
     // The settings that load() sent last, and the revision in the server's answer. Undefined after a state of this or a
     // later revision has arrived.
@@ -73,7 +73,7 @@ export class FieldPanel {
         this.ends = kAxes.flatMap((axis) => ["from", "to"].map((end) => rangeEndInput(axis, end)));
         byId("field-ranges").append(...kAxes.map((axis, i) => rangeRow(axis, this.ends[2 * i]!, this.ends[2 * i + 1]!)));
         this.example.append(...kExamples.map(({ title }, i) => element("option", { value: String(i) }, title)));
-        this.loaded = readStored<FormulaWithBox>(kStorageKey);
+        this.loaded = loadFromStorage<FormulaWithBox>(kStorageKey);
         this.write(this.loaded ?? { formula: kExamples[0]!.formula, box: kUsualBox });
         for (const end of this.ends) end.addEventListener("input", () => this.scheduleLoad(kTypingDelay));
         this.example.addEventListener("change", () => this.startFromExample(Number(this.example.value)));
@@ -102,7 +102,7 @@ export class FieldPanel {
         return !this.root.hidden;
     }
 
-    /** Opens the panel. If the object is not a field, loads the formula in the panel. */
+    /** Opens the panel. If the session does not show a field, loads the formula that is in the panel. */
     open(): void {
         this.setOpen(true);
         // On a touch screen, a text field with the focus would open the keyboard over the panel.
@@ -121,7 +121,7 @@ export class FieldPanel {
      */
     adoptLoaded(field: FormulaWithBox, revision: number): void {
         this.write(field);
-        writeStored(kStorageKey, field);
+        saveToStorage(kStorageKey, field);
         this.recordLoad(field, revision);
         this.showError(undefined);
     }
@@ -218,7 +218,7 @@ export class FieldPanel {
         const box = this.readBox();
         if (!box) return;
         const field = this.typedField(box);
-        writeStored(kStorageKey, field);
+        saveToStorage(kStorageKey, field);
         this.loads.submit(field, delay);
     }
 
@@ -232,21 +232,21 @@ export class FieldPanel {
     private readBox(): Box | undefined {
         const wrong = kAxes.filter((_, i) => {
             const pair = [this.ends[2 * i]!, this.ends[2 * i + 1]!];
-            const [from = NaN, to = NaN] = pair.map(({ value }) => numberIn(value));
+            const [from = NaN, to = NaN] = pair.map(({ value }) => parseNumber(value));
             const isValid = from < to && to - from < Infinity;
             for (const end of pair) end.setAttribute("aria-invalid", String(!isValid));
             return !isValid;
         });
         this.boxError.textContent = wrong.length > 0 ? `${wrong.join(", ")}: from a smaller to a larger number.` : "";
         if (wrong.length > 0) return undefined;
-        return kAxes.map((_, i) => [numberIn(this.ends[2 * i]!.value), numberIn(this.ends[2 * i + 1]!.value)]) as Box;
+        return kAxes.map((_, i) => [parseNumber(this.ends[2 * i]!.value), parseNumber(this.ends[2 * i + 1]!.value)]) as Box;
     }
 
-    private async load(field: FormulaWithBox): Promise<void> {
+    private async loadFormula(field: FormulaWithBox): Promise<void> {
         this.root.setAttribute("aria-busy", "true");
         try {
             const settings = this.keptSettings(field);
-            const revision = await this.events.load(field, settings, this.continuesSeries(field));
+            const revision = await this.events.loadFormula(field, settings, this.continuesSeries(field));
             this.sent = { settings, revision };
             this.recordLoad(field, revision);
             this.showError(undefined);
@@ -264,7 +264,7 @@ export class FieldPanel {
         const { loaded, lastLoad, state } = this;
         // A state newer than the last load shows that another command came after the load.
         if (!loaded || !lastLoad || !state || state.revision > lastLoad.revision) return false;
-        return performance.now() - lastLoad.time < kSeries && comparisonOf(loaded.formula) === comparisonOf(formula);
+        return performance.now() - lastLoad.time < kSeries && comparisonOperatorIn(loaded.formula) === comparisonOperatorIn(formula);
     }
 
     /**
@@ -276,7 +276,7 @@ export class FieldPanel {
         const { loaded, state } = this;
         if (!loaded || !state || !isField(state) || state.polytope.name !== kFormulaName) return {};
         const { levels, inside, fog, slices, point } = { ...state, ...this.sent?.settings };
-        const keepsLevels = levels && inside && comparisonOf(loaded.formula) === comparisonOf(formula);
+        const keepsLevels = levels && inside && comparisonOperatorIn(loaded.formula) === comparisonOperatorIn(formula);
         return {
             ...(keepsLevels && { levels, inside, ...(fog && { fog }) }),
             ...(String(loaded.box) === String(box) && { slices: focusAndOffsetOf(slices), point }),
@@ -302,7 +302,7 @@ export class FieldPanel {
 
     private async applySettings(settings: Settings): Promise<void> {
         try {
-            await this.events.set(settings);
+            await this.events.changeSettings(settings);
             this.showLevelsError("");
         } catch (error) {
             this.showLevelsError(toSentence((error as Error).message));
@@ -328,7 +328,7 @@ export class FieldPanel {
         address.hash = "";
         address.search = "";
         const box = this.readBox() ?? kUsualBox;
-        return `${address.href}?${queryOf(this.typedField(box), this.state ?? {})}`;
+        return `${address.href}?${fieldQuery(this.typedField(box), this.state ?? {})}`;
     }
 }
 
@@ -346,7 +346,7 @@ function focusAndOffsetOf({ focus = 0, offset = 0 }: NonNullable<Settings["slice
 }
 
 /** The number that a text consists of; NaN for other texts. */
-function numberIn(text: string): number {
+function parseNumber(text: string): number {
     const numbers = parseNumbers(text);
     return numbers.length === 1 ? numbers[0]! : NaN;
 }

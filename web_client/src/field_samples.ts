@@ -9,7 +9,7 @@ export type FieldPoint = Pick<At, "place" | "value" | "second_value">;
  * A point of the picture on a surface or a contour of a field, or on a cap. Caps are the flat parts that close a body
  * where the boundary of the field's box cuts it.
  */
-export interface LevelDescription {
+export interface LevelPointDescription {
     /** The index of the level in the `levels` of the state. */
     level: number;
     /**
@@ -33,7 +33,7 @@ export interface LevelDescription {
 const kInterval = 70; // milliseconds between two questions, at least
 
 export class FieldSamples {
-    private wanted: LevelDescription | undefined;
+    private wanted: LevelPointDescription | undefined;
     private newest: { about: string; on: string; answer: FieldPoint } = { about: "", on: "", answer: {} };
     private isAsking = false;
 
@@ -48,7 +48,7 @@ export class FieldSamples {
      * The known values at a point. While the pointer moves on a surface, these are the newest values that the server
      * has sent for this surface. Empty if there are none, or if the server has refused to answer.
      */
-    of(point: LevelDescription): FieldPoint {
+    knownAt(point: LevelPointDescription): FieldPoint {
         return point.known ?? (this.newest.on === this.surfaceOf(point) ? this.newest.answer : {});
     }
 
@@ -56,13 +56,13 @@ export class FieldSamples {
      * Asks the server about this point, if it has a `point`. The server is asked one question at a time. If another
      * point is wanted before a question is sent, only the newer one is asked about.
      */
-    want(point: LevelDescription | undefined): void {
+    askAbout(point: LevelPointDescription | undefined): void {
         this.wanted = point;
-        if (!this.isAsking) void this.askAboutWanted();
+        if (!this.isAsking) void this.requestSampleOfWanted();
     }
 
     /** Asks about the wanted point, again and again, until the values at the newest wanted point are known. */
-    private async askAboutWanted(): Promise<void> {
+    private async requestSampleOfWanted(): Promise<void> {
         this.isAsking = true;
         while (this.wanted?.point && this.wanted.revision === this.state()?.revision) {
             const { wanted } = this;
@@ -79,12 +79,12 @@ export class FieldSamples {
     }
 
     /** A text that identifies a surface in one picture of one object. */
-    private surfaceOf({ level, cap, sliceW, revision }: LevelDescription): string {
+    private surfaceOf({ level, cap, sliceW, revision }: LevelPointDescription): string {
         return JSON.stringify([level, cap, sliceW, revision, this.state()?.object_serial]);
     }
 
     /** A text that identifies a point on a surface. */
-    private identityOf(point: LevelDescription): string {
+    private identityOf(point: LevelPointDescription): string {
         return JSON.stringify([point.point, this.surfaceOf(point)]);
     }
 }

@@ -15,7 +15,7 @@ export interface FormulaWithBox {
 }
 
 /** How a field is shown, and its frame of reference (`pace`, `follow` and `boost`; see reference_frame.ts). */
-export type FieldLook = Pick<Settings, "levels" | "inside" | "caps" | "fog" | "pace" | "follow" | "boost">;
+export type FieldDisplaySettings = Pick<Settings, "levels" | "inside" | "caps" | "fog" | "pace" | "follow" | "boost">;
 
 /** The name under which the page and the command `formula` load a formula. */
 export const kFormulaName = "formula";
@@ -38,7 +38,7 @@ export function isField({ levels }: State): boolean {
 }
 
 /** The `load` message of a formula, without the member `type`. */
-export interface FormulaLoad {
+export interface FormulaLoadMessage {
     name: string;
     format: "formula";
     data: string;
@@ -46,7 +46,7 @@ export interface FormulaLoad {
     values?: string;
 }
 
-export function loadOf({ formula, box, values }: FormulaWithBox): FormulaLoad {
+export function formulaLoadOf({ formula, box, values }: FormulaWithBox): FormulaLoadMessage {
     return { name: kFormulaName, format: "formula", data: formula, box, ...(values && { values }) };
 }
 
@@ -69,7 +69,7 @@ export function quantityOfColors({ field }: State): Quantity {
  * share: "0.25 (130 s)", or "0.25 (x 0.5 m)" if the slice is perpendicular to the axis x of the box. Omits the
  * parentheses if this coordinate is w itself, without a unit, or if the slice is perpendicular to no axis of the box.
  */
-export function focusWithPlace(state: State): string {
+export function focusWithCoordinate(state: State): string {
     const { section, field } = state;
     const { axis = "w", value = section.w, unit = "" } = section.coordinate ?? {};
     const [least, most] = field?.box[["x", "y", "z", "w"].indexOf(axis)] ?? [0, 1];
@@ -80,7 +80,7 @@ export function focusWithPlace(state: State): string {
 }
 
 /** The field that a line such as "formula x^2 < 1 colored by y" shows; undefined for other commands. */
-export function fieldOfLine(line: string): FormulaWithBox | undefined {
+export function fieldInCommandLine(line: string): FormulaWithBox | undefined {
     const [, formula, values] = /^\s*:?\s*formula\s+(.*?\S)(?:\s+colored by\s+(.*?\S))?\s*$/s.exec(line) ?? [];
     return formula === undefined ? undefined : { formula, box: kUsualBox, ...(values && { values }) };
 }
@@ -114,7 +114,7 @@ export function boxOf(numbers: number[]): Box | undefined {
 }
 
 /** The query of an address that opens this field with this look. Has no question mark. */
-export function queryOf({ formula, box, values }: FormulaWithBox, look: FieldLook): string {
+export function fieldQuery({ formula, box, values }: FormulaWithBox, look: FieldDisplaySettings): string {
     const { levels, inside, caps, fog } = look;
     const parameters = {
         formula,

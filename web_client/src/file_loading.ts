@@ -6,7 +6,7 @@ import type { Client, Done, RequestError, State } from "@oval4d/protocol";
 
 import { isBinaryFile, uploadArray } from "./array_upload";
 import { byId, element } from "./element";
-import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, tooLarge } from "./files";
+import { FileError, linesAround, type LoadContent, nameOf, readFile, readState, fileTooLargeText } from "./files";
 import { toSentence } from "./format";
 
 const kProgressInterval = 100; // milliseconds between two updates of the progress
@@ -130,7 +130,7 @@ export class FileLoading {
     private upload(file: File): Promise<Done> {
         const { welcome, credentials } = this.client;
         const limit = welcome?.limits.upload ?? Infinity;
-        if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
+        if (file.size > limit) throw new FileError(fileTooLargeText(file.size, limit));
         if (!credentials) throw new FileError("There is no connection to a session. Try again.");
         return uploadArray(file, nameOf(file), credentials, limit, (part) => this.showSent(part));
     }
@@ -177,7 +177,7 @@ export class FileLoading {
         const refused = error instanceof FileError || (error as RequestError).code !== "not_connected";
         this.showReport(
             refused ? toSentence(error.message) : "The connection was lost before the file was loaded. Try again.",
-            ...(line !== undefined && data !== "" ? [excerpt(data, Number(line))] : []),
+            ...(line !== undefined && data !== "" ? [createExcerpt(data, Number(line))] : []),
         );
     }
 
@@ -212,7 +212,7 @@ export class FileLoading {
 }
 
 /** The line `faulty` of a file, counted from 1, and the lines before and after it. */
-function excerpt(data: string, faulty: number): HTMLElement {
+function createExcerpt(data: string, faulty: number): HTMLElement {
     const lines = linesAround(data, faulty).map(({ number, text }) => {
         const shown = text.length > kMaxExcerptWidth ? `${text.slice(0, kMaxExcerptWidth)}…` : text;
         const attributes = number === faulty ? { class: "faulty" } : {};

@@ -21,12 +21,12 @@ const kMaxNameLength = 64; // characters, as in the message `load`
  */
 export async function readFile(file: File, limit: number): Promise<LoadContent> {
     if (file.size === 0) throw new FileError("The file is empty.");
-    if (file.size > limit) throw new FileError(tooLarge(file.size, limit));
-    const data = await textOf(file);
+    if (file.size > limit) throw new FileError(fileTooLargeText(file.size, limit));
+    const data = await readText(file);
     const message = { name: nameOf(file), format: formatOf(file.name, data), data };
     // The 64 bytes are for the members that are not in `message`.
     const bytes = new TextEncoder().encode(JSON.stringify(message)).length + 64;
-    if (bytes > limit) throw new FileError(tooLarge(bytes, limit));
+    if (bytes > limit) throw new FileError(fileTooLargeText(bytes, limit));
     return message;
 }
 
@@ -34,16 +34,16 @@ export async function readFile(file: File, limit: number): Promise<LoadContent> 
  * The encoding of a text in UTF-16; undefined for other files. UTF-16 is recognized by the first two bytes: they are a
  * byte order mark, or exactly one of them is 0. The server uses the same rule.
  */
-export function utf16Of([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
+export function detectUtf16([first, second]: Uint8Array): "utf-16le" | "utf-16be" | undefined {
     if (first === undefined || second === undefined) return undefined;
     if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0)) return "utf-16le";
     return (first === 0xfe && second === 0xff) || (first === 0 && second !== 0) ? "utf-16be" : undefined;
 }
 
 /** Decodes a text file in UTF-8 or UTF-16 (some programs on Windows write UTF-16). Omits the byte order mark. */
-async function textOf(file: Blob): Promise<string> {
+async function readText(file: Blob): Promise<string> {
     const bytes = new Uint8Array(await file.arrayBuffer());
-    return new TextDecoder(utf16Of(bytes) ?? "utf-8").decode(bytes);
+    return new TextDecoder(detectUtf16(bytes) ?? "utf-8").decode(bytes);
 }
 
 /**
@@ -54,9 +54,9 @@ async function textOf(file: Blob): Promise<string> {
 export async function readState(file: File, limit: number): Promise<State | undefined> {
     const start = file.slice(0, 64);
     const isPicture = /^\x89PNG/.test(String.fromCharCode(...new Uint8Array(await start.arrayBuffer())));
-    if (!isPicture && !/^\s*\{/.test(await textOf(start))) return undefined;
-    if (!isPicture && file.size > limit) throw new FileError(tooLarge(file.size, limit));
-    const text = isPicture ? pngText(new Uint8Array(await file.arrayBuffer())) : await textOf(file);
+    if (!isPicture && !/^\s*\{/.test(await readText(start))) return undefined;
+    if (!isPicture && file.size > limit) throw new FileError(fileTooLargeText(file.size, limit));
+    const text = isPicture ? pngText(new Uint8Array(await file.arrayBuffer())) : await readText(file);
     if (text === undefined) throw new FileError("The picture contains no state: oval4d has not made it.");
     try {
         const state = JSON.parse(text) as Partial<State> | null;
@@ -69,7 +69,7 @@ export async function readState(file: File, limit: number): Promise<State | unde
 
 /**
  * The format of a text file. A keyword at the start of the text, after any comments, names the format; without a
- * keyword, the file name extension does. The server recognizes the same keywords (isOff() in off4.hpp).
+ * keyword, the file name extension does. The server recognizes the same keywords (isOffFormat() in off4.hpp).
  */
 function formatOf(name: string, data: string): LoadContent["format"] {
     const [, first = ""] = /^(?:\s|#[^\r\n]*(?:[\r\n]|$))*([^\s#]*)/.exec(data) ?? [];
@@ -84,7 +84,7 @@ export function nameOf({ name }: { name: string }): string {
 }
 
 /** The error message for a file that is larger than the limit. The size and the limit are in bytes. */
-export function tooLarge(bytes: number, limit: number): string {
+export function fileTooLargeText(bytes: number, limit: number): string {
     return `The file is too large: ${sizeText(bytes)} when sent; this server accepts up to ${sizeText(limit)}.`;
 }
 

@@ -33,14 +33,14 @@ export class FocusMover {
     }
 
     /** Begins a gesture. One undo step reverts all moves between two calls. */
-    begin(): void {
+    beginGesture(): void {
         this.continues = false;
     }
 
     moveTo(w: number): void {
         this.wanted = w;
         this.isUnsent = true;
-        this.schedule();
+        this.scheduleSend();
     }
 
     /** Forgets a move that has not been sent. */
@@ -58,13 +58,13 @@ export class FocusMover {
         this.answered.revision = this.seen.revision = 0;
     }
 
-    private schedule(): void {
+    private scheduleSend(): void {
         if (this.inFlight !== undefined || this.isScheduled) return;
         this.isScheduled = true;
-        requestAnimationFrame(() => void this.send());
+        requestAnimationFrame(() => void this.sendMove());
     }
 
-    private async send(): Promise<void> {
+    private async sendMove(): Promise<void> {
         this.isScheduled = false;
         if (!this.isUnsent) return;
         this.isUnsent = false;
@@ -80,7 +80,7 @@ export class FocusMover {
             this.isUnsent = false;
         }
         this.inFlight = undefined;
-        if (this.isUnsent) this.schedule();
+        if (this.isUnsent) this.scheduleSend();
         else this.settled(failure);
     }
 }

@@ -14,7 +14,7 @@ export interface FocusPointEvents {
      * Called when a drag or another gesture begins that moves the focus point. Such a gesture may also move the focus
      * slice, because this slice lies at the w of the focus point.
      */
-    began(): void;
+    gestureBegan(): void;
     failed(error: Error): void;
 }
 
@@ -48,7 +48,7 @@ export class FocusPointControl {
     /** Begins a gesture. One undo step reverts all moves between two calls. */
     begin(): void {
         this.continues = false;
-        this.events.began();
+        this.events.gestureBegan();
     }
 
     /**
@@ -86,7 +86,7 @@ export class FocusPointControl {
         try {
             const { revision } = await this.client.request({ type: "set", point, ...(continues && { continues }) });
             this.current = point;
-            this.lastChange.answered(revision);
+            this.lastChange.noteRevision(revision);
         } catch (error) {
             this.isUnsent = false;
             this.events.failed(error as Error);

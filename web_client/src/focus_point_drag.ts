@@ -48,7 +48,7 @@ export class FocusPointDrag {
 
     /** Continues the drag. If the pointer leaves the panel, the focus point stays at the edge of the panel. */
     dragTo(at: AreaPoint): void {
-        if (this.panel) this.moveIn(this.panel, at);
+        if (this.panel) this.moveFocusPointInPanel(this.panel, at);
     }
 
     /**
@@ -59,24 +59,24 @@ export class FocusPointDrag {
         const panel = this.panelAt(at);
         if (!panel) return false;
         this.focusPointControl.begin();
-        this.moveIn(panel, at);
+        this.moveFocusPointInPanel(panel, at);
         return true;
     }
 
-    private moveIn(panel: MatrixPanel, at: AreaPoint): void {
-        const { x, y } = this.pixelOf(at);
+    private moveFocusPointInPanel(panel: MatrixPanel, at: AreaPoint): void {
+        const { x, y } = this.toPicturePixels(at);
         const [across, up] = panel.coordinatesAt(x, y);
         this.focusPointControl.move([[panel.column, across], [panel.row, up]]);
     }
 
     private panelAt(at: AreaPoint): MatrixPanel | undefined {
         const matrix = this.matrix();
-        const { x, y } = this.pixelOf(at);
+        const { x, y } = this.toPicturePixels(at);
         return matrix && panelAt(matrix, x, y, this.stage.size);
     }
 
     /** Converts a point of the drawing, in CSS pixels, to pixels of the picture. */
-    private pixelOf({ x, y }: AreaPoint): AreaPoint {
+    private toPicturePixels({ x, y }: AreaPoint): AreaPoint {
         const ratio = this.stage.size.height / this.drawing.clientHeight;
         return { x: x * ratio, y: y * ratio };
     }

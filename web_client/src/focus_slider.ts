@@ -9,7 +9,7 @@ import { byId, element } from "./element";
 import { FocusMover } from "./focus_mover";
 import { formatW } from "./format";
 
-export interface SliderEvents {
+export interface FocusSliderEvents {
     /** Presses a key of the key table. */
     pressKey(key: string, held: boolean): void;
     /** Sends a command; shows the error if the server refuses it. */
@@ -37,7 +37,7 @@ export class FocusSlider {
 
     constructor(
         client: Client,
-        private readonly events: SliderEvents,
+        private readonly events: FocusSliderEvents,
     ) {
         this.criticalValues = new CriticalValues(client, () => this.showRange());
         this.mover = new FocusMover(client, (error) => {
@@ -76,7 +76,7 @@ export class FocusSlider {
         const { input } = this;
         input.addEventListener("pointerdown", (event) => {
             this.isDragged = true;
-            this.mover.begin();
+            this.mover.beginGesture();
             this.noteModifiers(event);
             this.stop();
         });
@@ -148,7 +148,7 @@ export class FocusSlider {
         const move = moves[event.key];
         if (!move) return;
         event.preventDefault();
-        this.mover.begin();
+        this.mover.beginGesture();
         move();
     }
 
@@ -180,7 +180,7 @@ export class FocusSlider {
         this.input.max = String(most);
         const at = (w: number): number => (w - least) / (most - least);
         this.marks.toggleAttribute("data-density", all.length > kMaxMarks);
-        const outline = all.length > kMaxMarks ? densityOutline : marksOutline;
+        const outline = all.length > kMaxMarks ? densityOutline : criticalMarksPath;
         this.marks.setAttribute("d", isEmpty || !isCurrent ? "" : outline(all, at));
         this.show();
     }
@@ -200,7 +200,7 @@ export class FocusSlider {
  * An SVG path with a vertical line for each critical value, in a square of side 1. `at` maps w to a position from 0 to
  * 1.
  */
-function marksOutline(values: CriticalValue[], at: (w: number) => number): string {
+function criticalMarksPath(values: CriticalValue[], at: (w: number) => number): string {
     return values.map(({ w }) => `M${at(w)} 0V1`).join("");
 }
 

@@ -24,7 +24,7 @@ export interface ValueDistribution {
 /**
  * The distribution of the field's values, from the histogram of a picture; undefined if the picture has no histogram.
  */
-export function distributionOf({ histogram, density, scene }: Slices): ValueDistribution | undefined {
+export function valueDistributionOf({ histogram, density, scene }: Slices): ValueDistribution | undefined {
     if (!histogram) return undefined;
     const { columns } = scene.coordinates;
     const rows = density.length / columns;
@@ -43,7 +43,7 @@ export function distributionOf({ histogram, density, scene }: Slices): ValueDist
 const kVisible = 0.02;
 
 /** Whether two distributions look the same. */
-export function looksLike(one: ValueDistribution, other: ValueDistribution): boolean {
+export function distributionsLookAlike(one: ValueDistribution, other: ValueDistribution): boolean {
     if (String(one.range) !== String(other.range)) return false;
     return one.tones.every((tone, i) => Math.abs(tone - (other.tones[i] ?? NaN)) < kVisible);
 }
@@ -89,7 +89,7 @@ export function colorOf(points: FogControlPoint[], i: number, scheme: Scheme): n
     if (color !== undefined) return color;
     const [first, last] = [points[0]!.value, points.at(-1)!.value];
     const place = (2 * (value - first)) / (last - first);
-    const [least, middle, most] = table.schemes[scheme].scale.map((one) => parseInt(one.slice(1), 16)) as ScaleColors;
+    const [least, middle, most] = table.schemes[scheme].scale.map((one) => parseInt(one.slice(1), 16)) as FogColors;
     const [from, to] = place < 1 ? [least, middle] : [middle, most];
     const part = place < 1 ? place : place - 1;
     return [16, 8, 0].reduce((sum, shift) => {
@@ -99,10 +99,10 @@ export function colorOf(points: FogControlPoint[], i: number, scheme: Scheme): n
 }
 
 /** The colors of the fog's color scale at its lower end, in its middle and at its upper end. */
-type ScaleColors = [least: number, middle: number, most: number];
+type FogColors = [least: number, middle: number, most: number];
 
 /** Whether the server accepts these points: increasing finite values, and opacities from 0 to 1. */
-export function isTransferFunction(points: FogControlPoint[]): boolean {
+export function isValidTransferFunction(points: FogControlPoint[]): boolean {
     return points.every(
         ({ value, opacity }, i) =>
             Number.isFinite(value) && opacity >= 0 && opacity <= 1 && (i === 0 || value > points[i - 1]!.value),
@@ -124,7 +124,7 @@ export function withMovedPoint(points: FogControlPoint[], i: number, value: numb
         opacity: roundedToDigitsOfSize(1, within(opacity, 0, 1), kDigits),
     };
     const result = points.map((point, k) => (k === i ? moved : point));
-    return isTransferFunction(result) ? result : points;
+    return isValidTransferFunction(result) ? result : points;
 }
 
 /** Adds a point in the middle of the two neighbors with the largest difference of values. */

@@ -5,11 +5,11 @@ import type { FogControlPoint, Settings, Slices, State } from "@oval4d/protocol"
 
 import { schemeOfPicture } from "./color_scheme";
 import { byId, element } from "./element";
-import { type ValueDistribution, colorOf, distributionOf, hexDigitsOf, isTransferFunction, looksLike } from "./fog";
+import { type ValueDistribution, colorOf, valueDistributionOf, hexDigitsOf, isValidTransferFunction, distributionsLookAlike } from "./fog";
 import { kMaxFogControlPoints, kMinFogControlPoints, defaultFog, withNewPoint, withMovedPoint } from "./fog";
 import { parseNumbers } from "./fields";
 import { toSentence } from "./format";
-import { NewestOnly } from "./newest_only";
+import { NewestValueSender } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
 
 const kTypingDelay = 150; // milliseconds without further typing before a change is sent
@@ -17,7 +17,7 @@ const [kWidth, kHeight, kMargin] = [240, 96, 9]; // the size and margin of the c
 const kSvg = "http://www.w3.org/2000/svg";
 
 /** The row of a control point: its input fields, and the button that removes the point. */
-interface ControlPointRow {
+interface FogControlPointRow {
     root: HTMLElement;
     value: HTMLInputElement;
     opacity: HTMLInputElement;
@@ -34,9 +34,9 @@ export class FogEditor {
     private readonly addButton = byId<HTMLButtonElement>("fog-add");
     private readonly showButton = byId<HTMLButtonElement>("fog-show");
     private readonly offButton = byId<HTMLButtonElement>("fog-off");
-    private readonly changes = new NewestOnly<{ fog: FogControlPoint[]; drag?: number }>((change) => this.apply(change));
+    private readonly changes = new NewestValueSender<{ fog: FogControlPoint[]; drag?: number }>((change) => this.apply(change));
     private readonly lastChange = new OldStateDetector();
-    private rows: ControlPointRow[] = [];
+    private rows: FogControlPointRow[] = [];
     private points: FogControlPoint[] = []; // the control points that the editor shows
     private state: State | undefined;
     private field = ""; // fieldKeyOf(), applied to the newest state
@@ -86,8 +86,8 @@ export class FogEditor {
      */
     updateFromPicture(picture: Slices): void {
         if (picture.revision !== this.state?.revision) return;
-        const distribution = distributionOf(picture);
-        if (!distribution || (this.distribution && looksLike(distribution, this.distribution))) return;
+        const distribution = valueDistributionOf(picture);
+        if (!distribution || (this.distribution && distributionsLookAlike(distribution, this.distribution))) return;
         this.distribution = distribution;
         if (this.dragged === undefined) this.draw();
     }
@@ -116,7 +116,7 @@ export class FogEditor {
         try {
             const { revision } = await this.set({ fog, ...(continues && { continues }) });
             this.sentDrag = drag;
-            this.lastChange.answered(revision);
+            this.lastChange.noteRevision(revision);
             this.refusal = "";
         } catch (error) {
             this.refusal = toSentence((error as Error).message);
@@ -174,23 +174,23 @@ export class FogEditor {
         const floor = kHeight - kMargin;
         const stops = places.map(([x], i) => {
             const offset = String((x - kMargin) / (kWidth - 2 * kMargin));
-            return shape("stop", { offset, "stop-color": `#${hexDigitsOf(colorOf(points, i, schemeOfPicture()))}` });
+            return svgElement("stop", { offset, "stop-color": `#${hexDigitsOf(colorOf(points, i, schemeOfPicture()))}` });
         });
-        const gradient = shape("linearGradient", {
+        const gradient = svgElement("linearGradient", {
             ...{ id: "fog-colors", gradientUnits: "userSpaceOnUse" },
             ...{ x1: String(kMargin), x2: String(kWidth - kMargin) },
         });
         gradient.append(...stops);
         this.curve.replaceChildren(
             gradient,
-            shape("path", { class: "values", d: this.distributionOutline() }),
-            shape("polygon", { class: "fog", points: `${kMargin},${floor} ${line} ${kWidth - kMargin},${floor}` }),
-            shape("polyline", { points: line }),
+            svgElement("path", { class: "values", d: this.distributionOutline() }),
+            svgElement("polygon", { class: "fog", points: `${kMargin},${floor} ${line} ${kWidth - kMargin},${floor}` }),
+            svgElement("polyline", { points: line }),
             ...places.map(([x, y], i) => {
                 const place = { cx: String(x), cy: String(y) };
-                const handle = shape("g", { "data-point": String(i) });
+                const handle = svgElement("g", { "data-point": String(i) });
                 const fill = `#${hexDigitsOf(colorOf(points, i, schemeOfPicture()))}`;
-                handle.append(shape("circle", { ...place, r: "11", class: "reach" }), shape("circle", { ...place, r: "5", fill }));
+                handle.append(svgElement("circle", { ...place, r: "11", class: "reach" }), svgElement("circle", { ...place, r: "5", fill }));
                 return handle;
             }),
         );
@@ -241,14 +241,14 @@ export class FogEditor {
             );
             return { ...point, value, opacity };
         });
-        const isValid = isTransferFunction(points);
+        const isValid = isValidTransferFunction(points);
         this.mistake = isValid ? "" : "Type values from the least to the greatest, and opacities from 0 to 1.";
         this.refusal = "";
         this.showErrors();
         if (isValid) this.change(points, kTypingDelay);
     }
 
-    private makeRow(i: number): ControlPointRow {
+    private makeRow(i: number): FogControlPointRow {
         const field = (name: string): HTMLInputElement => {
             const input = element("input", {
                 ...{ type: "text", inputmode: "text", autocomplete: "off", spellcheck: "false" },
@@ -285,7 +285,7 @@ function fieldKeyOf({ polytope, field }: State): string {
     return field ? JSON.stringify([polytope.name, field.formula, field.shape, field.range, field.box]) : "";
 }
 
-function shape(name: string, attributes: Record<string, string>): SVGElement {
+function svgElement(name: string, attributes: Record<string, string>): SVGElement {
     const made = document.createElementNS(kSvg, name) as SVGElement;
     for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
     return made;

@@ -1,7 +1,7 @@
 // Reads the text of a formula: its named constants, and the position of a mistake.
 
 /** The definition of a named constant after a formula, such as a=pi/2. */
-interface Definition {
+interface FormulaDefinition {
     name: string;
     /** What is written after the equals sign. */
     text: string;
@@ -27,7 +27,7 @@ const kDefinitions = /[;,]\s*[A-Za-z]\w*\s*=.*$/s;
 const kDefinition = /([;,]\s*([A-Za-z]\w*)\s*=\s*)(.*?)(?=\s*(?:[;,]\s*[A-Za-z]\w*\s*=|[;,]?\s*$))/gs;
 const kNumber = /^[-+\u2212]?\s*(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?$/;
 
-function definitionsOf(formula: string): Definition[] {
+function definitionsOf(formula: string): FormulaDefinition[] {
     return [...formula.matchAll(kDefinition)].map((match) => {
         const [, before = "", name = "", text = ""] = match;
         return { name, text, from: match.index + before.length };
@@ -50,7 +50,7 @@ export function constantsOf(formula: string, known: ReadonlyMap<string, number> 
  * Finds the numbers for the texts of constants, such as "pi/2". `typed` is the formula as the user typed it; `written`
  * is the same formula as the server writes it, with numbers.
  */
-export function valuesOfTexts(typed: string, written: string): [text: string, value: number][] {
+export function constantValues(typed: string, written: string): [text: string, value: number][] {
     const values = new Map(constantsOf(written).map(({ name, value }) => [name, value]));
     return definitionsOf(typed).flatMap(({ name, text }): [string, number][] => {
         const value = values.get(name);
@@ -67,12 +67,12 @@ export function withConstant(formula: string, name: string, value: string): stri
 }
 
 /** The comparison operator in a formula, such as "<"; "" without one. The meaning of the levels depends on it. */
-export function comparisonOf(formula: string): string {
+export function comparisonOperatorIn(formula: string): string {
     return /[<>]=?|=/.exec(formula.replace(kDefinitions, ""))?.[0] ?? "";
 }
 
 /** The mistake in a formula that a server's error message describes; undefined if the message names no position. */
-export function mistakeOf(message: string): FormulaMistake | undefined {
+export function parseFormulaMistake(message: string): FormulaMistake | undefined {
     const [, position, what = ""] = /^.*, position (\d+): (.*)$/s.exec(message) ?? [];
     return position === undefined ? undefined : { what, at: Number(position) - 1 };
 }
@@ -99,7 +99,7 @@ export function excerptAround(
  * The slider range for a constant: 0 to about twice its value, or −1 to 1 if the value is 0. The step is a power of
  * ten.
  */
-export function rangeFor(value: number): { min: number; max: number; step: number } {
+export function sliderRangeFor(value: number): { min: number; max: number; step: number } {
     const reach = 2 * Math.abs(value) || 1;
     const step = 10 ** Math.floor(Math.log10(reach / 50));
     const most = Math.ceil(reach / step - 1e-9) * step;

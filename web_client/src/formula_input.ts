@@ -2,7 +2,7 @@
 
 import { byId, element } from "./element";
 import { toSentence } from "./format";
-import { excerptAround, mistakeOf } from "./formula";
+import { excerptAround, parseFormulaMistake } from "./formula";
 
 const kReach = 14; // an excerpt shows this many characters on either side of a mistake
 
@@ -38,7 +38,7 @@ export class FormulaInput {
      * clears the error and the mark.
      */
     showError(message: string | undefined): void {
-        const mistake = message === undefined ? undefined : mistakeOf(message);
+        const mistake = message === undefined ? undefined : parseFormulaMistake(message);
         const where = mistake ? `Character ${mistake.at + 1}: ${mistake.what}` : (message ?? "");
         const text = where === "" ? "" : toSentence(where);
         // Setting the same text again would make screen readers repeat it.

@@ -13,7 +13,7 @@ export class FrameHitTesterCache {
     private known: HitTester | undefined;
     private knownFor = ""; // the layoutKey() of the picture whose hit tester is known or requested
 
-    /** `onKnown` is called after currentOrRequest() has requested a hit tester and it has arrived. */
+    /** `onKnown` is called after currentOrRequestHitTester() has requested a hit tester and it has arrived. */
     constructor(
         private readonly client: Client,
         private readonly stage: Stage,
@@ -25,13 +25,13 @@ export class FrameHitTesterCache {
     }
 
     /** Returns the hit tester of the picture. If it is not known, requests it, and returns undefined. */
-    currentOrRequest(): HitTester | undefined {
+    currentOrRequestHitTester(): HitTester | undefined {
         if (!this.state) return undefined;
         const key = layoutKey(this.state, this.stage.size);
         if (key !== this.knownFor) {
             this.knownFor = key;
             this.known = undefined;
-            void this.request().then(
+            void this.requestHitTester().then(
                 (hitTester) => {
                     if (this.knownFor !== key) return;
                     this.known = hitTester;
@@ -46,7 +46,7 @@ export class FrameHitTesterCache {
     }
 
     /** Requests the hit tester of the newest picture. */
-    async request(): Promise<HitTester> {
+    async requestHitTester(): Promise<HitTester> {
         const slices = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
         return new HitTester(slices, this.state!.camera);
     }

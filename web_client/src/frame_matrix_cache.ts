@@ -6,7 +6,7 @@ import type { Client, SectionMatrix, State } from "@oval4d/protocol";
 import { layoutKey } from "./layout_key";
 import type { Stage } from "./picture/stage";
 
-export class FrameMatrixCache {
+export class FrameSectionMatrixCache {
     private known: SectionMatrix | undefined;
     // The layoutKey() of the picture whose matrix is known or requested; "" if there is none. The key omits the
     // settings of slices and surfaces, because they do not move the matrix.
@@ -35,10 +35,10 @@ export class FrameMatrixCache {
         if (key === this.knownFor) return;
         this.knownFor = key;
         if (!isShown) this.known = undefined; // a shown matrix stays known until the answer arrives
-        if (isShown) void this.request(key);
+        if (isShown) void this.requestMatrix(key);
     }
 
-    private async request(key: string): Promise<void> {
+    private async requestMatrix(key: string): Promise<void> {
         try {
             const { matrix } = await this.client.request({ type: "get", what: "slices", ...this.stage.size });
             if (this.knownFor === key) this.known = matrix;

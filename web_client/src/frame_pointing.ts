@@ -10,7 +10,7 @@
 import type { At, Client, PolytopeElement } from "@oval4d/protocol";
 
 import { followHover, type AreaPoint } from "./hover";
-import type { PointedDescription, PointedLabel } from "./pointed_label";
+import type { PointedDescription, PointerLabel } from "./pointed_label";
 import type { Stage } from "./picture/stage";
 
 // A picture rests after this many milliseconds without a new picture. This is longer than a step of continuous turning.
@@ -19,7 +19,7 @@ const kNear = 8; // pixels: an answer is ignored if the pointer has moved farthe
 // Pixels: the label follows the pointer up to this distance from the named point, until the next answer arrives.
 const kFollow = 24;
 
-export class FramePointing {
+export class FramePointerHighlighter {
     private pointer: AreaPoint | undefined;
     private named: AreaPoint | undefined; // the point of the drawing about which the label tells
     private revision: number | undefined; // the revision of the picture at rest; undefined while no picture rests
@@ -34,10 +34,10 @@ export class FramePointing {
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
         private readonly client: Client,
-        private readonly label: PointedLabel,
+        private readonly label: PointerLabel,
         private readonly isIdle: (revision: number) => boolean,
     ) {
-        followHover(drawing, (at) => this.moved(at));
+        followHover(drawing, (at) => this.handlePointerMove(at));
     }
 
     picturePresented(revision: number): void {
@@ -54,7 +54,7 @@ export class FramePointing {
         clearTimeout(this.resting);
         this.revision = undefined;
         this.asked = "";
-        this.hide();
+        this.hideName();
     }
 
     /**
@@ -62,13 +62,13 @@ export class FramePointing {
      * become idle.
      */
     update(): void {
-        if (!this.isAsking) void this.ask();
+        if (!this.isAsking) void this.requestPickAtPointer();
     }
 
-    private moved(at: AreaPoint | undefined): void {
+    private handlePointerMove(at: AreaPoint | undefined): void {
         this.pointer = at;
         if (!at || (this.named && distance(at, this.named) > kFollow)) {
-            this.hide();
+            this.hideName();
             this.asked = ""; // so that the page asks again if the pointer returns to this pixel
         } else if (this.named) {
             this.label.place(at);
@@ -77,14 +77,14 @@ export class FramePointing {
     }
 
     /** Asks what is under the pointer, repeatedly, until the server has answered for the pointer's newest position. */
-    private async ask(): Promise<void> {
+    private async requestPickAtPointer(): Promise<void> {
         this.isAsking = true;
         for (let pixel = this.nextPixelToAskAbout(); pixel; pixel = this.nextPixelToAskAbout()) {
             const pointer = this.pointer!;
             const request = this.client.request({ type: "get", what: "at", ...pixel, ...this.stage.size });
             const nextFrame = new Promise((resolve) => requestAnimationFrame(resolve));
             const answer = await request.catch(() => undefined); // after an error, no name is shown
-            if (answer) this.answered(answer, pointer);
+            if (answer) this.showAnswer(answer, pointer);
             await nextFrame;
         }
         this.isAsking = false;
@@ -106,7 +106,7 @@ export class FramePointing {
     }
 
     /** Shows the server's answer about a point, unless the picture has changed or the pointer has moved away. */
-    private answered(answer: At, at: AreaPoint): void {
+    private showAnswer(answer: At, at: AreaPoint): void {
         const { pointer } = this;
         if (answer.revision !== this.revision || !pointer) return;
         const described = descriptionOf(answer);
@@ -115,10 +115,10 @@ export class FramePointing {
         } else if (described) {
             this.named = at;
             this.label.show(described, pointer);
-            if ("element" in described) this.light(described);
-            else this.endLight();
+            if ("element" in described) this.highlightElement(described);
+            else this.hideHighlight();
         } else {
-            this.hide();
+            this.hideName();
         }
     }
 
@@ -126,14 +126,14 @@ export class FramePointing {
      * Requests and shows a picture in which the element is highlighted, unless the pointer leaves the element before it
      * arrives.
      */
-    private light(element: PolytopeElement): void {
+    private highlightElement(element: PolytopeElement): void {
         if (element.element === this.lit?.element && element.number === this.lit.number) return;
         this.lit = element;
-        if (!this.isLighting) void this.requestLitPictures();
+        if (!this.isLighting) void this.requestHighlightedPictures();
     }
 
     /** Requests one picture after another, until the last one highlights the newest element. */
-    private async requestLitPictures(): Promise<void> {
+    private async requestHighlightedPictures(): Promise<void> {
         this.isLighting = true;
         let requested: PolytopeElement | undefined;
         while (this.lit && this.lit !== requested) {
@@ -149,13 +149,13 @@ export class FramePointing {
         this.isLighting = false;
     }
 
-    private endLight(): void {
+    private hideHighlight(): void {
         this.lit = undefined;
         this.stage.hidePointedFrame();
     }
 
-    private hide(): void {
-        this.endLight();
+    private hideName(): void {
+        this.hideHighlight();
         if (!this.named) return; // otherwise the label may belong to pointing.ts
         this.named = undefined;
         this.label.hide();

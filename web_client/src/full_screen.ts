@@ -1,6 +1,6 @@
 // Full-screen display, as on a projector. The texts become large enough for the back of a room.
 
-export class FullScreen {
+export class FullScreenMode {
     private readonly display = matchMedia("(display-mode: fullscreen)"); // also matches after F11
     private wasOn = false;
 

@@ -4,12 +4,12 @@
 // device, such as a joystick, may stay at one end.
 
 import { turnsOfGamepad } from "./rolling_ball";
-import type { RotationControl } from "./rotation";
+import type { RotationSender } from "./rotation";
 
 const kPause = 300; // milliseconds at rest after which a gesture has ended
 const kMaxInterval = 100; // milliseconds: if the page is busy and polls later, this is the interval that counts
 
-export function listenForGamepads(rotation: RotationControl): void {
+export function listenForGamepads(rotation: RotationSender): void {
     let polledAt: number | undefined; // the time of the last poll in milliseconds; undefined while no gamepad is polled
     let turnedAt = -Infinity;
     const rested = new Set<number>(); // the indices of the gamepads that have been at rest once
@@ -24,7 +24,7 @@ export function listenForGamepads(rotation: RotationControl): void {
             const isAtRest = Object.values(turnsOfGamepad(gamepad!, 1)).every((angle) => angle === 0);
             if (isAtRest) rested.add(gamepad!.index);
             if (isAtRest || !rested.has(gamepad!.index)) continue;
-            if (now - turnedAt > kPause) rotation.begin();
+            if (now - turnedAt > kPause) rotation.beginGesture();
             turnedAt = now;
             rotation.turn(turnsOfGamepad(gamepad!, interval / 1000));
         }

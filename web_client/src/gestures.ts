@@ -8,8 +8,8 @@ import type { FocusPointDrag } from "./focus_point_drag";
 import type { AreaPoint } from "./hover";
 import { MultiTouchGesture } from "./multi_touch_gesture";
 import type { OrbitControl } from "./orbit";
-import { type BallKind, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
-import type { RotationControl } from "./rotation";
+import { type RollingBallKind, turnsOfDrag, turnsOfTwist, turnsOfWheel } from "./rolling_ball";
+import type { RotationSender } from "./rotation";
 
 const kWheelZoom = 0.0015; // change of the logarithm of the zoom per pixel of the wheel
 const kLineHeight = 16; // pixels per line, for wheels that report lines
@@ -20,7 +20,7 @@ const kSlop = { mouse: 4, touch: 10 }; // the most pixels by which the pointer m
 
 export interface GestureTargets {
     orbit: OrbitControl;
-    rotation: RotationControl;
+    rotation: RotationSender;
     focusPoint: FocusPointDrag;
     /** A click, or the tap of a finger, at a point of the drawing. */
     click(at: AreaPoint, isTap: boolean): void;
@@ -48,11 +48,11 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
     const fingersChanged = (): void => {
         moved.clear();
         group = fingers.size === 2 || fingers.size === 3 ? new MultiTouchGesture([...fingers.values()]) : undefined;
-        if (group) rotation.begin();
+        if (group) rotation.beginGesture();
     };
     const drag = (before: PointerEvent, now: PointerEvent): void => {
         const [dx, dy] = [now.clientX - before.clientX, now.clientY - before.clientY];
-        if (isRolling) rotation.turn(turnsOfDrag(ballOf(now), dx, dy, drawing.clientHeight));
+        if (isRolling) rotation.turn(turnsOfDrag(rolledBallOf(now), dx, dy, drawing.clientHeight));
         else if (movesPoint) focusPoint.dragTo(placeOf(now));
         else orbit.drag(dx, dy);
     };
@@ -71,7 +71,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         drawing.focus({ preventScroll: true });
         isClick = fingers.size === 1;
         isRolling = (event.altKey || event.button !== kButtons.left) && fingers.size === 1;
-        if (isRolling) rotation.begin();
+        if (isRolling) rotation.beginGesture();
         movesPoint = isClick && !isRolling && focusPoint.begin(placeOf(event));
         fingersChanged();
         clearTimeout(longPress);
@@ -120,7 +120,7 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
         drawing.addEventListener(end, removeFinger);
     drawing.addEventListener("click", (event) => {
         // The second click of a double click does not count as a click.
-        if (!isClick || event.detail !== 1 || isModified(event)) return;
+        if (!isClick || event.detail !== 1 || hasModifierKey(event)) return;
         targets.click(placeOf(event), (event as PointerEvent).pointerType === "touch");
     });
     drawing.addEventListener(
@@ -134,21 +134,21 @@ export function listenForGestures(drawing: HTMLElement, targets: GestureTargets)
                 orbit.zoomBy(Math.exp(-pixels * kWheelZoom));
                 return;
             }
-            if (event.timeStamp - wheelAt > kWheelPause) rotation.begin();
+            if (event.timeStamp - wheelAt > kWheelPause) rotation.beginGesture();
             wheelAt = event.timeStamp;
-            rotation.turn(turnsOfWheel(ballOf(event), pixels));
+            rotation.turn(turnsOfWheel(rolledBallOf(event), pixels));
         },
         { passive: false },
     );
     drawing.addEventListener("dblclick", (event) => {
-        if (!isModified(event) && !focusPoint.canMoveTo(placeOf(event))) orbit.reset();
+        if (!hasModifierKey(event) && !focusPoint.canMoveTo(placeOf(event))) orbit.reset();
     });
 }
 
-function ballOf({ shiftKey }: MouseEvent): BallKind {
+function rolledBallOf({ shiftKey }: MouseEvent): RollingBallKind {
     return shiftKey ? "3-D" : "4-D";
 }
 
-function isModified({ ctrlKey, altKey, metaKey, shiftKey }: MouseEvent): boolean {
+function hasModifierKey({ ctrlKey, altKey, metaKey, shiftKey }: MouseEvent): boolean {
     return ctrlKey || altKey || metaKey || shiftKey;
 }

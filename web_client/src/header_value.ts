@@ -7,7 +7,7 @@ const kMargin = 4; // pixels between the note and the edge of the window
 
 export interface HeaderValueEvents {
     /** Returns the text with which the field opens. It may differ from the shown value, which is rounded. */
-    editable(): string;
+    editableText(): string;
     /** Applies what the user has typed; rejects with an Error whose message is shown at the field. */
     apply(text: string): Promise<unknown>;
 }
@@ -54,9 +54,9 @@ export class HeaderValue {
         this.root = element("div", { class: "state-field" }, this.button, this.label, this.note);
 
         this.button.addEventListener("click", () => this.open());
-        this.input.addEventListener("keydown", (event) => this.keydown(event));
+        this.input.addEventListener("keydown", (event) => this.handleKeydown(event));
         this.input.addEventListener("input", () => this.showError(""));
-        this.input.addEventListener("blur", () => this.blurred());
+        this.input.addEventListener("blur", () => this.submitOnBlur());
         window.addEventListener("resize", () => this.placeNote());
     }
 
@@ -66,7 +66,7 @@ export class HeaderValue {
     }
 
     private open(): void {
-        this.before = this.events.editable();
+        this.before = this.events.editableText();
         this.refused = this.pending = undefined;
         // After a click with the mouse, the drawing still has the focus, and gets it back after editing.
         this.focusAfter = document.activeElement === this.button ? this.button : byId("drawing");
@@ -94,12 +94,12 @@ export class HeaderValue {
     /** Closes the field. If it has the focus, moves the focus to where it was before editing. */
     private close(): void {
         const hadFocus = document.activeElement === this.input;
-        this.before = this.input.value; // so that a call of blurred(), when the field disappears, applies nothing
+        this.before = this.input.value; // so that a call of submitOnBlur(), when the field disappears, applies nothing
         this.setOpen(false);
         if (hadFocus) this.focusAfter?.focus();
     }
 
-    private keydown(event: KeyboardEvent): void {
+    private handleKeydown(event: KeyboardEvent): void {
         if (event.isComposing) return;
         if (event.key === "Escape") {
             event.stopPropagation(); // Escape must not also move the focus to the drawing
@@ -109,7 +109,7 @@ export class HeaderValue {
     }
 
     /** Applies the text when the field loses the focus, unless the whole window loses it, or the text was refused. */
-    private blurred(): void {
+    private submitOnBlur(): void {
         if (this.label.hidden || !document.hasFocus() || this.input.value === this.refused) return;
         void this.submit();
     }

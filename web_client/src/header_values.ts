@@ -5,7 +5,7 @@ import type { State } from "@oval4d/protocol";
 import { angleExpression, editableAngle, withoutBlanksAroundOperators, withoutBlanksBeforeUnits } from "./angles";
 import { spokenColoring, spokenKinds } from "./color_controls";
 import { byId } from "./element";
-import { focusWithPlace, spokenLevels } from "./fields";
+import { focusWithCoordinate, spokenLevels } from "./fields";
 import { formatCoordinate, formatDegrees, focusW, formatLength, formatRotation } from "./format";
 import { HeaderValue } from "./header_value";
 import { spokenReferenceFrame } from "./reference_frame";
@@ -32,35 +32,35 @@ const kAngleHint = "In degrees, or for example pi/8";
 
 const kHeaderValues: HeaderValueDescription[] = [
     {
-        ...description("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
+        ...nameAndValue("alpha", "α", "Angle of the rotation keys", ({ alpha }) => formatDegrees(alpha)),
         hint: kAngleHint,
         editable: ({ alpha }) => editableAngle(alpha),
         command: (text) => `set alpha=${angleExpression(text)}`,
     },
     {
-        ...description("beta", "β", "Angle in the second plane", ({ beta }) => formatDegrees(beta)),
+        ...nameAndValue("beta", "β", "Angle in the second plane", ({ beta }) => formatDegrees(beta)),
         hint: kAngleHint,
         editable: ({ beta }) => editableAngle(beta),
         command: (text) => `set beta=${angleExpression(text)}`,
     },
     {
-        ...description("w", "w", "Position of the focus slice; in parentheses, in the box of a field", focusWithPlace),
+        ...nameAndValue("w", "w", "Position of the focus slice; in parentheses, in the box of a field", focusWithCoordinate),
         hint: "Any w: all hyperplanes move with the focus slice",
         editable: focusW,
         command: (text) => `set w=${withoutBlanksAroundOperators(text)}`,
     },
     {
-        ...description("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
+        ...nameAndValue("spacing", "δ", "Distance between slices", ({ slices }) => formatLength(slices.spacing)),
         hint: "A length, for example 0.1 or 1/8",
         command: (text) => `set spacing=${withoutBlanksAroundOperators(text)}`,
     },
     {
-        ...description("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
+        ...nameAndValue("slices", "Slices", "Number of slices", ({ slices }) => String(slices.count)),
         hint: "An odd number",
         command: (text) => `set slices=${withoutBlanksAroundOperators(text)}`,
     },
     {
-        ...description("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>
+        ...nameAndValue("last", "Last rotation", "Planes and angles of the last rotation", ({ last }) =>
             last ? formatRotation(last) : "none",
         ),
         hint: "Turn by other angles: xw 10° or xw 10°, yz 5°",
@@ -78,14 +78,14 @@ export class HeaderValues {
     private readonly announcer = byId("spoken");
     private readonly byName = new Map<string, HeaderValue>();
     private state: State | undefined;
-    private announced: string[] | undefined; // what announcementsOf() returned at the last announcement
+    private announced: string[] | undefined; // what screenReaderTextsOf() returned at the last announcement
     private timer: ReturnType<typeof setTimeout> | undefined;
 
     /** `run` executes a command; it rejects with an Error whose message is shown at the field. */
     constructor(run: (command: string) => Promise<unknown>) {
         for (const { name, symbol, meaning, hint, value, editable = value, command } of kHeaderValues) {
             const headerValue = new HeaderValue(name, symbol, meaning, hint, {
-                editable: () => (this.state ? editable(this.state) : ""),
+                editableText: () => (this.state ? editable(this.state) : ""),
                 apply: async (text) => this.state && run(command(text, this.state)),
             });
             this.byName.set(name, headerValue);
@@ -97,7 +97,7 @@ export class HeaderValues {
     update(state: State): void {
         for (const { name, value } of kHeaderValues) this.byName.get(name)!.show(value(state));
         this.state = state;
-        this.announced ??= ["", ...announcementsOf(state).slice(1)];
+        this.announced ??= ["", ...screenReaderTextsOf(state).slice(1)];
         // While the polytope turns or the focus plays, new states must not postpone the announcement forever.
         if ((state.turning || state.playing) && this.timer !== undefined) return;
         clearTimeout(this.timer);
@@ -108,7 +108,7 @@ export class HeaderValues {
     private announce(): void {
         this.timer = undefined;
         const before = this.announced!;
-        this.announced = announcementsOf(this.state!);
+        this.announced = screenReaderTextsOf(this.state!);
         const changed = this.announced.filter((text, i) => text !== "" && text !== before[i]);
         if (changed.length > 0) this.announcer.textContent = changed.join(", ");
     }
@@ -118,7 +118,7 @@ export class HeaderValues {
  * What a screen reader can say about a state: first the polytope's name, then a text for each value or setting. A text
  * is "" if there is nothing to say.
  */
-function announcementsOf(state: State): string[] {
+function screenReaderTextsOf(state: State): string[] {
     const onOff = (part: string, isShown: boolean): string => `${part} ${isShown ? "on" : "off"}`;
     return [
         state.polytope.name,
@@ -143,7 +143,7 @@ function spokenPoint({ point, slices }: State): string {
     return point.map((coordinate) => formatCoordinate(coordinate, slices.spacing)).join(", ");
 }
 
-function description(name: string, symbol: string, meaning: string, value: (state: State) => string) {
+function nameAndValue(name: string, symbol: string, meaning: string, value: (state: State) => string) {
     return { name, symbol, meaning, value, spoken: (state: State) => `${symbol} ${value(state)}` };
 }
 

@@ -38,7 +38,7 @@ const kCommonKeys = [
     ["Esc", "Return the focus to the drawing; there, end the light"],
 ] as const;
 
-export class Help {
+export class HelpDialog {
     private readonly dialog = byId<HTMLDialogElement>("help");
     private readonly sheet = this.dialog.querySelector(".sheet")!;
     private readonly topic = byId("help-topic");
@@ -129,13 +129,13 @@ function commandSection(): HTMLElement {
 }
 
 /** A row of a table in the help. filter() finds a topic in the row's texts and in `searchTerms`. */
-function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: TableRowOptions = {}): HTMLElement {
+function tableRow(name: string, text: string, { tag = "kbd", searchTerms = "" }: HelpRowOptions = {}): HTMLElement {
     const head = element("th", { scope: "row" }, element(tag, {}, name));
     return element("tr", { "data-search-terms": searchTerms || undefined }, head, element("td", {}, text));
 }
 
 /** `tag` is the HTML tag of the name; filter() finds topics also in `searchTerms`. */
-interface TableRowOptions {
+interface HelpRowOptions {
     tag?: "kbd" | "span";
     searchTerms?: string;
 }

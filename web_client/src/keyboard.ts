@@ -3,8 +3,8 @@
 import type { Command, KeyBinding } from "@oval4d/protocol";
 
 import type { KeyRepeatLimiter } from "./key_repeat_limiter";
-import { editingAction, isForControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
-import { readStored, writeStored } from "./storage";
+import { undoOrRedoOf, isUsedByFocusedControl, strokeFromEvent, strokesOfBinding, type KeyStroke } from "./keys";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 const kSingleKeysKey = "oval4d.single_keys"; // key in localStorage: whether keys act without Ctrl
 
@@ -23,7 +23,7 @@ export class Keyboard {
     keys: readonly KeyBinding[] = [];
     private first: KeyStroke | undefined; // the first key of a two-key sequence, before the second key is pressed
     private ended: KeyBinding | undefined; // the two-key sequence that ended with the last key press
-    private actsWithoutCtrl = readStored<boolean>(kSingleKeysKey, true) ?? true;
+    private actsWithoutCtrl = loadFromStorage<boolean>(kSingleKeysKey, true) ?? true;
 
     constructor(
         private readonly repeatLimiter: KeyRepeatLimiter,
@@ -36,7 +36,7 @@ export class Keyboard {
     }
     set usesSingleKeys(on: boolean) {
         this.actsWithoutCtrl = on;
-        writeStored(kSingleKeysKey, on, true);
+        saveToStorage(kSingleKeysKey, on, true);
     }
 
     keydown(event: KeyboardEvent): void {
@@ -45,8 +45,8 @@ export class Keyboard {
             this.cancelSequence();
             this.actions.escape(event);
         }
-        if (isForControl(event)) return;
-        const action = editingAction(event);
+        if (isUsedByFocusedControl(event)) return;
+        const action = undoOrRedoOf(event);
         const stroke = strokeFromEvent(event, this.keys);
         const isSecond = action === undefined && stroke !== undefined && this.isSecondOfSequence(stroke, event.repeat);
         const binding = this.keys.find((row) =>

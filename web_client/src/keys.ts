@@ -26,7 +26,7 @@ export interface KeyStroke {
  *   Page Up and Page Down.
  * - A list of numbers also uses digits and the decimal point.
  */
-export function isForControl({ key, target }: KeyboardEvent): boolean {
+export function isUsedByFocusedControl({ key, target }: KeyboardEvent): boolean {
     if (!(target instanceof Element)) return false;
     if (target instanceof HTMLSelectElement && isListOfNumbers(target)) {
         return kInputKeys.test(key) || kNumber.test(key);
@@ -40,7 +40,7 @@ function isListOfNumbers({ options }: HTMLSelectElement): boolean {
 }
 
 /** The action of Ctrl-Z (undo), Ctrl-Shift-Z or Ctrl-Y (redo); on a Mac, with Cmd. Undefined for other keys. */
-export function editingAction(event: KeyboardEvent): "undo" | "redo" | undefined {
+export function undoOrRedoOf(event: KeyboardEvent): "undo" | "redo" | undefined {
     if (event.isComposing || event.altKey || event.ctrlKey === event.metaKey) return undefined;
     const letter = typedCharacter(event).toLowerCase();
     if (letter === "z") return event.shiftKey ? "redo" : "undo";
@@ -106,7 +106,7 @@ function isKeyGivenByName({ key }: KeyBinding): boolean {
  * if there is none. Letters are capitals only if Shift is held: Caps Lock has no effect.
  */
 function typedCharacter(event: KeyboardEvent): string {
-    const character = /^[ -~]$/.test(event.key) ? event.key : characterOfPlace(event);
+    const character = /^[ -~]$/.test(event.key) ? event.key : characterOnUsKeyboard(event);
     return event.shiftKey ? character.toUpperCase() : character.toLowerCase();
 }
 
@@ -132,7 +132,7 @@ const kPunctuation: Record<string, string> = {
  * The character of this key on an American keyboard, if the event types a letter of a non-Latin script; otherwise the
  * letter in `code`, or "\0" without one.
  */
-function characterOfPlace({ code, key, shiftKey }: KeyboardEvent): string {
+function characterOnUsKeyboard({ code, key, shiftKey }: KeyboardEvent): string {
     if ([...key].length !== 1) return "\0"; // `key` is a name, not a character
     const [, letter] = /^Key([A-Z])$/.exec(code) ?? [];
     if (letter !== undefined) return letter;

@@ -8,7 +8,7 @@
 
 import { download } from "./download";
 import { byId } from "./element";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 import type { RenderingMode } from "./picture/stage";
 
 export const kMeasure = "oval4d key to picture"; // name of the performance measures
@@ -26,7 +26,7 @@ interface LatencySample {
     drawnBy: RenderingMode;
 }
 
-export class Latency {
+export class LatencyMeter {
     private readonly output = byId("latency");
     private readonly samples: LatencySample[] = [];
     private pending: Pick<LatencySample, "start" | "revision" | "request">[] = [];
@@ -35,7 +35,7 @@ export class Latency {
     private presentedBy: RenderingMode = "geometry";
 
     constructor() {
-        this.output.hidden = readStored<boolean>(kShownKey) !== true;
+        this.output.hidden = loadFromStorage<boolean>(kShownKey) !== true;
         this.updateText();
     }
 
@@ -80,7 +80,7 @@ export class Latency {
     }
 
     private setShown(shown: boolean): void {
-        writeStored(kShownKey, shown);
+        saveToStorage(kShownKey, shown);
         this.output.hidden = !shown;
         this.updateText();
     }

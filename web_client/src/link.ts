@@ -7,7 +7,7 @@ import type { Credentials } from "@oval4d/protocol";
 
 import address from "../../protocol/address.json";
 import { boxOf, kUsualBox, parseNumbers, type FormulaWithBox } from "./fields";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 export interface InitialView {
     /** The session that the page joins, or returns to, instead of opening a new one. */
@@ -30,7 +30,7 @@ interface StoredSession {
 }
 
 /** What the page stores in an entry of the browser's history. */
-interface HistoryEntry {
+interface BrowserHistoryEntry {
     credentials?: Credentials;
 }
 
@@ -45,7 +45,7 @@ export function extractInitialView(): InitialView {
     if (credentials) return { credentials, lines: [], faults };
     const known = sessionOfHistoryEntry() ?? sessionOfTab();
     if (known) return { credentials: known, lines: [], faults };
-    const view = fieldOf(location.search);
+    const view = fieldInQuery(location.search);
     return { ...view, lines: commandLines(location.search), faults: [...faults, ...view.faults] };
 }
 
@@ -54,7 +54,7 @@ export function extractInitialView(): InitialView {
  * fragment, which contains the token, from the address bar. `fault` tells whether the name or the token is missing.
  */
 export function extractSharedSession(): { credentials?: Credentials; fault?: string } {
-    const fragment = new URLSearchParams(repaired(location.hash.slice(1)));
+    const fragment = new URLSearchParams(repairedQuery(location.hash.slice(1)));
     const [session, token] = [fragment.get("session"), fragment.get("token")];
     if (!/session|token/.test(location.hash)) return {};
     // The token gives access to the session, so it must not stay in the address bar.
@@ -69,7 +69,7 @@ export function extractSharedSession(): { credentials?: Credentials; fault?: str
 
 /** Returns the session of the current entry of the browser's history; undefined if it has none. */
 export function sessionOfHistoryEntry(): Credentials | undefined {
-    return (history.state as HistoryEntry | null)?.credentials;
+    return (history.state as BrowserHistoryEntry | null)?.credentials;
 }
 
 /**
@@ -77,18 +77,18 @@ export function sessionOfHistoryEntry(): Credentials | undefined {
  * session was stored: a link with a query opens a new session.
  */
 function sessionOfTab(): Credentials | undefined {
-    const stored = readStored<StoredSession>(kSessionKey);
+    const stored = loadFromStorage<StoredSession>(kSessionKey);
     return location.search === "" && stored?.query === "" ? stored.credentials : undefined;
 }
 
 /** Remembers the session for reloads of the page, and for a return to this entry of the browser's history. */
 export function rememberSession({ session, token }: Credentials): void {
     const credentials = { session, token };
-    const entry: HistoryEntry = { credentials };
+    const entry: BrowserHistoryEntry = { credentials };
     // Browsers limit how often a page may replace the state of a history entry.
     if (JSON.stringify(history.state) !== JSON.stringify(entry)) history.replaceState(entry, "");
     const stored: StoredSession = { credentials, query: location.search };
-    writeStored(kSessionKey, stored);
+    saveToStorage(kSessionKey, stored);
 }
 
 /** The server's own token, which some servers require of everyone, if the page's address contains it. */
@@ -133,12 +133,12 @@ function decodePercents(text: string): string {
  * Repairs a query or fragment that a mailer or forum has changed: replaces "&amp;" by "&", and undoes a second encoding
  * of percent signs (%252C).
  */
-function repaired(text: string): string {
+function repairedQuery(text: string): string {
     return text.replaceAll("&amp;", "&").replace(/%25(?=[0-9a-f]{2})/gi, "%");
 }
 
 /** Whether a parameter is one that other sites append to addresses, for example for tracking. */
-function isIgnored(name: string): boolean {
+function isIgnoredParameter(name: string): boolean {
     return address.ignored.some((rule) => (rule.endsWith("*") ? name.startsWith(rule.slice(0, -1)) : name === rule));
 }
 
@@ -147,8 +147,8 @@ function isIgnored(name: string): boolean {
  * also before a unit: 10+deg. Between two operands, "+" is a plus sign, because a person may have typed it: 0.1+pi/8.
  * The server uses the same rules.
  */
-function parametersOf(query: string): [name: string, value: string][] {
-    const parts = repaired(query)
+function queryParameters(query: string): [name: string, value: string][] {
+    const parts = repairedQuery(query)
         .replace(/^\?/, "")
         .split("&")
         .filter((part) => part !== "");
@@ -163,7 +163,7 @@ function parametersOf(query: string): [name: string, value: string][] {
             });
             return [decodePercents(name), text];
         })
-        .filter(([name]) => !isIgnored(name));
+        .filter(([name]) => !isIgnoredParameter(name));
 }
 
 /**
@@ -171,8 +171,8 @@ function parametersOf(query: string): [name: string, value: string][] {
  * `box` is not valid, `faults` says so, and the field has kUsualBox. Without `formula`, `faults` has a text for each of
  * `box` and `values` in the query.
  */
-function fieldOf(query: string): Pick<InitialView, "field" | "faults"> {
-    const { formula, box, values } = Object.fromEntries(parametersOf(query));
+function fieldInQuery(query: string): Pick<InitialView, "field" | "faults"> {
+    const { formula, box, values } = Object.fromEntries(queryParameters(query));
     if (formula === undefined) {
         const alone = Object.entries({ box, values }).filter(([, value]) => value !== undefined);
         return {
@@ -192,7 +192,7 @@ export function commandLines(query: string): string[] {
     // The command "toward" comes last, because it depends on the polytope and the rotations. The query of frame.png has
     // the same order.
     const isLast = ([name]: [string, string]): number => Number(name === "toward");
-    return parametersOf(query)
+    return queryParameters(query)
         .filter(([name]) => ![...kIgnoredParameters, ...kFieldParameters].includes(name))
         .sort((a, b) => isLast(a) - isLast(b))
         .map(([name, value]) => {

@@ -33,7 +33,7 @@ export class MultiTouchGesture {
     private twists = false; // whether the twist has left its dead zone
 
     constructor(fingers: readonly Finger[]) {
-        this.last = geometryOf(fingers);
+        this.last = fingerGeometryOf(fingers);
     }
 
     /**
@@ -43,7 +43,7 @@ export class MultiTouchGesture {
      */
     update(fingers: readonly Finger[]): { dx: number; dy: number; spread: number; twist: number } {
         const { last } = this;
-        const now = (this.last = geometryOf(fingers));
+        const now = (this.last = fingerGeometryOf(fingers));
         const [dx, dy] = [now.center.x - last.center.x, now.center.y - last.center.y];
         const twist = rotationBetween(last.arms, now.arms);
         const change = {
@@ -59,7 +59,7 @@ export class MultiTouchGesture {
     }
 }
 
-function geometryOf(fingers: readonly Finger[]): FingerGeometry {
+function fingerGeometryOf(fingers: readonly Finger[]): FingerGeometry {
     const mean = (values: number[]): number => values.reduce((sum, value) => sum + value, 0) / values.length;
     const center = { x: mean(fingers.map((one) => one.clientX)), y: mean(fingers.map((one) => one.clientY)) };
     const arms = fingers.map(({ clientX, clientY }) => ({ x: clientX - center.x, y: clientY - center.y }));

@@ -1,6 +1,6 @@
 // Sends values one at a time. While a value is unanswered, keeps only the newest of the submitted values.
 
-export class NewestOnly<T> {
+export class NewestValueSender<T> {
     private waiting: T | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
     private isSending = false;
@@ -22,11 +22,11 @@ export class NewestOnly<T> {
         clearTimeout(this.timer);
         this.timer = setTimeout(() => {
             this.timer = undefined;
-            void this.flush();
+            void this.sendWaiting();
         }, delay);
     }
 
-    private async flush(): Promise<void> {
+    private async sendWaiting(): Promise<void> {
         if (this.isSending) return;
         this.isSending = true;
         while (this.waiting !== undefined && this.timer === undefined) {

@@ -6,7 +6,7 @@ import type { Settings, State, Vector } from "@oval4d/protocol";
 import { byId, element } from "./element";
 import { parseNumbers } from "./fields";
 import { formatDecimal, toSentence } from "./format";
-import { NewestOnly } from "./newest_only";
+import { NewestValueSender } from "./newest_only";
 import { OldStateDetector } from "./old_state_detector";
 import type { VelocitySetting } from "./reference_frame";
 
@@ -23,10 +23,10 @@ export class ObserverControls {
     private readonly paceValue = byId("observer-pace-value");
     private readonly error = byId("observer-error");
     private readonly components: Record<VelocitySetting, HTMLInputElement[]> = { follow: [], boost: [] };
-    private readonly paces = new NewestOnly<number>((pace) => this.applyPace(pace));
-    private readonly velocities: Record<VelocitySetting, NewestOnly<Vector>> = {
-        follow: new NewestOnly(async (follow) => void (await this.apply({ follow }, "follow"))),
-        boost: new NewestOnly(async (boost) => void (await this.apply({ boost }, "boost"))),
+    private readonly paces = new NewestValueSender<number>((pace) => this.applyPace(pace));
+    private readonly velocities: Record<VelocitySetting, NewestValueSender<Vector>> = {
+        follow: new NewestValueSender(async (follow) => void (await this.apply({ follow }, "follow"))),
+        boost: new NewestValueSender(async (boost) => void (await this.apply({ boost }, "boost"))),
     };
     private continues = false; // whether the next pace joins the undo step of the last pace
     private readonly lastPace = new OldStateDetector();
@@ -98,7 +98,7 @@ export class ObserverControls {
         this.continues = true;
         const revision = await this.apply({ pace, continues }, "pace");
         if (revision === undefined) this.showPace(this.statePace);
-        else this.lastPace.answered(revision);
+        else this.lastPace.noteRevision(revision);
     }
 
     /** Applies settings. Resolves to the revision after the change; to undefined if the server refuses it. */

@@ -9,7 +9,7 @@ export class OldStateDetector {
     private seen = 0; // the revision of the newest state
 
     /** Records the revision in the server's answer to a change by this page. */
-    answered(revision: number): void {
+    noteRevision(revision: number): void {
         this.revision = revision;
     }
 

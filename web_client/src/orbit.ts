@@ -11,7 +11,8 @@ const kInitial: Orbit = { azimuth: 0, elevation: 0, zoom: 1 };
 const kLimits = { elevation: 1.5, zoom: [0.25, 10] as const };
 const kLeastVisible = 0.5; // the least fraction of the slices that orbiting and zooming keep in the picture
 const kBisections = 10;
-const kLeastZoom = 1e-3; // relative changes of the zoom up to this size do not count
+// zoomBy() says that a limit has stopped the zoom if the zoom changes by no more than this fraction.
+const kNoticedZoomChange = 1e-3;
 
 const kAngleStep = Math.PI / 36; // the angle by which one key press moves the camera, in radians
 const kZoomStep = 1.1;
@@ -59,8 +60,8 @@ export class OrbitControl {
         const from = this.stage.orbit;
         const to = this.limited(from, { zoom: Math.min(max, Math.max(min, from.zoom * factor)) });
         this.setAndSendOrbit(to);
-        if (Math.abs(factor - 1) <= kLeastZoom) return; // two fingers that only move or twist do not zoom
-        if (Math.abs(to.zoom / from.zoom - 1) > kLeastZoom) return;
+        if (Math.abs(factor - 1) <= kNoticedZoomChange) return; // two fingers that only move or twist do not zoom
+        if (Math.abs(to.zoom / from.zoom - 1) > kNoticedZoomChange) return;
         if (factor < 1) this.stopped("The camera is as far away as it can be.");
         else if (to.zoom >= max) this.stopped("The camera is as close as it can be.");
         else this.stopped("Closer, most slices would leave the picture. One slice (o) can be seen closer.");
@@ -114,9 +115,9 @@ export class OrbitControl {
         let part = visible(to) < least ? 0 : 1;
         for (let step = 1, k = 0; part < 1 && k < kBisections; ++k) {
             step /= 2;
-            if (visible(mix(from, to, part + step)) >= least) part += step;
+            if (visible(interpolateOrbits(from, to, part + step)) >= least) part += step;
         }
-        return mix(from, to, part);
+        return interpolateOrbits(from, to, part);
     }
 
     /** Adopts the camera of the state, unless this page has sent a newer camera or is about to. */
@@ -141,7 +142,7 @@ export class OrbitControl {
             const camera = this.stage.orbit;
             try {
                 const { revision } = await this.client.request({ type: "set", camera });
-                this.lastChange.answered(revision);
+                this.lastChange.noteRevision(revision);
             } catch (error) {
                 // Without a connection, the camera can still be moved, and the page shows the missing connection
                 // elsewhere.
@@ -153,7 +154,7 @@ export class OrbitControl {
 }
 
 /** Interpolates between two orbits: `from` if `part` is 0, `to` if `part` is 1. */
-function mix(from: Orbit, to: Orbit, part: number): Orbit {
+function interpolateOrbits(from: Orbit, to: Orbit, part: number): Orbit {
     const between = (a: number, b: number): number => (part === 1 ? b : a + (b - a) * part);
     return {
         azimuth: between(from.azimuth, to.azimuth),

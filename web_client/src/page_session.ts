@@ -21,7 +21,7 @@ interface PageSessionActions {
 }
 
 export class PageSession {
-    // The last state of a session that was lost or that beginNew() has left. The new session restores this state.
+    // The last state of a session that was lost or that beginNewSession() has left. The new session restores this state.
     private lostState: State | undefined;
     // Whether a command of the initial view has been sent, over this connection or an earlier one.
     private isViewBegun = false;
@@ -51,7 +51,7 @@ export class PageSession {
     joinShared(): void {
         const { credentials, fault } = extractSharedSession();
         if (fault) this.actions.tellFaults([fault]);
-        if (credentials) this.join(credentials);
+        if (credentials) this.joinWithCredentials(credentials);
         else if (this.client.credentials) rememberSession(this.client.credentials); // for the new entry of the history
     }
 
@@ -61,7 +61,7 @@ export class PageSession {
      */
     joinSessionOfHistoryEntry(): void {
         const credentials = sessionOfHistoryEntry();
-        if (credentials && credentials.session !== this.client.credentials?.session) this.join(credentials);
+        if (credentials && credentials.session !== this.client.credentials?.session) this.joinWithCredentials(credentials);
     }
 
     /**
@@ -82,7 +82,7 @@ export class PageSession {
      * Begins a new session, while the server cannot open the present one. Restores `state` in the new session, if it is
      * given. The present session stays in the browser's history.
      */
-    beginNew(state: State | undefined): void {
+    beginNewSession(state: State | undefined): void {
         this.lostState ??= state;
         if (this.client.credentials) rememberSession(this.client.credentials);
         history.pushState(null, ""); // the new entry gets the new session
@@ -138,7 +138,7 @@ export class PageSession {
         return faults;
     }
 
-    private join(credentials: Credentials): void {
+    private joinWithCredentials(credentials: Credentials): void {
         this.clearInitialView(); // the initial view is only for a new session
         this.lostState = undefined;
         this.actions.joined();

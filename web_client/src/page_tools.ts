@@ -1,11 +1,11 @@
 // Buttons for actions of the page that have no key.
 
-import { kSchemeChoices, type SchemeChoice } from "./color_scheme";
+import { kSchemeChoices, type ColorSchemeChoice } from "./color_scheme";
 import { element } from "./element";
 import { capitalize } from "./format";
-import type { FullScreen } from "./full_screen";
+import type { FullScreenMode } from "./full_screen";
 import type { RenderingMode } from "./picture/stage";
-import type { BallKind } from "./rolling_ball";
+import type { RollingBallKind } from "./rolling_ball";
 import type { TiltControl } from "./tilt";
 import type { ToolSection } from "./tools";
 
@@ -20,9 +20,9 @@ export interface PageActions {
     copyPython(): void;
     save(): void;
     openField(): void;
-    scheme: SchemeChoice;
-    chooseScheme(choice: SchemeChoice): void;
-    fullScreen: FullScreen;
+    scheme: ColorSchemeChoice;
+    chooseScheme(choice: ColorSchemeChoice): void;
+    fullScreen: FullScreenMode;
     tilt: TiltControl;
     /** Shows an error to the user. */
     failed(error: Error): void;
@@ -30,7 +30,7 @@ export interface PageActions {
     useSingleKeys(on: boolean): void;
 }
 
-const kSchemeTitles: Record<SchemeChoice, string> = {
+const kSchemeTitles: Record<ColorSchemeChoice, string> = {
     system: "A dark or a light page, as the system is set",
     dark: "A dark page",
     light: "A light page; the picture is light, too, unless it has another background",
@@ -40,14 +40,14 @@ const kSchemeTitles: Record<SchemeChoice, string> = {
  * The two tilt buttons, with label and tooltip. Each lets the device's orientation roll one kind of ball (see
  * rolling_ball.ts).
  */
-const kTilts = new Map<BallKind, [string, string]>([
+const kTilts = new Map<RollingBallKind, [string, string]>([
     ["4-D", ["Tilt in 4-D", "Turn in xw and yw as this device is tilted, and in zw as it is twisted"]],
     ["3-D", ["Tilt slices", "Turn every slice in place as this device is tilted and twisted"]],
 ]);
 
-export function pageSections(actions: PageActions): ToolSection[] {
+export function pageToolSections(actions: PageActions): ToolSection[] {
     const renderer = (mode: RenderingMode, label: string, title: string): HTMLElement => {
-        const made = button(mode, label, title, () => actions.setMode(mode));
+        const made = createButton(mode, label, title, () => actions.setMode(mode));
         made.toggleAttribute("disabled", mode === "geometry" && !actions.canDrawGeometry);
         made.setAttribute("aria-pressed", String(actions.mode === mode));
         return made;
@@ -56,11 +56,11 @@ export function pageSections(actions: PageActions): ToolSection[] {
         ...(actions.tilt.isOffered ? [tiltSection(actions)] : []),
         {
             title: "Repeat and undo",
-            content: [button("reset", "Reset", "Restore the initial orientation and focus", actions.reset)],
+            content: [createButton("reset", "Reset", "Restore the initial orientation and focus", actions.reset)],
         },
         {
             title: "Polytope",
-            content: [button("field", "Field", "Show the field of a formula of x, y, z and w", actions.openField)],
+            content: [createButton("field", "Field", "Show the field of a formula of x, y, z and w", actions.openField)],
         },
         {
             title: "Rendered by",
@@ -84,21 +84,21 @@ export function pageSections(actions: PageActions): ToolSection[] {
         {
             title: "Export and share",
             content: [
-                button("save", "Save picture", "Save the picture as a PNG file", actions.save),
-                button("share", "Share", "Copy a link with which others can join this session", actions.share),
-                button(
+                createButton("save", "Save picture", "Save the picture as a PNG file", actions.save),
+                createButton("share", "Share", "Copy a link with which others can join this session", actions.share),
+                createButton(
                     "phone",
                     "Share with a phone",
                     "Show the link with which others can join this session as a QR code",
                     actions.shareWithPhone,
                 ),
-                button(
+                createButton(
                     "view_link",
                     "Copy link to this view",
                     "Copy a link that opens this view in a new session",
                     actions.copyViewLink,
                 ),
-                button(
+                createButton(
                     "python",
                     "Copy as Python",
                     "Copy a script that opens this view and saves its picture",
@@ -117,14 +117,14 @@ export function showModePressed(mode: RenderingMode): void {
 }
 
 /** Marks the button of the chosen color scheme as pressed. */
-export function showSchemePressed(choice: SchemeChoice): void {
+export function showSchemePressed(choice: ColorSchemeChoice): void {
     for (const name of kSchemeChoices) {
         document.querySelector(`[data-page-tool="scheme_${name}"]`)?.setAttribute("aria-pressed", String(name === choice));
     }
 }
 
 /** Marks the tilt button as pressed whose ball the device's orientation rolls. */
-export function showTiltPressed(ball: BallKind | undefined): void {
+export function showTiltPressed(ball: RollingBallKind | undefined): void {
     for (const kind of kTilts.keys()) {
         document.querySelector(`[data-page-tool="tilt_${kind}"]`)?.setAttribute("aria-pressed", String(kind === ball));
     }
@@ -138,7 +138,7 @@ export function showFullScreenPressed(isOn: boolean): void {
 function tiltSection({ tilt, failed }: PageActions): ToolSection {
     const content = [...kTilts].map(([ball, [label, title]]) => {
         const isAllowed = window.isSecureContext; // browsers give sensor data only to secure pages
-        const made = button(`tilt_${ball}`, label, isAllowed ? title : "Only with HTTPS", () => {
+        const made = createButton(`tilt_${ball}`, label, isAllowed ? title : "Only with HTTPS", () => {
             void tilt.toggle(ball).catch(failed);
         });
         made.toggleAttribute("disabled", !isAllowed);
@@ -148,15 +148,15 @@ function tiltSection({ tilt, failed }: PageActions): ToolSection {
     return { title: "Tilt", after: "history", content };
 }
 
-function schemeButton(choice: SchemeChoice, { scheme, chooseScheme }: PageActions): HTMLElement {
-    const made = button(`scheme_${choice}`, capitalize(choice), kSchemeTitles[choice], () => chooseScheme(choice));
+function schemeButton(choice: ColorSchemeChoice, { scheme, chooseScheme }: PageActions): HTMLElement {
+    const made = createButton(`scheme_${choice}`, capitalize(choice), kSchemeTitles[choice], () => chooseScheme(choice));
     made.setAttribute("aria-pressed", String(choice === scheme));
     return made;
 }
 
 function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
     const title = "Fill the screen, with texts for the back of a room; Escape ends it";
-    const made = button("full_screen", "Full screen", title, () => void fullScreen.toggle().catch(failed));
+    const made = createButton("full_screen", "Full screen", title, () => void fullScreen.toggle().catch(failed));
     made.toggleAttribute("disabled", !fullScreen.isAvailable);
     made.setAttribute("aria-pressed", String(fullScreen.isOn));
     return made;
@@ -167,7 +167,7 @@ function fullScreenButton({ fullScreen, failed }: PageActions): HTMLElement {
  * input may press single keys by mistake (WCAG 2.1.4).
  */
 function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLElement {
-    const made = button("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
+    const made = createButton("single_keys", "Single keys", "Keys act without Ctrl; otherwise use the buttons", () => {
         const on = made.getAttribute("aria-pressed") !== "true";
         made.setAttribute("aria-pressed", String(on));
         useSingleKeys(on);
@@ -176,7 +176,7 @@ function singleKeysButton({ usesSingleKeys, useSingleKeys }: PageActions): HTMLE
     return made;
 }
 
-function button(name: string, label: string, title: string, act: () => void): HTMLElement {
+function createButton(name: string, label: string, title: string, act: () => void): HTMLElement {
     const made = element("button", { type: "button", "data-page-tool": name, title }, label);
     made.addEventListener("click", act);
     return made;

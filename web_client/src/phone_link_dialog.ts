@@ -60,7 +60,7 @@ export class PhoneLinkDialog {
         if (link === this.link.value) return;
         this.link.value = link;
         this.status.textContent = "";
-        const code = codeOf(link);
+        const code = qrCodeOf(link);
         this.code.toggleAttribute("hidden", !code);
         this.tooLong.hidden = code !== undefined;
         if (!code) {
@@ -94,7 +94,7 @@ export class PhoneLinkDialog {
  * The QR code of a link; undefined if the link is longer than 2331 bytes, the most that a code with correction level M
  * holds.
  */
-function codeOf(link: string): Bitmap2D | undefined {
+function qrCodeOf(link: string): Bitmap2D | undefined {
     try {
         return generate(link, { minCorrectionLevel: correction.M });
     } catch (error) {

@@ -96,7 +96,7 @@ export class PolytopePicker {
         const families = found.length > 0 ? found : this.catalogue.findSimilar(text);
         const groups = families.map(({ name, entries }, i) => {
             const title = element("h3", { id: `picker-family-${i}`, role: "presentation" }, name);
-            if (!kFieldFamilies.includes(name)) title.append(countsElement(kCounted));
+            if (!kFieldFamilies.includes(name)) title.append(elementCountColumns(kCounted));
             const options = entries.map((entry) => this.options.get(entry)!);
             const attributes = { role: "group", "aria-labelledby": title.id };
             return element("div", attributes, title, ...options);
@@ -185,11 +185,11 @@ function optionElement(entry: CatalogueEntry, id: string): HTMLElement {
         element("small", {}, ...drawn, also),
         kFieldFamilies.includes(entry.family ?? "")
             ? element("small", { class: "counts" }, "field")
-            : countsElement(counts.map(formatCount)),
+            : elementCountColumns(counts.map(formatCount)),
     );
 }
 
 /** Makes four columns of text: the counts of elements of an entry, or the headings of these columns. */
-function countsElement(texts: string[]): HTMLElement {
+function elementCountColumns(texts: string[]): HTMLElement {
     return element("small", { class: "counts columns" }, ...texts.map((text) => element("span", {}, text)));
 }

@@ -4,7 +4,7 @@ import type { Measured, PolytopeElement, State } from "@oval4d/protocol";
 
 import { byId } from "./element";
 import type { ElementMeasurements } from "./element_measurements";
-import type { FieldPoint, FieldSamples, LevelDescription } from "./field_samples";
+import type { FieldPoint, FieldSamples, LevelPointDescription } from "./field_samples";
 import { capitalize, formatCoordinate, formatFieldValue, formatLength, formatW } from "./format";
 import type { AreaPoint } from "./hover";
 import { spokenReferenceFrame } from "./reference_frame";
@@ -34,9 +34,9 @@ const kGap = 14; // pixels between the pointer and the label
 const kMargin = 4; // pixels between the label and the edges of the drawing
 
 /** What the label describes. */
-export type PointedDescription = ElementDescription | LevelDescription;
+export type PointedDescription = ElementDescription | LevelPointDescription;
 
-export class PointedLabel {
+export class PointerLabel {
     private readonly label = byId("pointed");
     private shown: PointedDescription | undefined;
     private pointer: AreaPoint = { x: 0, y: 0 };
@@ -58,24 +58,24 @@ export class PointedLabel {
         this.pointer = pointer;
         this.label.hidden = false;
         this.update();
-        this.measurements.want(isLevel(described) ? undefined : described);
-        this.samples.want(isLevel(described) ? described : undefined);
+        this.measurements.askAbout(isLevelDescription(described) ? undefined : described);
+        this.samples.askAbout(isLevelDescription(described) ? described : undefined);
     }
 
     hide(): void {
         this.shown = undefined;
         this.label.hidden = true;
-        this.measurements.want(undefined);
-        this.samples.want(undefined);
+        this.measurements.askAbout(undefined);
+        this.samples.askAbout(undefined);
     }
 
     /** Writes the label again, with everything that is known now. */
     update(): void {
         const { shown } = this;
         if (!shown) return;
-        this.label.textContent = isLevel(shown)
-            ? describeLevel(shown, this.samples.of(shown), this.state())
-            : describe(shown, this.measurements.of(shown) ?? {}, this.state());
+        this.label.textContent = isLevelDescription(shown)
+            ? describeLevel(shown, this.samples.knownAt(shown), this.state())
+            : describeElement(shown, this.measurements.measurementsOf(shown) ?? {}, this.state());
         this.place(this.pointer);
     }
 
@@ -103,12 +103,12 @@ function formatPlaceInBox(place: readonly number[], state: State | undefined): s
     return place.map(format).join(", ");
 }
 
-function isLevel(described: PointedDescription): described is LevelDescription {
+function isLevelDescription(described: PointedDescription): described is LevelPointDescription {
     return "level" in described;
 }
 
 function describeLevel(
-    { level, cap, sliceW }: LevelDescription,
+    { level, cap, sliceW }: LevelPointDescription,
     { place, value, second_value: second }: FieldPoint,
     state: State | undefined,
 ): string {
@@ -128,7 +128,7 @@ function describeLevel(
 }
 
 /** Describes an element. Omits its sizes for a moving observer, because the server measures the object at rest. */
-function describe(described: ElementDescription, measured: Partial<Measured>, state: State | undefined): string {
+function describeElement(described: ElementDescription, measured: Partial<Measured>, state: State | undefined): string {
     const { element, number, coordinates, sliceW } = described;
     const spacing = state?.slices.spacing ?? 1; // determines how coordinates are rounded
     const format = (coordinate: number): string => formatCoordinate(coordinate, spacing);

@@ -7,14 +7,14 @@
 import type { PolytopeElement, Slice, State } from "@oval4d/protocol";
 
 import type { ElementMeasurements } from "./element_measurements";
-import type { LevelDescription } from "./field_samples";
+import type { LevelPointDescription } from "./field_samples";
 import { followHover, type AreaPoint } from "./hover";
 import { originInFile } from "./origin";
 import { pointedElements } from "./picture/highlighted_elements";
 import { elementOfHit, type LevelHit } from "./picture/hit_test";
 import type { HitTester } from "./picture/hit_tester";
 import type { Stage } from "./picture/stage";
-import type { ElementDescription, PointedLabel } from "./pointed_label";
+import type { ElementDescription, PointerLabel } from "./pointed_label";
 
 /** An element of the polytope, and the slice in which the pointer is on it. */
 export interface PointedElement extends PolytopeElement {
@@ -32,7 +32,7 @@ export function isElement(target: PointedTarget): target is PointedElement {
 // at a point, because a key that is pressed meanwhile waits for the answer.
 const kRest = 200;
 
-export class Pointing {
+export class PointerHighlighter {
     private at: AreaPoint | undefined;
     private scheduled = false;
     private shown: PointedElement | undefined; // the element that is highlighted
@@ -50,12 +50,12 @@ export class Pointing {
     constructor(
         private readonly drawing: HTMLElement,
         private readonly stage: Stage,
-        private readonly label: PointedLabel,
+        private readonly label: PointerLabel,
         private readonly measurements: ElementMeasurements,
         private readonly state: () => State | undefined,
         private readonly mayShowObject: (revision: number) => boolean,
     ) {
-        followHover(drawing, (at) => this.moveTo(at));
+        followHover(drawing, (at) => this.recordPointer(at));
     }
 
     /** What the picture shows at a point of the drawing, in CSS pixels; undefined if it shows nothing there. */
@@ -66,7 +66,7 @@ export class Pointing {
         if (!this.mayShowObject(revision)) return undefined;
         // A requested picture may be newer than the state, and show another object. Then the numbers of elements
         // usually differ.
-        if (!polytope || !hasColorsOf(polytope, scene.colors.cells.length)) return undefined;
+        if (!polytope || !mayHaveColorCount(polytope, scene.colors.cells.length)) return undefined;
         if (coordinates.length > 0 && coordinates.length !== 4 * polytope.vertices) return undefined;
         const ratio = size.height / this.drawing.clientHeight;
         const vertex = hitTester.vertexInCoordinatesAt(x * ratio, y * ratio, size);
@@ -80,7 +80,7 @@ export class Pointing {
      * Shows the name of the element or surface that a finger has tapped. The name stays until the next touch, although
      * the tap moves the focus slice and thereby changes the picture.
      */
-    showName(tapped: PointedTarget, hitTester: HitTester, at: AreaPoint): void {
+    showTappedName(tapped: PointedTarget, hitTester: HitTester, at: AreaPoint): void {
         this.isTapped = true;
         const described = isElement(tapped)
             ? this.descriptionOf(tapped, hitTester)
@@ -99,7 +99,7 @@ export class Pointing {
         const found = target && isElement(target) ? target : undefined;
         const isRedrawn = this.updateElement(found, isNew);
         const level = target && !isElement(target) ? target : undefined;
-        if (level) this.nameLevel(level, at!);
+        if (level) this.showLevelName(level, at!);
         else if (this.namesLevel && !found) this.label.hide();
         this.namesLevel = level !== undefined;
         return isRedrawn;
@@ -129,9 +129,9 @@ export class Pointing {
     }
 
     /** Highlights all parts that show the element under the pointer, if the server has named them. */
-    complete(): void {
+    completeHighlight(): void {
         const { at, hitTester, isComplete, shown } = this;
-        if (isComplete || !at || !hitTester || !shown || !this.measurements.of(shown)) return;
+        if (isComplete || !at || !hitTester || !shown || !this.measurements.measurementsOf(shown)) return;
         if (!this.mayShowObject(hitTester.picture.revision)) return; // the answer may be about a newer object
         this.highlight(shown);
         this.label.show(this.descriptionOf(shown, hitTester), at);
@@ -139,13 +139,13 @@ export class Pointing {
     }
 
     private highlight(found: PointedElement): void {
-        const highlight = this.measurements.of(found)?.highlight;
+        const highlight = this.measurements.measurementsOf(found)?.highlight;
         this.isComplete = highlight !== undefined;
         this.stage.highlightPointed(pointedElements(found, this.state()!.polytope, highlight));
     }
 
     /** Names the level under the pointer. When the picture rests, the label also asks for the values at the point. */
-    private nameLevel(level: LevelHit, at: AreaPoint): void {
+    private showLevelName(level: LevelHit, at: AreaPoint): void {
         clearTimeout(this.resting);
         const remaining = this.restsAt - performance.now();
         this.label.show(descriptionOfLevel(level, this.hitTester!, this.state()!, remaining <= 0), at);
@@ -153,7 +153,7 @@ export class Pointing {
     }
 
     /** Records the position of the pointer, and updates what is under it. */
-    private moveTo(at: AreaPoint | undefined): void {
+    private recordPointer(at: AreaPoint | undefined): void {
         if (this.isTapped) this.label.hide();
         this.isTapped = false;
         if (!at && !this.at) return;
@@ -182,7 +182,7 @@ export class Pointing {
         const origin = originInFile(state);
         const placeOf = (v: number): number[] => origin.map((from, axis) => from + coordinates[4 * v + axis]!);
         const hasPlaces = coordinates.length > 0;
-        const ends = element === "edge" && hasPlaces ? this.measurements.of(found)?.highlight?.own_vertices : undefined;
+        const ends = element === "edge" && hasPlaces ? this.measurements.measurementsOf(found)?.highlight?.own_vertices : undefined;
         const [a, b] = ends?.map(placeOf) ?? [];
         return {
             element,
@@ -201,7 +201,7 @@ function descriptionOfLevel(
     { picture: { revision } }: HitTester,
     state: State,
     mayAsk: boolean,
-): LevelDescription {
+): LevelPointDescription {
     const origin = originInFile(state);
     const inFile = point.map((value, axis) => value + origin[axis]!) as LevelHit["point"];
     return { level, cap, sliceW: slice && origin[3] + slice.w, revision, ...(mayAsk && { point: inFile }) };
@@ -211,6 +211,6 @@ function descriptionOfLevel(
  * Whether a picture of this polytope can have `count` colors. A polytope has a color for each cell; a surface has one
  * color, or one for each 2-face.
  */
-function hasColorsOf({ cells, faces }: State["polytope"], count: number): boolean {
+function mayHaveColorCount({ cells, faces }: State["polytope"], count: number): boolean {
     return count === cells || (cells === 0 && (count === 1 || count === faces));
 }

@@ -1,14 +1,14 @@
 // Switches between rendering by this device and rendering by the server.
 
 import type { RenderingMode, Stage } from "./picture/stage";
-import { readStored, writeStored } from "./storage";
+import { loadFromStorage, saveToStorage } from "./storage";
 
 const kModeKey = "oval4d.mode"; // storage key of the mode that the user has chosen
 const kNoGraphics = "The graphics card is unavailable; the server renders the pictures.";
 
 export class RenderingModeSwitch {
     // The mode that the user has chosen. It stays while WebGL is unavailable.
-    private chosen = readStored<RenderingMode>(kModeKey) ?? "geometry";
+    private chosen = loadFromStorage<RenderingMode>(kModeKey) ?? "geometry";
 
     constructor(
         private readonly stage: Stage,
@@ -24,7 +24,7 @@ export class RenderingModeSwitch {
     choose(mode: RenderingMode): void {
         if (mode === "geometry" && !this.stage.canDrawGeometry) return this.actions.tell(kNoGraphics);
         this.chosen = mode;
-        writeStored(kModeKey, mode);
+        saveToStorage(kModeKey, mode);
         this.set(mode);
         return undefined;
     }

@@ -11,7 +11,7 @@ export type AnglesByPlane = Partial<Record<Plane, number>>;
 /**
  * The kind of ball that a gesture rolls. "4-D" turns the whole object; "3-D" turns every slice within its hyperplane.
  */
-export type BallKind = "4-D" | "3-D";
+export type RollingBallKind = "4-D" | "3-D";
 
 const kWheelTurn = 0.0015; // radians per pixel of the wheel
 const kStickRate = Math.PI / 2; // radians per second with a stick or trigger at its end
@@ -21,16 +21,16 @@ const kStickDeadZone = 0.15; // smaller deflections, as fractions of the greates
  * The angles for a drag of `dx` pixels to the right and `dy` down. A drag over `height`, the height of the picture,
  * makes half a turn.
  */
-export function turnsOfDrag(ball: BallKind, dx: number, dy: number, height: number): AnglesByPlane {
+export function turnsOfDrag(ball: RollingBallKind, dx: number, dy: number, height: number): AnglesByPlane {
     const perPixel = Math.PI / Math.max(1, height);
-    return rolled(ball, dx * perPixel, dy * perPixel);
+    return rollingAngles(ball, dx * perPixel, dy * perPixel);
 }
 
 /**
  * The angle for a movement of the mouse wheel by `pixels`. Drags do not use its plane: it is zw for the 4-D ball and xy
  * for the 3-D ball.
  */
-export function turnsOfWheel(ball: BallKind, pixels: number): AnglesByPlane {
+export function turnsOfWheel(ball: RollingBallKind, pixels: number): AnglesByPlane {
     return ball === "4-D" ? { zw: -pixels * kWheelTurn } : { xy: -pixels * kWheelTurn };
 }
 
@@ -38,7 +38,7 @@ export function turnsOfWheel(ball: BallKind, pixels: number): AnglesByPlane {
  * The angle for fingers that twist clockwise by `angle` radians. Drags do not use its plane: it is zw for the 4-D ball
  * and xy for the 3-D ball, which follows the fingers.
  */
-export function turnsOfTwist(ball: BallKind, angle: number): AnglesByPlane {
+export function turnsOfTwist(ball: RollingBallKind, angle: number): AnglesByPlane {
     return ball === "4-D" ? { zw: angle } : { xy: -angle };
 }
 
@@ -52,8 +52,8 @@ export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "button
     const difference = (less: number, more: number): number =>
         rate((buttons[more]?.value ?? 0) - (buttons[less]?.value ?? 0));
     return {
-        ...rolled("4-D", rate(axes[0]), rate(axes[1])),
-        ...rolled("3-D", rate(axes[2]), rate(axes[3])),
+        ...rollingAngles("4-D", rate(axes[0]), rate(axes[1])),
+        ...rollingAngles("3-D", rate(axes[2]), rate(axes[3])),
         zw: difference(6, 7),
         xy: difference(4, 5),
     };
@@ -63,11 +63,11 @@ export function turnsOfGamepad({ axes, buttons }: Pick<Gamepad, "axes" | "button
  * The angles for a device that turns by this rotation vector. Its components are in radians, about the axes to the
  * right, up and out of the screen. The ball turns like the device.
  */
-export function turnsOfTilt(ball: BallKind, [right, up, out]: readonly [number, number, number]): AnglesByPlane {
-    return { ...rolled(ball, up, right), ...turnsOfTwist(ball, -out) };
+export function turnsOfTilt(ball: RollingBallKind, [right, up, out]: readonly [number, number, number]): AnglesByPlane {
+    return { ...rollingAngles(ball, up, right), ...turnsOfTwist(ball, -out) };
 }
 
 /** The angles for rolling a ball to the right by `right` radians and down by `down` radians. */
-function rolled(ball: BallKind, right: number, down: number): AnglesByPlane {
+function rollingAngles(ball: RollingBallKind, right: number, down: number): AnglesByPlane {
     return ball === "4-D" ? { xw: -right, yw: down } : { xz: -right, yz: down };
 }

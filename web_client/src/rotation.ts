@@ -6,7 +6,7 @@ import type { Plane, Request } from "@oval4d/protocol";
 
 import type { AnglesByPlane } from "./rolling_ball";
 
-type Rotation = Extract<Request, { type: "rotate" }>;
+type RotationRequest = Extract<Request, { type: "rotate" }>;
 
 /** The turns of a gesture that have not been sent to the server. */
 interface PendingRotation {
@@ -19,22 +19,22 @@ interface PendingRotation {
     unsent: Map<Plane, number>;
 }
 
-export class RotationControl {
+export class RotationSender {
     // The last entry belongs to the current gesture. The other entries belong to earlier gestures with unsent angles.
     private pending: PendingRotation[] = [];
     private sending = false;
     private scheduled = false;
 
     /** `rotate` sends a request. It resolves to true if the server has executed the request, else to false. */
-    constructor(private readonly rotate: (rotation: Rotation) => Promise<boolean>) {}
+    constructor(private readonly rotate: (rotation: RotationRequest) => Promise<boolean>) {}
 
     /** Begins a gesture. Its turns become a new undo step. */
-    begin(): void {
+    beginGesture(): void {
         this.pending = this.pending.filter(({ unsent }) => unsent.size > 0);
         this.pending.push({ hasStep: false, unsent: new Map() });
     }
 
-    /** Adds turns to the current gesture. begin() must have been called before. */
+    /** Adds turns to the current gesture. beginGesture() must have been called before. */
     turn(turns: AnglesByPlane): void {
         const { unsent } = this.pending.at(-1)!;
         for (const [plane, angle] of Object.entries(turns) as [Plane, number][]) {
@@ -42,16 +42,16 @@ export class RotationControl {
             if (sum === 0) unsent.delete(plane);
             else unsent.set(plane, sum);
         }
-        this.schedule();
+        this.scheduleSend();
     }
 
-    private schedule(): void {
+    private scheduleSend(): void {
         if (this.sending || this.scheduled) return;
         this.scheduled = true;
-        requestAnimationFrame(() => void this.send());
+        requestAnimationFrame(() => void this.sendTurns());
     }
 
-    private async send(): Promise<void> {
+    private async sendTurns(): Promise<void> {
         this.scheduled = false;
         const first = this.pending[0]!;
         const planes = [...first.unsent.keys()];
@@ -64,6 +64,6 @@ export class RotationControl {
             first.hasStep = (await this.rotate({ type: "rotate", planes, angles, ...continues })) || first.hasStep;
         }
         this.sending = false;
-        if (this.pending[0]!.unsent.size > 0) this.schedule();
+        if (this.pending[0]!.unsent.size > 0) this.scheduleSend();
     }
 }

@@ -6,7 +6,7 @@ import { fileName } from "./download";
 import { shareLink, viewLink } from "./link";
 import type { Notice } from "./notice";
 
-export class Sharing {
+export class SessionSharing {
     constructor(
         private readonly client: Client,
         private readonly notice: Notice,

@@ -7,7 +7,7 @@ const storageOf = (isLasting: boolean): Storage => (isLasting ? localStorage : s
  * Returns a stored value; undefined if there is none, if the entry is not valid JSON, or if the browser forbids
  * storage.
  */
-export function readStored<T>(key: string, isLasting = false): T | undefined {
+export function loadFromStorage<T>(key: string, isLasting = false): T | undefined {
     try {
         return (JSON.parse(storageOf(isLasting).getItem(key) ?? "null") as T | null) ?? undefined;
     } catch {
@@ -15,7 +15,7 @@ export function readStored<T>(key: string, isLasting = false): T | undefined {
     }
 }
 
-export function writeStored(key: string, value: unknown, isLasting = false): void {
+export function saveToStorage(key: string, value: unknown, isLasting = false): void {
     try {
         storageOf(isLasting).setItem(key, JSON.stringify(value));
     } catch {

@@ -2,8 +2,8 @@
 // same planes as a drag, and twisting in the same plane as a twist of two fingers. All turns are about the axes of the
 // screen at the start. Therefore a phone that is turned back to its first position has also turned each slice back.
 
-import { type BallKind, turnsOfTilt } from "./rolling_ball";
-import type { RotationControl } from "./rotation";
+import { type RollingBallKind, turnsOfTilt } from "./rolling_ball";
+import type { RotationSender } from "./rotation";
 
 // The least turn in radians. Smaller turns are added up first, so that sensor noise of a phone at rest turns nothing.
 const kLeastTurn = 0.005;
@@ -14,7 +14,7 @@ type Quaternion = readonly [number, number, number, number];
 /** The state of tilting while it is switched on. */
 interface ActiveTilt {
     /** The kind of ball that the device rolls. */
-    ball: BallKind;
+    ball: RollingBallKind;
     /** Whether the next turn begins an undo step. */
     beginsStep: boolean;
     /**
@@ -32,7 +32,7 @@ export class TiltControl {
      * `changed` is called when `ball` has changed. `failed` is called if the device does not report its orientation.
      */
     constructor(
-        private readonly rotation: RotationControl,
+        private readonly rotation: RotationSender,
         private readonly changed: () => void,
         private readonly failed: (error: Error) => void,
     ) {
@@ -45,7 +45,7 @@ export class TiltControl {
     }
 
     /** The kind of ball that the device rolls; undefined while tilting is switched off. */
-    get ball(): BallKind | undefined {
+    get ball(): RollingBallKind | undefined {
         return this.active?.ball;
     }
 
@@ -53,7 +53,7 @@ export class TiltControl {
      * Switches the rolling of a ball on or off. Must be called in the handler of a click, because some browsers then
      * ask the user for permission. Throws an Error if the user refuses.
      */
-    async toggle(ball: BallKind): Promise<void> {
+    async toggle(ball: RollingBallKind): Promise<void> {
         if (this.ball === ball) return this.stop();
         const event = DeviceOrientationEvent as unknown as { requestPermission?: () => Promise<string> };
         const permission = event.requestPermission ? await event.requestPermission() : "granted";
@@ -65,7 +65,7 @@ export class TiltControl {
     }
 
     /** Makes the next turn begin a new undo step. Must be called when another command is sent. */
-    endStep(): void {
+    endUndoStep(): void {
         if (this.active) this.active.beginsStep = true;
     }
 
@@ -85,14 +85,14 @@ export class TiltControl {
             this.failed(new Error("this device does not tell how it is held"));
             return;
         }
-        const device = orientationOf(alpha, beta, gamma);
+        const device = deviceOrientation(alpha, beta, gamma);
         active.device ??= device;
-        active.screen ??= product(device, aboutZ(-(screen.orientation?.angle ?? 0)));
-        const change = product(device, conjugate(active.device));
-        const turn = rotationVectorOf(product(product(conjugate(active.screen), change), active.screen));
+        active.screen ??= quaternionProduct(device, rotationAboutZ(-(screen.orientation?.angle ?? 0)));
+        const change = quaternionProduct(device, conjugate(active.device));
+        const turn = rotationVectorOf(quaternionProduct(quaternionProduct(conjugate(active.screen), change), active.screen));
         if (Math.hypot(...turn) < kLeastTurn) return;
         active.device = device;
-        if (active.beginsStep) this.rotation.begin();
+        if (active.beginsStep) this.rotation.beginGesture();
         active.beginsStep = false;
         this.rotation.turn(turnsOfTilt(active.ball, turn));
     };
@@ -102,24 +102,24 @@ export class TiltControl {
  * The orientation of a device relative to the Earth, from angles in degrees. The device turns about its z axis by
  * `alpha`, then about its new x axis by `beta`, then about its new y axis by `gamma`.
  */
-function orientationOf(alpha: number, beta: number, gamma: number): Quaternion {
-    const [x, cosX] = halfAngle(beta);
-    const [y, cosY] = halfAngle(gamma);
-    return product(product(aboutZ(alpha), [cosX, x, 0, 0]), [cosY, 0, y, 0]);
+function deviceOrientation(alpha: number, beta: number, gamma: number): Quaternion {
+    const [x, cosX] = sinCosOfHalfAngle(beta);
+    const [y, cosY] = sinCosOfHalfAngle(gamma);
+    return quaternionProduct(quaternionProduct(rotationAboutZ(alpha), [cosX, x, 0, 0]), [cosY, 0, y, 0]);
 }
 
-function aboutZ(degrees: number): Quaternion {
-    const [sin, cos] = halfAngle(degrees);
+function rotationAboutZ(degrees: number): Quaternion {
+    const [sin, cos] = sinCosOfHalfAngle(degrees);
     return [cos, 0, 0, sin];
 }
 
 /** The sine and cosine of half an angle. `degrees` is the whole angle. */
-function halfAngle(degrees: number): [number, number] {
+function sinCosOfHalfAngle(degrees: number): [number, number] {
     const half = (degrees * Math.PI) / 360;
     return [Math.sin(half), Math.cos(half)];
 }
 
-function product([a, b, c, d]: Quaternion, [e, f, g, h]: Quaternion): Quaternion {
+function quaternionProduct([a, b, c, d]: Quaternion, [e, f, g, h]: Quaternion): Quaternion {
     return [
         a * e - b * f - c * g - d * h,
         a * f + b * e + c * h - d * g,

@@ -26,11 +26,11 @@ export function makeToolbar(root: HTMLElement, label: string): void {
     });
     new ResizeObserver(() => setTabStop()).observe(root); // the window's width may hide or show buttons
     root.addEventListener("focusin", ({ target }) => {
-        const button = target instanceof HTMLInputElement ? buttonOf(target, root) : target;
+        const button = target instanceof HTMLInputElement ? buttonReplacedBy(target, root) : target;
         if (button instanceof HTMLButtonElement) setTabStop(button);
     });
     root.addEventListener("keydown", (event) => {
-        if (!(event.target instanceof HTMLButtonElement) || isModified(event)) return;
+        if (!(event.target instanceof HTMLButtonElement) || hasModifierKey(event)) return;
         const buttons = [...root.querySelectorAll("button")].filter(isUsable);
         const next = nextButton(buttons, event.target, event.key);
         if (!next) return;
@@ -40,7 +40,7 @@ export function makeToolbar(root: HTMLElement, label: string): void {
 }
 
 /** The button that this text field replaces. A mouse click opens the field without a focus on the button. */
-function buttonOf(field: HTMLInputElement, root: HTMLElement): Element | undefined {
+function buttonReplacedBy(field: HTMLInputElement, root: HTMLElement): Element | undefined {
     if (field.type !== "text") return undefined;
     let around: Element = field;
     while (around !== root && !around.querySelector("button")) around = around.parentElement!;
@@ -58,12 +58,12 @@ function nextButton(buttons: HTMLButtonElement[], from: HTMLButtonElement, key: 
     if (key === "ArrowLeft") return buttons.at(at - 1);
     if (key === "Home") return buttons[0];
     if (key === "End") return buttons.at(-1);
-    if (key === "ArrowDown") return nearestInDirection(buttons, from, 1);
-    return key === "ArrowUp" ? nearestInDirection(buttons, from, -1) : undefined;
+    if (key === "ArrowDown") return nearestButtonInDirection(buttons, from, 1);
+    return key === "ArrowUp" ? nearestButtonInDirection(buttons, from, -1) : undefined;
 }
 
 /** The nearest button below (direction 1) or above (direction −1); `from` itself if there is none. */
-function nearestInDirection(buttons: HTMLButtonElement[], from: HTMLButtonElement, direction: 1 | -1): HTMLElement {
+function nearestButtonInDirection(buttons: HTMLButtonElement[], from: HTMLButtonElement, direction: 1 | -1): HTMLElement {
     const { left, width, top, bottom } = from.getBoundingClientRect();
     const distance = (one: HTMLElement): number => {
         const box = one.getBoundingClientRect();
@@ -78,6 +78,6 @@ function nearestInDirection(buttons: HTMLButtonElement[], from: HTMLButtonElemen
     return nearest?.button ?? from;
 }
 
-function isModified({ ctrlKey, altKey, metaKey, shiftKey }: KeyboardEvent): boolean {
+function hasModifierKey({ ctrlKey, altKey, metaKey, shiftKey }: KeyboardEvent): boolean {
     return ctrlKey || altKey || metaKey || shiftKey;
 }

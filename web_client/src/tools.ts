@@ -76,7 +76,7 @@ const kFocusOrder =
 
 const kRotationColumns: Plane[] = ["xy", "xz", "xw"]; // below each: the perpendicular plane
 
-export class Tools {
+export class ToolsPanel {
     private readonly root = byId("tools");
     private readonly toggleButtons = new Map<string, HTMLButtonElement>();
     // The buttons that are disabled while the picture has no projection.
@@ -249,7 +249,7 @@ function uncapitalized(text: string): string {
  * The index in kRotationColumns of a plane. A plane that is not in kRotationColumns has the index of its perpendicular
  * plane.
  */
-function columnIndexOf(plane: Plane): number {
+function rotationColumnIndex(plane: Plane): number {
     const column = kRotationColumns.indexOf(plane);
     return column >= 0 ? column : kRotationColumns.findIndex((other) => ![...other].some((axis) => plane.includes(axis)));
 }
@@ -257,7 +257,7 @@ function columnIndexOf(plane: Plane): number {
 /** The row and column of a rotation in the grid of rotation steppers, counted from 1. */
 function gridPlaceOf(planes: readonly Plane[]): { row: number; column: number } {
     const row = planes.length > 1 ? 3 : kRotationColumns.includes(planes[0]!) ? 1 : 2;
-    return { row, column: 1 + columnIndexOf(planes[0]!) };
+    return { row, column: 1 + rotationColumnIndex(planes[0]!) };
 }
 
 /** Orders rotations by their places in the grid, so that Tab and the arrow keys follow the visible order. */

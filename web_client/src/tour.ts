@@ -79,7 +79,7 @@ export class Tour {
         const top = Math.max(0, whole.top + Number(from) * whole.height);
         const bottom = Math.min(innerHeight, whole.top + Number(to) * whole.height);
         const box = { left: whole.left, right: whole.right, top, bottom };
-        surround(this.ring, box);
+        placeRingAround(this.ring, box);
         const { offsetWidth: width, offsetHeight: height } = this.root;
         const middle = { x: (box.left + box.right - width) / 2, y: (top + bottom - height) / 2 };
         const right = innerWidth - kGap - width;
@@ -112,7 +112,7 @@ interface WindowBox {
 }
 
 /** Places the element `one` around a box, kRingGap pixels away from it, but within the window. */
-function surround(one: HTMLElement, box: WindowBox): void {
+function placeRingAround(one: HTMLElement, box: WindowBox): void {
     const left = Math.max(0, box.left - kRingGap);
     const top = Math.max(0, box.top - kRingGap);
     one.style.left = `${left}px`;

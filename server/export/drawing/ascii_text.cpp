@@ -8,9 +8,9 @@ namespace oval4d::exports {
 
 namespace {
 
-using Replacement = std::pair<std::string_view, std::string_view>;
+using AsciiReplacement = std::pair<std::string_view, std::string_view>;
 
-constexpr auto kSigns = std::to_array<Replacement>({
+constexpr auto kSigns = std::to_array<AsciiReplacement>({
     {"\u00B5", "u"},  // micro sign
     {"\u03BC", "u"},  // Greek letter mu
     {"\u00B0", "deg"},
@@ -25,7 +25,7 @@ constexpr auto kSigns = std::to_array<Replacement>({
     {"\u2212", "-"},
     {"\u2026", "..."},
 });
-constexpr auto kSuperscripts = std::to_array<Replacement>({
+constexpr auto kSuperscripts = std::to_array<AsciiReplacement>({
     {"\u2070", "0"},
     {"\u00B9", "1"},
     {"\u00B2", "2"},
@@ -41,9 +41,9 @@ constexpr auto kSuperscripts = std::to_array<Replacement>({
 
 // Returns the replacement for the character at the start of `text`; null if the table has none.
 template <typename Table>
-const Replacement* replacementIn(const Table& table, std::string_view text) {
+const AsciiReplacement* replacementIn(const Table& table, std::string_view text) {
     const auto found =
-        std::ranges::find_if(table, [&](const Replacement& each) { return text.starts_with(each.first); });
+        std::ranges::find_if(table, [&](const AsciiReplacement& each) { return text.starts_with(each.first); });
     return found == table.end() ? nullptr : &*found;
 }
 
@@ -53,8 +53,8 @@ std::string asciiText(std::string_view text) {
     std::string ascii;
     bool isRaised = false;  // whether the previous character was a superscript
     while (!text.empty()) {
-        const Replacement* const raised = replacementIn(kSuperscripts, text);
-        const Replacement* const found = raised != nullptr ? raised : replacementIn(kSigns, text);
+        const AsciiReplacement* const raised = replacementIn(kSuperscripts, text);
+        const AsciiReplacement* const found = raised != nullptr ? raised : replacementIn(kSigns, text);
         if (raised != nullptr && !isRaised) ascii += '^';
         isRaised = raised != nullptr;
         const auto isAscii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };

@@ -14,13 +14,13 @@ namespace oval4d::exports {
 namespace {
 
 // A visitor that cuts shapes at x = ±farthest and y = ±farthest.
-class ShapeCutter {
+class ShapeClipper {
   public:
-    explicit ShapeCutter(double farthest) : farthest_(farthest) {}
+    explicit ShapeClipper(double farthest) : farthest_(farthest) {}
 
-    std::optional<DrawnShape> operator()(Line line) const {
+    std::optional<DrawnShape> operator()(LineSegment line) const {
         for (int bound = 0; bound < 4; ++bound) {
-            const double a = insideBound(line.from, bound), b = insideBound(line.to, bound);
+            const double a = distanceInsideBound(line.from, bound), b = distanceInsideBound(line.to, bound);
             if (a < 0 && b < 0) return std::nullopt;
             if (a < 0) line.from = crossingOfBound(line.from, line.to, a, b);
             if (b < 0) line.to = crossingOfBound(line.from, line.to, a, b);
@@ -28,12 +28,12 @@ class ShapeCutter {
         return line;
     }
     std::optional<DrawnShape> operator()(Polyline line) const {
-        cutPoints(line.points, false);
+        cutPolylineAtBounds(line.points, false);
         if (line.points.size() < 2) return std::nullopt;
         return line;
     }
     std::optional<DrawnShape> operator()(FilledPolygon polygon) const {
-        cutPoints(polygon.corners, true);
+        cutPolylineAtBounds(polygon.corners, true);
         if (polygon.corners.empty()) return std::nullopt;
         return polygon;
     }
@@ -56,16 +56,16 @@ class ShapeCutter {
 
   private:
     // Cuts a polyline at all four bounds. If `closed`, the polyline also joins the last point to the first.
-    void cutPoints(std::vector<glm::dvec2>& points, bool closed) const {
+    void cutPolylineAtBounds(std::vector<glm::dvec2>& points, bool closed) const {
         for (int bound = 0; bound < 4; ++bound) {
             std::vector<glm::dvec2> kept;
             for (std::size_t i = 0; i < points.size(); ++i) {
                 const glm::dvec2& here = points[i];
-                const double a = insideBound(here, bound);
+                const double a = distanceInsideBound(here, bound);
                 if (a >= 0) kept.push_back(here);
                 if (!closed && i + 1 == points.size()) break;
                 const glm::dvec2& next = points[(i + 1) % points.size()];
-                const double b = insideBound(next, bound);
+                const double b = distanceInsideBound(next, bound);
                 if ((a < 0) != (b < 0)) kept.push_back(crossingOfBound(here, next, a, b));
             }
             points = std::move(kept);
@@ -74,12 +74,12 @@ class ShapeCutter {
 
     // Returns the distance from position `at` to a bound: positive inside the bound, negative outside. The bounds 0 … 3
     // are x = farthest, x = −farthest, y = farthest and y = −farthest.
-    double insideBound(const glm::dvec2& at, int bound) const {
+    double distanceInsideBound(const glm::dvec2& at, int bound) const {
         return farthest_ - (bound % 2 == 0 ? 1 : -1) * at[bound / 2];
     }
 
     // Returns the point where the line from `a` to `b` crosses a bound. `insideA` and `insideB` are the results of
-    // insideBound() for `a` and `b`. Exactly one of them must be negative.
+    // distanceInsideBound() for `a` and `b`. Exactly one of them must be negative.
     static glm::dvec2 crossingOfBound(const glm::dvec2& a, const glm::dvec2& b, double insideA, double insideB) {
         return a + insideA / (insideA - insideB) * (b - a);
     }
@@ -90,7 +90,7 @@ class ShapeCutter {
 }  // namespace
 
 std::optional<DrawnShape> cutAtBounds(const DrawnShape& shape, double farthest) {
-    return std::visit(ShapeCutter(farthest), shape);
+    return std::visit(ShapeClipper(farthest), shape);
 }
 
 }  // namespace oval4d::exports

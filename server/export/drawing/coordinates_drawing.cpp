@@ -35,12 +35,12 @@ double estimatedWidth(const std::string& text) {
 
 /// The positions of the vertices' columns. The column of a vertex has a vertical line for each of the four coordinates.
 /// Columns are arranged in rows.
-struct VertexColumnLayout {
+struct ParallelCoordinatesColumnLayout {
     std::size_t count, perRow, rows;
     double step, rowStep;    ///< distance from a column to the next, and from a row to the next
     std::size_t namedEvery;  ///< distance, in columns, from one label (P0, …) to the next in a row
 
-    explicit VertexColumnLayout(std::size_t vertices) : count(vertices) {
+    explicit ParallelCoordinatesColumnLayout(std::size_t vertices) : count(vertices) {
         const double width = kDrawingWidth - 2 * kDrawingMargin;
         const auto most = static_cast<std::size_t>(width / kMinColumn);
         rows = (count + most - 1) / most;
@@ -49,13 +49,13 @@ struct VertexColumnLayout {
         namedEvery = static_cast<std::size_t>(std::ceil(kNameRoom / step));
         rowStep = 2 * kAmplitude + kDrawingMargin + 1.5 * kText;
     }
-    double left(std::size_t i) const { return kDrawingMargin + step * static_cast<double>(i % perRow); }
-    double zero(std::size_t row) const { return kDrawingMargin + kAmplitude + rowStep * static_cast<double>(row); }
+    double leftX(std::size_t i) const { return kDrawingMargin + step * static_cast<double>(i % perRow); }
+    double zeroLineY(std::size_t row) const { return kDrawingMargin + kAmplitude + rowStep * static_cast<double>(row); }
 };
 
 Drawing drawStrip(const scene::Scene& scene) {
     scene::DensityPlot density;
-    density.measure(scene.slices->rotatedVertices, glm::dmat4(1), scene.circumradius);
+    density.compute(scene.slices->rotatedVertices, glm::dmat4(1), scene.circumradius);
     const double step = (kDrawingWidth - 2 * kDrawingMargin) / 3, bottom = kDrawingMargin + 2 * kAmplitude;
     const auto& colors = scene.style().axes;
     const auto tones = density.tones();
@@ -69,7 +69,8 @@ Drawing drawStrip(const scene::Scene& scene) {
     for (int k = 0; k < 4; ++k) {
         const double x = kDrawingMargin + k * step;
         const std::string name(1, "xyzw"[k]);
-        axes.shapes.emplace_back(Line{.from = {x, kDrawingMargin}, .to = {x, bottom}, .color = colors[k], .id = name});
+        axes.shapes.emplace_back(
+            LineSegment{.from = {x, kDrawingMargin}, .to = {x, bottom}, .color = colors[k], .id = name});
         axes.shapes.emplace_back(TextLine{{x, bottom + 1.3 * kText}, kText, kDrawingText, name});
     }
     Drawing drawing{"Parallel coordinates of the vertices: " + scene.title,
@@ -91,15 +92,15 @@ Drawing drawStrip(const scene::Scene& scene) {
 }
 
 /// Returns the bands behind the lines of the highlighted element's vertices.
-ShapeGroup highlightBands(const scene::Scene& scene, const VertexColumnLayout& columns) {
+ShapeGroup highlightBands(const scene::Scene& scene, const ParallelCoordinatesColumnLayout& columns) {
     ShapeGroup bands{"highlight", {}};
     const double margin = columns.step / 10;  // half the distance between neighboring coordinate lines in a column
     for (const std::uint32_t v : scene.highlight.ownVertices) {
-        const double left = columns.left(v) + margin, right = columns.left(v) + columns.step - margin;
-        const double zero = columns.zero(v / columns.perRow);
-        const double top = zero - kAmplitude, bottom = zero + kAmplitude;
+        const double leftX = columns.leftX(v) + margin, right = columns.leftX(v) + columns.step - margin;
+        const double zeroLineY = columns.zeroLineY(v / columns.perRow);
+        const double top = zeroLineY - kAmplitude, bottom = zeroLineY + kAmplitude;
         bands.shapes.emplace_back(FilledPolygon{
-            {{left, top}, {right, top}, {right, bottom}, {left, bottom}}, scene.style().highlight, kBandOpacity});
+            {{leftX, top}, {right, top}, {right, bottom}, {leftX, bottom}}, scene.style().highlight, kBandOpacity});
     }
     return bands;
 }
@@ -109,8 +110,8 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
     constexpr double kGap = 12;  // the gap between two panels
     const slicing::FieldSettings& settings = scene.look.field;
     CoordinateValueHistograms histogram;
-    histogram.measure(field, orientation, settings.levels);
-    const auto [least, greatest] = histogram.range();
+    histogram.compute(field, orientation, settings.levels);
+    const auto [least, greatest] = histogram.valueRange();
     const double width = (kDrawingWidth - 2 * kDrawingMargin - 3 * kGap) / 4, bottom = kDrawingMargin + 2 * kAmplitude;
     Drawing drawing{"Histogram of the values: " + scene.title, kDrawingWidth, bottom + kDrawingMargin + kText, {}};
     ShapeGroup levels{"levels", {}}, axes{"axes", {}};
@@ -129,12 +130,14 @@ Drawing drawHistogram(const scene::Scene& scene, const fields::Field& field, con
             const double level = settings.levels[i];
             if (level < least || level > greatest) continue;
             const double y = bottom - 2 * kAmplitude * (level - least) / (greatest - least);
-            levels.shapes.emplace_back(Line{.from = {left, y},
-                                            .to = {right, y},
-                                            .width = 0.5,
-                                            .color = scene::surfaceColor(i, settings.levels.size(), scene.look)});
+            levels.shapes.emplace_back(
+                LineSegment{.from = {left, y},
+                            .to = {right, y},
+                            .width = 0.5,
+                            .color = scene::surfaceColor(i, settings.levels.size(), scene.look)});
         }
-        axes.shapes.emplace_back(Line{.from = {left, bottom}, .to = {right, bottom}, .color = color, .id = name});
+        axes.shapes.emplace_back(
+            LineSegment{.from = {left, bottom}, .to = {right, bottom}, .color = color, .id = name});
         const std::string label = asciiText(fields::axisLabel(k, scene.axisUnits.at(static_cast<std::size_t>(k))));
         axes.shapes.emplace_back(TextLine{{(left + right) / 2, bottom + 1.3 * kText},
                                           kText,
@@ -159,17 +162,17 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
     if (const fields::Field* field = slicing::fieldIn(object)) return drawHistogram(scene, *field, orientation);
     const std::vector<glm::dvec4>& vertices = scene.slices->rotatedVertices;
     if (vertices.size() > scene::kMaxVerticesAsLines) return drawStrip(scene);
-    const VertexColumnLayout columns(vertices.size());
-    const double right = columns.left(columns.perRow - 1) + columns.step;
+    const ParallelCoordinatesColumnLayout columns(vertices.size());
+    const double right = columns.leftX(columns.perRow - 1) + columns.step;
     Drawing drawing{"Parallel coordinates of the vertices: " + scene.title,
                     kDrawingWidth,
                     columns.rowStep * static_cast<double>(columns.rows) + kDrawingMargin,
                     {}};
     ShapeGroup& zeros = drawing.groups.emplace_back("zero", std::vector<DrawnShape>());
     for (std::size_t row = 0; row < columns.rows; ++row) {
-        const double y = columns.zero(row);
+        const double y = columns.zeroLineY(row);
         zeros.shapes.emplace_back(
-            Line{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene.style().zeroLine});
+            LineSegment{.from = {kDrawingMargin, y}, .to = {right, y}, .width = 0.4, .color = scene.style().zeroLine});
     }
     if (!scene.highlight.empty()) drawing.groups.push_back(highlightBands(scene, columns));
     const auto& colors = scene.style().axes;
@@ -177,11 +180,13 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
     for (int axis = 0; axis < 4; ++axis) {
         ShapeGroup& lines = drawing.groups.emplace_back(std::string(1, "xyzw"[axis]), std::vector<DrawnShape>());
         for (std::size_t i = 0; i < vertices.size(); ++i) {
-            const double x = columns.left(i) + lineStep * (axis + 1), zero = columns.zero(i / columns.perRow);
-            lines.shapes.emplace_back(Line{.from = {x, zero},
-                                           .to = {x, zero - kAmplitude * vertices[i][axis] / scene.circumradius},
-                                           .width = std::min(1.6, 0.7 * lineStep),
-                                           .color = colors[static_cast<std::size_t>(axis)]});
+            const double x = columns.leftX(i) + lineStep * (axis + 1),
+                         zeroLineY = columns.zeroLineY(i / columns.perRow);
+            lines.shapes.emplace_back(
+                LineSegment{.from = {x, zeroLineY},
+                            .to = {x, zeroLineY - kAmplitude * vertices[i][axis] / scene.circumradius},
+                            .width = std::min(1.6, 0.7 * lineStep),
+                            .color = colors[static_cast<std::size_t>(axis)]});
         }
     }
     ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<DrawnShape>());
@@ -194,11 +199,11 @@ Drawing drawCoordinates(const scene::Scene& scene, const slicing::Object& object
     }
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         if (i % columns.perRow % columns.namedEvery != 0) continue;
-        names.shapes.emplace_back(
-            TextLine{{columns.left(i) + columns.step / 2, columns.zero(i / columns.perRow) + kAmplitude + 1.2 * kText},
-                     kText,
-                     kDrawingText,
-                     "P" + std::to_string(i)});
+        names.shapes.emplace_back(TextLine{
+            {columns.leftX(i) + columns.step / 2, columns.zeroLineY(i / columns.perRow) + kAmplitude + 1.2 * kText},
+            kText,
+            kDrawingText,
+            "P" + std::to_string(i)});
     }
     return drawing;
 }

@@ -22,7 +22,7 @@ namespace oval4d::exports {
 inline constexpr double kDrawingSize = 170;
 
 /// A straight line.
-struct Line {
+struct LineSegment {
     glm::dvec2 from, to;
     double width = 1;
     scene::Color color = 0;
@@ -85,7 +85,7 @@ struct OpacityImage {
         return mixed;
     }
 };
-using DrawnShape = std::variant<Line, Polyline, FilledPolygon, Disk, TextLine, OpacityImage>;
+using DrawnShape = std::variant<LineSegment, Polyline, FilledPolygon, Disk, TextLine, OpacityImage>;
 
 /// A named group of shapes. Later shapes cover earlier shapes.
 struct ShapeGroup {

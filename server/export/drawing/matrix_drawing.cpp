@@ -32,7 +32,7 @@ double tickSpacing(double reach) {
 }
 
 /// Returns the product multiple · step as text, with as many decimals as `step` has.
-std::string numberText(double multiple, double step) {
+std::string multipleText(double multiple, double step) {
     if (multiple == 0) return "0";
     const int decimals = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
     std::array<char, 32> text{};
@@ -40,9 +40,9 @@ std::string numberText(double multiple, double step) {
     return text.data();
 }
 
-class SectionDrawer {
+class PlanarSectionDrawer {
   public:
-    SectionDrawer(const scene::Scene& scene, const glm::dvec4& origin)
+    PlanarSectionDrawer(const scene::Scene& scene, const glm::dvec4& origin)
         : scene_(scene),
           origin_(origin),
           reach_(scene::SectionMatrixLayout::kReach * scene.circumradius),
@@ -76,12 +76,12 @@ class SectionDrawer {
         for (std::size_t e = 0; e < from.edges.size(); ++e) {
             const double opacity = slicing::opacityOf(styles.edges[e]);
             if (opacity == 0) continue;
-            group.shapes.emplace_back(Line{.from = place(from.points[from.edges[e][0]]),
-                                           .to = place(from.points[from.edges[e][1]]),
-                                           .width = width,
-                                           .color = scene_.cellColors[styles.edgeCells[e]],
-                                           .roundEnds = true,
-                                           .opacity = opacity});
+            group.shapes.emplace_back(LineSegment{.from = place(from.points[from.edges[e][0]]),
+                                                  .to = place(from.points[from.edges[e][1]]),
+                                                  .width = width,
+                                                  .color = scene_.cellColors[styles.edgeCells[e]],
+                                                  .roundEnds = true,
+                                                  .opacity = opacity});
         }
         const bool isCloud = !from.ballScale.empty();  // the points of a point cloud have radii and opacities of their
                                                        // own
@@ -96,13 +96,13 @@ class SectionDrawer {
 
     /// Draws tick marks and their numbers, at the left edge of each row of panels and the lower edge of each column.
     /// Numbers with more than kNumberCharacters characters get a smaller font size.
-    ShapeGroup drawNumbers() const {
+    ShapeGroup drawTickMarks() const {
         constexpr double kMark = 3;
         const double half = kPanel / 2;
         ShapeGroup numbers{"numbers", {}};
         const auto add = [&](const glm::dvec2& mark, const glm::dvec2& outward, const TextLine& text) {
             numbers.shapes.emplace_back(
-                Line{.from = mark, .to = mark + kMark * outward, .width = 0.5, .color = text.color});
+                LineSegment{.from = mark, .to = mark + kMark * outward, .width = 0.5, .color = text.color});
             numbers.shapes.emplace_back(text);
         };
         for (int axis = 0; axis < 4; ++axis) {
@@ -111,7 +111,7 @@ class SectionDrawer {
             for (int i = 0; i <= 2 * reach_ / step_; ++i) {
                 const double at = scale_ * ((first + i) * step_ - origin_[axis]);
                 if (at > half) break;
-                const std::string text = numberText(first + i - offset(axis), step_);
+                const std::string text = multipleText(first + i - subtractedTicks(axis), step_);
                 const auto characters = static_cast<double>(text.size());
                 const double size = kNumberSize * std::min(1.0, kNumberCharacters / characters), digits = 0.73 * size;
                 const glm::dvec2 under = below + glm::dvec2(at, half), left = beside + glm::dvec2(-half, -at);
@@ -124,9 +124,9 @@ class SectionDrawer {
         return numbers;
     }
 
-    /// Draws the name of an axis. If the numbers at the axis are shortened (see offset()), draws the number that must
-    /// be added to them below the name. Below this number, draws the unit, if it is known and short enough.
-    void drawName(int axis, std::vector<DrawnShape>& shapes) const {
+    /// Draws the name of an axis. If the numbers at the axis are shortened (see subtractedTicks()), draws the number
+    /// that must be added to them below the name. Below this number, draws the unit, if it is known and short enough.
+    void drawAxisName(int axis, std::vector<DrawnShape>& shapes) const {
         const glm::dvec2 center = centerOf(axis, axis), below = center + glm::dvec2(0, 0.35 * kName);
         shapes.emplace_back(TextLine{below, kName, colorOfAxis(axis), std::string(1, "xyzw"[axis])});
         double line = 2;  // position of the next text, in font sizes below the name
@@ -135,9 +135,9 @@ class SectionDrawer {
                 TextLine{below + glm::dvec2(0, line * kNumberSize), kNumberSize, colorOfAxis(axis), text});
             line += 1.5;
         };
-        if (offset(axis) != 0) {
+        if (subtractedTicks(axis) != 0) {
             std::array<char, 32> text{};
-            std::snprintf(text.data(), text.size(), "%+.15g", offset(axis) * step_);
+            std::snprintf(text.data(), text.size(), "%+.15g", subtractedTicks(axis) * step_);
             add(text.data());
         }
         const fields::PictureAxisUnit& unit = scene_.axisUnits.at(static_cast<std::size_t>(axis));
@@ -153,9 +153,9 @@ class SectionDrawer {
 
     // Returns how many tick spacings (step_) are subtracted from all numbers at an axis, to shorten the numbers.
     // Returns 0 if the numbers are short enough.
-    double offset(int axis) const {
+    double subtractedTicks(int axis) const {
         const double middle = std::round(origin_[axis] / step_);
-        return static_cast<double>(numberText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;
+        return static_cast<double>(multipleText(middle, step_).size()) > kNumberCharacters + 1 ? middle : 0;
     }
 
     scene::Color colorOfAxis(int axis) const { return scene_.style().axes[static_cast<std::size_t>(axis)]; }
@@ -165,8 +165,8 @@ class SectionDrawer {
         const std::array corners{center + glm::dvec2(-half, -half), center + glm::dvec2(half, -half),
                                  center + glm::dvec2(half, half), center + glm::dvec2(-half, half)};
         for (std::size_t i = 0; i < corners.size(); ++i) {
-            group.shapes.emplace_back(
-                Line{.from = corners[i], .to = corners[(i + 1) % 4], .width = 0.5, .color = kFrame, .roundEnds = true});
+            group.shapes.emplace_back(LineSegment{
+                .from = corners[i], .to = corners[(i + 1) % 4], .width = 0.5, .color = kFrame, .roundEnds = true});
         }
     }
 
@@ -175,16 +175,16 @@ class SectionDrawer {
         const glm::dvec4& point = scene_.sectionMatrix.point;
         const double x = scale_ * point[column], y = -scale_ * point[row];
         if (std::abs(y) < half) {
-            group.shapes.emplace_back(Line{.from = center + glm::dvec2(-half, y),
-                                           .to = center + glm::dvec2(half, y),
-                                           .width = 0.5,
-                                           .color = colorOfAxis(column)});
+            group.shapes.emplace_back(LineSegment{.from = center + glm::dvec2(-half, y),
+                                                  .to = center + glm::dvec2(half, y),
+                                                  .width = 0.5,
+                                                  .color = colorOfAxis(column)});
         }
         if (std::abs(x) < half) {
-            group.shapes.emplace_back(Line{.from = center + glm::dvec2(x, -half),
-                                           .to = center + glm::dvec2(x, half),
-                                           .width = 0.5,
-                                           .color = colorOfAxis(row)});
+            group.shapes.emplace_back(LineSegment{.from = center + glm::dvec2(x, -half),
+                                                  .to = center + glm::dvec2(x, half),
+                                                  .width = 0.5,
+                                                  .color = colorOfAxis(row)});
         }
     }
 
@@ -197,13 +197,13 @@ class SectionDrawer {
 
 Drawing drawMatrix(const scene::Scene& scene, const glm::dvec4& origin) {
     Drawing drawing{"Planar sections: " + scene.title, kDrawingWidth, kDrawingWidth, {}};
-    SectionDrawer drawer(scene, origin);
+    PlanarSectionDrawer drawer(scene, origin);
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {
         for (const bool transposed : {false, true}) drawing.groups.push_back(drawer.draw(i, transposed));
     }
     ShapeGroup& names = drawing.groups.emplace_back("names", std::vector<DrawnShape>());
-    for (int axis = 0; axis < 4; ++axis) drawer.drawName(axis, names.shapes);
-    drawing.groups.push_back(drawer.drawNumbers());
+    for (int axis = 0; axis < 4; ++axis) drawer.drawAxisName(axis, names.shapes);
+    drawing.groups.push_back(drawer.drawTickMarks());
     return drawing;
 }
 

@@ -23,7 +23,7 @@ constexpr scene::Color kNear = 0x2b3340, kFar = 0x8a93a3, kHalo = 0xffffff;
 // The width of the gap that a bar makes in the bars behind it, as a multiple of the bar's width.
 constexpr double kHaloWidth = 1.8;
 
-scene::Color mix(scene::Color a, scene::Color b, double t) {
+scene::Color mixColors(scene::Color a, scene::Color b, double t) {
     scene::Color mixed = 0;
     for (const int shift : {16, 8, 0}) {
         const double from = a >> shift & 255, to = b >> shift & 255;
@@ -60,8 +60,8 @@ class ProjectionDrawer {
         shapes_.emplace_back(std::move(shape));
     }
 
-    glm::dvec3 place(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
-    static glm::dvec2 onPaper(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
+    glm::dvec3 toViewSpace(const glm::dvec3& p) const { return view_ * (scene_.projection.scale * scale_ * p); }
+    static glm::dvec2 paperPosition(const glm::dvec3& p) { return {kDrawingWidth / 2 + p.x, kDrawingWidth / 2 - p.y}; }
 
     // Returns the color of a bar or ball at a depth. Part 0 of the projection is the object, and all other parts are
     // sections.
@@ -69,7 +69,7 @@ class ProjectionDrawer {
         const scene::Color focus = scene_.style().axes[3];
         if (part > 0) return scene_.projection.parts[part].barColor == focus ? focus : kFar;
         const double reach = scale_ * scene_.projectionPlacement.radius;
-        return mix(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
+        return mixColors(kFar, kNear, std::clamp((depth / reach + 1) / 2, 0.0, 1.0));
     }
 
     // Adds a polygon with these corners, in the units of the object.
@@ -77,8 +77,8 @@ class ProjectionDrawer {
         FilledPolygon polygon{{}, color, opacity};
         double depth = 0;
         for (const glm::dvec3& corner : corners) {
-            const glm::dvec3 p = place(corner);
-            polygon.corners.push_back(onPaper(p));
+            const glm::dvec3 p = toViewSpace(corner);
+            polygon.corners.push_back(paperPosition(p));
             depth += p.z / static_cast<double>(corners.size());
         }
         add(depth, std::move(polygon));
@@ -129,40 +129,40 @@ class ProjectionDrawer {
     void addPart(std::size_t part) {
         const scene::ProjectionPartLook& look = scene_.projection.parts[part];
         const SliceSet& set = scene_.projection.elements;
-        const scene::Style& style = scene_.style();
+        const scene::PictureStyle& style = scene_.style();
         const std::uint32_t v0 = set.vertexBegin[part];
         addFaces(part);
         for (std::uint32_t e = set.edgeBegin[part]; look.barRadius > 0 && e < set.edgeBegin[part + 1]; ++e) {
             const double seen = slicing::opacityOf(scene_.visibilities.edge(set.edgeSource[e]));
             if (seen == 0) continue;
-            const glm::dvec3 a = place(set.vertices[v0 + set.edges[e][0]]),
-                             b = place(set.vertices[v0 + set.edges[e][1]]);
+            const glm::dvec3 a = toViewSpace(set.vertices[v0 + set.edges[e][0]]),
+                             b = toViewSpace(set.vertices[v0 + set.edges[e][1]]);
             const bool lit = scene_.highlight.hasEdge(set.edgeSource[e]);
             const double depth = (a.z + b.z) / 2, width = kThickness * 2 * scale_ * look.barRadius;
             // The white line is wider than the bar, and so makes a gap in the bars behind the bar. The white line is
             // shorter than the bar, so that there is no gap in bars that meet the bar at its ends.
             const glm::dvec3 gap = 0.12 * (b - a);
-            add(depth, Line{.from = onPaper(a + gap),
-                            .to = onPaper(b - gap),
-                            .width = kHaloWidth * width,
-                            .color = kHalo,
-                            .opacity = 0.7 * seen});
-            add(depth, Line{.from = onPaper(a),
-                            .to = onPaper(b),
-                            .width = width,
-                            .color = lit ? style.highlight : colorAt(part, depth),
-                            .roundEnds = true,
-                            .opacity = seen});
+            add(depth, LineSegment{.from = paperPosition(a + gap),
+                                   .to = paperPosition(b - gap),
+                                   .width = kHaloWidth * width,
+                                   .color = kHalo,
+                                   .opacity = 0.7 * seen});
+            add(depth, LineSegment{.from = paperPosition(a),
+                                   .to = paperPosition(b),
+                                   .width = width,
+                                   .color = lit ? style.highlight : colorAt(part, depth),
+                                   .roundEnds = true,
+                                   .opacity = seen});
         }
         for (std::uint32_t v = v0; look.ballRadius > 0 && v < set.vertexBegin[part + 1]; ++v) {
             const double seen = slicing::opacityOf(scene_.visibilities.vertex(set.vertexSource[v]));
             if (seen == 0) continue;
-            const glm::dvec3 p = place(set.vertices[v]);
+            const glm::dvec3 p = toViewSpace(set.vertices[v]);
             const double own = set.ballScale.empty() ? 1 : set.ballScale[v];
             const double opacity = seen * (set.ballOpacity.empty() ? 1 : set.ballOpacity[v]);
             const bool lit = scene_.highlight.hasVertex(set.vertexSource[v]);
-            add(p.z + scale_ * look.ballRadius,
-                Disk{onPaper(p), scale_ * look.ballRadius * own, lit ? style.highlight : colorAt(part, p.z), opacity});
+            add(p.z + scale_ * look.ballRadius, Disk{paperPosition(p), scale_ * look.ballRadius * own,
+                                                     lit ? style.highlight : colorAt(part, p.z), opacity});
         }
     }
 

@@ -75,10 +75,10 @@ class SliceDrawer {
         items_.clear();
         const std::uint32_t v0 = set_.vertexBegin[slice], v1 = set_.vertexBegin[slice + 1];
         points_.clear();
-        for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(seen(set_.vertices[v]));
-        findSides();
+        for (std::uint32_t v = v0; v < v1; ++v) points_.push_back(toViewSpace(set_.vertices[v]));
+        findElementsTowardEye();
         if (scene_.look.parts.faces && !scene_.needsDepthBuffer) addFaces();
-        if (scene_.look.parts.faces && scene_.needsDepthBuffer) addPieces();
+        if (scene_.look.parts.faces && scene_.needsDepthBuffer) addConvexPieces();
         if (scene_.drawnBallRadius() > 0) addBalls();
         if (scene_.look.parts.bars) addBars();
         std::ranges::stable_sort(items_, {},
@@ -99,12 +99,12 @@ class SliceDrawer {
         DrawnShape shape;
     };
 
-    glm::dvec3 seen(const glm::dvec3& p) const {
+    glm::dvec3 toViewSpace(const glm::dvec3& p) const {
         return glm::dvec3(view_ * glm::dvec4(scene_.placements[slice_].position + scene_.scale * p, 1));
     }
-    static bool isBehind(const glm::dvec3& p) { return p.z > -kNearest; }
+    static bool isBehindEye(const glm::dvec3& p) { return p.z > -kNearest; }
 
-    std::span<const std::uint32_t> loopOf(std::uint32_t face) const {
+    std::span<const std::uint32_t> cornersOfFace(std::uint32_t face) const {
         return std::span(set_.corners)
             .subspan(set_.cornerBegin[face], set_.cornerBegin[face + 1] - set_.cornerBegin[face]);
     }
@@ -119,13 +119,13 @@ class SliceDrawer {
 
     std::vector<glm::dvec3> cornersOf(std::uint32_t face) const {
         std::vector<glm::dvec3> corners;
-        for (const std::uint32_t v : loopOf(face)) corners.push_back(points_[v]);
+        for (const std::uint32_t v : cornersOfFace(face)) corners.push_back(points_[v]);
         return corners;
     }
 
     /// Sets towardVertices_ and towardEdges_, which say whether a vertex or edge belongs to a face that is turned
     /// toward the eye.
-    void findSides() {
+    void findElementsTowardEye() {
         towardVertices_.assign(points_.size(), false);
         towardEdges_.assign(set_.edgeBegin[slice_ + 1] - set_.edgeBegin[slice_], false);
         if (scene_.needsDepthBuffer) return;
@@ -139,11 +139,11 @@ class SliceDrawer {
         }
     }
 
-    /// Returns the color of a lit face with the color `color`. Uses the ambient and diffuse light of scene::Style, but
-    /// no specular light. Each channel is multiplied by ambient + diffuse · |n · l|, and is at most 255; n is the unit
-    /// normal, and l the direction to the light. Both sides of the face are lit. `area` is a normal of the face in view
-    /// space, of any length. It is 0 for a face without area, which gets only ambient light.
-    scene::Color lit(scene::Color color, const glm::dvec3& area) const {
+    /// Returns the color of a lit face with the color `color`. Uses the ambient and diffuse light of
+    /// scene::PictureStyle, but no specular light. Each channel is multiplied by ambient + diffuse · |n · l|, and is at
+    /// most 255; n is the unit normal, and l the direction to the light. Both sides of the face are lit. `area` is a
+    /// normal of the face in view space, of any length. It is 0 for a face without area, which gets only ambient light.
+    scene::Color litColor(scene::Color color, const glm::dvec3& area) const {
         const double length = glm::length(area);
         const double facing = length > 0 ? std::abs(glm::dot(area / length, style_.light)) : 0;
         const double light = style_.ambient + style_.diffuse * facing;
@@ -156,7 +156,7 @@ class SliceDrawer {
     }
 
     void addPolygon(Layer layer, std::span<const glm::dvec3> corners, scene::Color color, double opacity) {
-        if (opacity == 0 || corners.size() < 3 || std::ranges::any_of(corners, isBehind)) return;
+        if (opacity == 0 || corners.size() < 3 || std::ranges::any_of(corners, isBehindEye)) return;
         FilledPolygon polygon{{}, color, opacity};
         double depth = 0;
         for (const glm::dvec3& p : corners) {
@@ -174,22 +174,23 @@ class SliceDrawer {
             const double opacity =
                 scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(set_.faceSource[f]));
             addPolygon(toward ? toward_faces : away_faces, corners,
-                       lit(scene_.cellColors[scene_.coloringCellOfFace(f)], area), opacity);
+                       litColor(scene_.cellColors[scene_.coloringCellOfFace(f)], area), opacity);
         }
     }
 
     /// Adds the convex pieces of faces that may cross each other.
-    void addPieces() {
+    void addConvexPieces() {
         const slicing::FilledFaces& fill = scene_.fill;
         if (fill.empty()) return;
         for (std::uint32_t f = fill.faceBegin[slice_]; f < fill.faceBegin[slice_ + 1]; ++f) {
             const slicing::FilledFaces::FilledFace& face = fill.faces[f];
             const double opacity = scene_.faceOpacity * slicing::opacityOf(scene_.visibilities.face(face.source));
-            const scene::Color color = lit(scene_.cellColors[scene_.fillCells[f]], glm::dmat3(view_) * face.normal);
+            const scene::Color color =
+                litColor(scene_.cellColors[scene_.fillCells[f]], glm::dmat3(view_) * face.normal);
             for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
                 std::vector<glm::dvec3> corners;
                 for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
-                    corners.push_back(seen(fill.corners[c]));
+                    corners.push_back(toViewSpace(fill.corners[c]));
                 addPolygon(away_faces, corners, color, opacity);
             }
         }
@@ -197,7 +198,7 @@ class SliceDrawer {
 
     /// Returns the layer of a bar or ball. `toward` says whether the bar or ball belongs to a face that is turned
     /// toward the eye.
-    Layer frameLayer(bool toward) const {
+    Layer barOrBallLayer(bool toward) const {
         if (scene_.needsDepthBuffer) return away_faces;
         return toward ? toward_frame : away_frame;
     }
@@ -222,10 +223,10 @@ class SliceDrawer {
             const std::uint32_t v = set_.vertexBegin[slice_] + i;
             const double own = set_.ballOpacity.empty() ? 1 : set_.ballOpacity[v];
             const double opacity = own * slicing::opacityOf(scene_.visibilities.vertex(set_.vertexSource[v]));
-            if (opacity == 0 || isBehind(points_[i])) continue;
+            if (opacity == 0 || isBehindEye(points_[i])) continue;
             const double radius = scene_.drawnBallRadius() * (set_.ballScale.empty() ? 1 : set_.ballScale[v]);
             const bool isHighlighted = scene_.highlight.hasVertex(set_.vertexSource[v]);
-            items_.push_back({frameLayer(towardVertices_[i]), points_[i].z,
+            items_.push_back({barOrBallLayer(towardVertices_[i]), points_[i].z,
                               Disk{paper_(points_[i]), radius * paper_.scaleAt(points_[i]),
                                    isHighlighted ? style_.highlight : scene_.drawnBallColor(), opacity}});
         }
@@ -237,23 +238,23 @@ class SliceDrawer {
             const glm::dvec3 a = points_[set_.edges[e][0]], b = points_[set_.edges[e][1]];
             const double opacity = slicing::opacityOf(scene_.visibilities.edge(set_.edgeSource[e]));
             const double length = glm::distance(a, b);
-            if (opacity == 0 || isBehind(a) || isBehind(b) || length <= 2 * hiddenEnd_) continue;
+            if (opacity == 0 || isBehindEye(a) || isBehindEye(b) || length <= 2 * hiddenEnd_) continue;
             const glm::dvec3 cut = length > 0 ? (b - a) * (hiddenEnd_ / length) : glm::dvec3(0);
             const double width = 2 * scene_.barRadius * paper_.scaleAt((a + b) / 2.0);
             items_.push_back(
-                {frameLayer(towardEdges_[i]), std::min(a.z, b.z),
-                 Line{.from = paper_(a + cut),
-                      .to = paper_(b - cut),
-                      .width = width,
-                      .color = scene_.highlight.hasEdge(set_.edgeSource[e]) ? style_.highlight : style_.bar,
-                      .roundEnds = hiddenEnd_ == 0,
-                      .opacity = opacity}});
+                {barOrBallLayer(towardEdges_[i]), std::min(a.z, b.z),
+                 LineSegment{.from = paper_(a + cut),
+                             .to = paper_(b - cut),
+                             .width = width,
+                             .color = scene_.highlight.hasEdge(set_.edgeSource[e]) ? style_.highlight : style_.bar,
+                             .roundEnds = hiddenEnd_ == 0,
+                             .opacity = opacity}});
         }
     }
 
     const scene::Scene& scene_;
     const SliceSet& set_;
-    const scene::Style& style_;
+    const scene::PictureStyle& style_;
     const PaperProjection& paper_;
     const glm::dmat4 view_;
     double hiddenEnd_ = 0;  // length of each end of a bar that is inside a ball, in world units
@@ -264,7 +265,7 @@ class SliceDrawer {
 };
 
 ShapeGroup drawLabels(const scene::Scene& scene, const PaperProjection& paper) {
-    const scene::Style& style = scene.style();
+    const scene::PictureStyle& style = scene.style();
     const glm::dmat4 view = scene.camera.view();
     ShapeGroup labels{"labels", {}};
     for (const scene::SlicePlacement& placement : scene.placements) {
@@ -281,7 +282,7 @@ ShapeGroup drawLabels(const scene::Scene& scene, const PaperProjection& paper) {
 /// Draws the directions of the axes x, y and z, from the farthest to the nearest.
 ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
     constexpr double kNameAt = 1.28, kWidth = 0.09, kTip = 0.065;  // lengths as multiples of the length of an axis
-    const scene::Style& style = scene.style();
+    const scene::PictureStyle& style = scene.style();
     const double length = scene.axes.length * paper.height(), size = style.textHeight * paper.height();
     const glm::dvec2 center = glm::dvec2(scene.axes.x, scene.axes.y) * paper.height();
     const glm::dmat3 turn(scene.camera.view());
@@ -294,8 +295,8 @@ ShapeGroup drawAxes(const scene::Scene& scene, const PaperProjection& paper) {
     for (const int axis : order) {
         const glm::dvec2 direction(turn[axis]);
         const scene::Color color = style.axes[static_cast<std::size_t>(axis)];
-        axes.shapes.emplace_back(
-            Line{.from = center, .to = place(direction), .width = kWidth * length, .color = color, .roundEnds = true});
+        axes.shapes.emplace_back(LineSegment{
+            .from = center, .to = place(direction), .width = kWidth * length, .color = color, .roundEnds = true});
         axes.shapes.emplace_back(Disk{place(direction), kTip * length, color});
         // If the axis points at the viewer, its name would cover the center, so place the name beside the axis.
         glm::dvec2 name = kNameAt * direction;
@@ -321,18 +322,18 @@ ShapeGroup drawFocusPoint(const scene::Scene& scene, const scene::SlicePlacement
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const scene::ViewSegment& ends = lines.at(axis);
         if (ends[0].z > -kNearest || ends[1].z > -kNearest) continue;
-        point.shapes.emplace_back(Line{.from = paper(ends[0]),
-                                       .to = paper(ends[1]),
-                                       .width = 1,
-                                       .color = scene.style().axes.at(axis),
-                                       .roundEnds = true});
+        point.shapes.emplace_back(LineSegment{.from = paper(ends[0]),
+                                              .to = paper(ends[1]),
+                                              .width = 1,
+                                              .color = scene.style().axes.at(axis),
+                                              .roundEnds = true});
     }
     return point;
 }
 
 }  // namespace
 
-Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const Budget& budget) {
+Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const ExportBudget& budget) {
     if (slicing::fieldIn(object) != nullptr) {
         throw ExportRefused{{ExportRefusal::Cause::no_body,
                              "the surfaces of a field are too fine for a drawing; save a picture (png) instead"}};

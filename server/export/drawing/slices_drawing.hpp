@@ -17,6 +17,6 @@ namespace oval4d::exports {
 ///
 /// Throws ExportRefused if `object` is a field, because its surfaces are too fine for a drawing; if the drawing would
 /// be too large; if the time limit is exceeded; or if a stop was requested.
-Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const Budget& budget);
+Drawing drawSlices(const scene::Scene& scene, const slicing::Object& object, const ExportBudget& budget);
 
 }  // namespace oval4d::exports

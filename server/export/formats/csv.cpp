@@ -81,10 +81,10 @@ std::string unitOfW(const scene::Scene& scene) {
 
 /// The column for a coordinate in the field's box that all points of a slice have in common: "box_w" for the axis w. A
 /// table has this column only if there is such a coordinate, and if it does not always equal the slice's w.
-class CommonCoordinateColumn {
+class ConstantSliceCoordinateColumn {
   public:
-    CommonCoordinateColumn(const fields::Field& field, const SceneToWrite& source)
-        : common_(fields::commonCoordinate(field, source.orientation)) {
+    ConstantSliceCoordinateColumn(const fields::Field& field, const SceneToWrite& source)
+        : common_(fields::constantSliceCoordinate(field, source.orientation)) {
         if (common_ && common_->isW()) common_.reset();
         if (!common_) return;
         name_ = std::string("box_") + "xyzw"[common_->axis];
@@ -96,11 +96,11 @@ class CommonCoordinateColumn {
         units.add(name_ + "_unit", unit_);
     }
     void addCell(std::string& row, double w) const {
-        if (common_) appendDecimal(row += ',', common_->at(w));
+        if (common_) appendDecimal(row += ',', common_->coordinateAt(w));
     }
 
   private:
-    std::optional<fields::CommonCoordinate> common_;
+    std::optional<fields::ConstantSliceCoordinate> common_;
     std::string name_, unit_;
 };
 
@@ -113,7 +113,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     if (field.second) out += ",mean_second_value";
     UnitColumns units;
     units.add("w_unit", unitOfW(source.scene));
-    const CommonCoordinateColumn common(field, source);
+    const ConstantSliceCoordinateColumn common(field, source);
     common.addNameAndUnit(out, units);
     units.add("length_unit", fields::lengthUnit(source.scene.axisUnits));
     units.add("level_unit", field.quantity.unit);
@@ -122,7 +122,7 @@ std::string fieldCsv(const SceneToWrite& source, const fields::Field& field) {
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
     slicing::FieldSection section;
     std::vector<float> values;
-    ExactSlicer slicer(field, source.orientation, {.inside = settings.inside}, source.budget);
+    ExactFieldSlicer slicer(field, source.orientation, {.inside = settings.inside}, source.budget);
     slicing::ClosedSurface surface;
     for (int i = 0; i < planes.count; ++i) {
         for (const double level : settings.levels) {
@@ -174,7 +174,7 @@ std::string fieldCriticalCsv(const SceneToWrite& source) {
     const fields::Field& field = *slicing::fieldIn(source.object);
     UnitColumns units;
     units.add("w_unit", unitOfW(source.scene));
-    const CommonCoordinateColumn common(field, source);
+    const ConstantSliceCoordinateColumn common(field, source);
     common.addNameAndUnit(out, units);
     units.add("level_unit", field.quantity.unit);
     out += units.names + '\n';

@@ -23,9 +23,9 @@ struct MeshesToWrite {
     std::span<const PlacedMesh> solids;
     std::span<const scene::Color> cellColors;  ///< the color of each cell of the object
     const std::string& title;
-    const Budget& budget;
+    const ExportBudget& budget;
     /// Whether the writer must write 64-bit floats, because the coordinates are too fine for 32-bit floats (see
-    /// RoundingGrid::forDoubles()). True only if Format::keepsDoubles is true.
+    /// RoundingGrid::forDoublePrecision()). True only if Format::keepsDoubles is true.
     bool hasDoubles = false;
 
     /// Returns the color of a triangle of `solid`: the color of its cell or, if it has no cell, the color of the solid.
@@ -46,7 +46,7 @@ struct SceneToWrite {
     const slicing::Object& object;
     const geometry::Rotation& orientation;
     ExportContentsKind contents;
-    const Budget& budget;
+    const ExportBudget& budget;
     /// Warnings for the user. The writer appends what the file lacks (see ExportedFile::warnings).
     std::vector<std::string>& warnings;
     /// Whether surfaces of a field are exact (see ExportRequest::exact).
@@ -58,14 +58,14 @@ struct SceneToWrite {
 struct Format {
     /// The arrangement of the bodies of several slices: in rows for a 3-D printer (`plate`, see arrangeOnPlate()), or
     /// as in the picture (`oval`, see arrangeInOval()). `none` if the format has no bodies.
-    enum class Arrangement { none, plate, oval };
+    enum class BodyArrangement { none, plate, oval };
     /// The kinds of objects that files of the format can contain.
-    enum class Objects { all, fields, polytopes_and_points };
+    enum class ObjectKinds { all, fields, polytopes_and_points };
 
     std::string name;       ///< the name in messages and the file name extension, such as "stl"
     std::string mediaType;  ///< the media type of the file, for the header Content-Type
-    Arrangement arrangement = Arrangement::none;
-    Objects objects = Objects::all;
+    BodyArrangement arrangement = BodyArrangement::none;
+    ObjectKinds objects = ObjectKinds::all;
     std::vector<ExportContentsKind> contents;  ///< the contents that a file can have; the first is the default
     /// Whether writeScene writes surfaces of a field: those in SliceSet::surfaces, or exact surfaces.
     bool readsSurfaces = false;

@@ -14,15 +14,17 @@ namespace oval4d::exports {
 
 namespace {
 
-constexpr auto kArrangements = text::completeTable<text::NamedValue<Format::Arrangement>>(
-    {{"", Format::Arrangement::none}, {"plate", Format::Arrangement::plate}, {"oval", Format::Arrangement::oval}});
+constexpr auto kArrangements =
+    text::completeTable<text::NamedValue<Format::BodyArrangement>>({{"", Format::BodyArrangement::none},
+                                                                    {"plate", Format::BodyArrangement::plate},
+                                                                    {"oval", Format::BodyArrangement::oval}});
 
-constexpr auto kObjects =
-    text::completeTable<text::NamedValue<Format::Objects>>({{"all", Format::Objects::all},
-                                                            {"fields", Format::Objects::fields},
-                                                            {"polytopes", Format::Objects::polytopes_and_points}});
+constexpr auto kObjects = text::completeTable<text::NamedValue<Format::ObjectKinds>>(
+    {{"all", Format::ObjectKinds::all},
+     {"fields", Format::ObjectKinds::fields},
+     {"polytopes", Format::ObjectKinds::polytopes_and_points}});
 
-std::vector<Format> readTable() {
+std::vector<Format> readFormatTable() {
     std::vector<Format> table;
     const auto rows = nlohmann::json::parse(protocol_data::embeddedFile("export_formats.json")).at("formats");
     for (const auto& row : rows) {
@@ -53,7 +55,7 @@ std::vector<Format> readTable() {
 }  // namespace
 
 std::span<const Format> formats() {
-    static const std::vector<Format> table = readTable();
+    static const std::vector<Format> table = readFormatTable();
     return table;
 }
 

@@ -20,7 +20,7 @@ namespace {
 constexpr double kMetersPerMillimeter = 1e-3;
 
 // Converts a channel of an sRGB color to linear light, because vertex colors in glTF are linear.
-float linear(unsigned channel) {
+float srgbToLinear(unsigned channel) {
     const double c = channel / 255.0;
     return static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
 }
@@ -36,7 +36,7 @@ class VertexAttribute {
     }
     /// Appends the values to the only buffer of `model`. Returns the index of their accessor. If `bounded`, the
     /// accessor states the minimum and the maximum of the values, as glTF requires for positions.
-    int store(tinygltf::Model& model, bool bounded) const {
+    int appendTo(tinygltf::Model& model, bool bounded) const {
         std::vector<unsigned char>& data = model.buffers.front().data;
         tinygltf::BufferView view;
         view.buffer = 0;
@@ -66,8 +66,8 @@ class VertexAttribute {
     glm::vec3 least_{3e38F}, most_{-3e38F};
 };
 
-glm::vec3 linearColor(scene::Color color) {
-    return {linear(color >> 16U & 0xffU), linear(color >> 8U & 0xffU), linear(color & 0xffU)};
+glm::vec3 srgbToLinearColor(scene::Color color) {
+    return {srgbToLinear(color >> 16U & 0xffU), srgbToLinear(color >> 8U & 0xffU), srgbToLinear(color & 0xffU)};
 }
 
 /// Adds a body to the model. Each triangle has vertices of its own, because its corners have normals and colors of
@@ -82,20 +82,20 @@ void addMesh(const PlacedMesh& solid, const MeshesToWrite& meshes, tinygltf::Mod
         const glm::dvec3 across = doubleAreaNormalOf(solid.mesh, solid.mesh.triangles[t]);
         const double length = glm::length(across);
         if (!(length > 0)) continue;  // a triangle without area is invisible and has no normal
-        const glm::vec3 color = linearColor(meshes.colorOf(solid, t));
+        const glm::vec3 color = srgbToLinearColor(meshes.colorOf(solid, t));
         for (std::size_t i = 0; i < 3; ++i) {
             const std::uint32_t corner = solid.mesh.triangles[t][i];
             positions.add(glm::vec3(solid.mesh.points[corner] * kMetersPerMillimeter));
             normals.add(glm::normalize(glm::vec3(colored ? smooth[t][i] : across / length)));
-            colors.add(colored ? linearColor(solid.mesh.pointColors[corner]) : color);
+            colors.add(colored ? srgbToLinearColor(solid.mesh.pointColors[corner]) : color);
         }
     }
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.material = 0;
-    primitive.attributes["POSITION"] = positions.store(model, true);
-    primitive.attributes["NORMAL"] = normals.store(model, false);
-    primitive.attributes["COLOR_0"] = colors.store(model, false);
+    primitive.attributes["POSITION"] = positions.appendTo(model, true);
+    primitive.attributes["NORMAL"] = normals.appendTo(model, false);
+    primitive.attributes["COLOR_0"] = colors.appendTo(model, false);
     tinygltf::Mesh mesh;
     mesh.name = solid.name;
     mesh.primitives.push_back(std::move(primitive));

@@ -9,7 +9,7 @@ namespace oval4d::exports {
 namespace {
 
 // Replaces white space and other control characters by underscores, because names in OBJ files are single words.
-std::string wordOf(std::string name) {
+std::string toSingleWord(std::string name) {
     std::ranges::replace_if(name, [](unsigned char c) { return c <= ' ' || c == 0x7F; }, '_');
     return name;
 }
@@ -22,7 +22,7 @@ std::string obj(const MeshesToWrite& meshes) {
     for (const PlacedMesh& solid : meshes.solids) {
         meshes.budget.checkTimeAndStop();
         const Mesh& mesh = solid.mesh;
-        out += "o " + wordOf(solid.name) + "\n";
+        out += "o " + toSingleWord(solid.name) + "\n";
         for (const glm::dvec3& point : mesh.points) {
             out += "v ";
             appendDecimal(out, point + solid.at);

@@ -31,19 +31,19 @@ void recordError(HPDF_STATUS error, HPDF_STATUS /*detail*/, void* first) {
     if (status == HPDF_OK) status = error;
 }
 
-float channel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
+float colorChannel(scene::Color color, int shift) { return static_cast<float>(color >> shift & 255U) / 255; }
 
 // The bound at which shapes are cut, in units of the drawing. libharu writes numbers beyond ±32,767 as ±32,767, which
 // would change the direction of lines that extend far beyond the page. Lines of slices close to the eye extend so far.
 constexpr double kFarthest = 30'000;
 
 // A visitor that draws shapes on a page. Positions in PDF count from the lower left corner.
-class PageWriter {
+class PdfPageWriter {
   public:
-    PageWriter(HPDF_Doc document, HPDF_Page page, double height)
+    PdfPageWriter(HPDF_Doc document, HPDF_Page page, double height)
         : document_(document), page_(page), height_(height), font_(HPDF_GetFont(document, "Helvetica", nullptr)) {}
 
-    void operator()(const Line& line) {
+    void operator()(const LineSegment& line) {
         setOpacity(line.opacity);
         setStroke(line.color, line.width, line.roundEnds);
         HPDF_Page_MoveTo(page_, x(line.from), y(line.from));
@@ -110,14 +110,14 @@ class PageWriter {
     float y(const glm::dvec2& at) const { return static_cast<float>(height_ - at.y); }
 
     void setStroke(scene::Color color, double width, bool roundEnds) {
-        HPDF_Page_SetRGBStroke(page_, channel(color, 16), channel(color, 8), channel(color, 0));
+        HPDF_Page_SetRGBStroke(page_, colorChannel(color, 16), colorChannel(color, 8), colorChannel(color, 0));
         HPDF_Page_SetLineWidth(page_, static_cast<float>(width));
         HPDF_Page_SetLineCap(page_, roundEnds ? HPDF_ROUND_END : HPDF_BUTT_END);
     }
 
     void setFill(scene::Color color, double opacity) {
         setOpacity(opacity);
-        HPDF_Page_SetRGBFill(page_, channel(color, 16), channel(color, 8), channel(color, 0));
+        HPDF_Page_SetRGBFill(page_, colorChannel(color, 16), colorChannel(color, 8), colorChannel(color, 0));
     }
 
     // Sets the opacity of the next shapes. In PDF, the opacity is a parameter of a graphics state. All shapes with the
@@ -145,7 +145,7 @@ class PageWriter {
 
 // Returns a text in the form of PDF's document information: UTF-16BE with a byte order mark, as a hexadecimal string
 // (PDF 1.4, section 3.8.1).
-std::string textString(const std::string& text) {
+std::string pdfTextString(const std::string& text) {
     constexpr std::string_view kDigits = "0123456789ABCDEF";
     std::string out = "<FEFF";
     for (const char16_t unit : boost::locale::conv::utf_to_utf<char16_t>(text)) {
@@ -168,7 +168,7 @@ std::string pdf(const Drawing& drawing) {
     HPDF_SetCompressionMode(document.get(), HPDF_COMP_ALL);
     // libharu accepts titles in ASCII, but not in UTF-16, which contains zero bytes. So for any other title, write a
     // placeholder of the same length, and replace it in the finished file.
-    const std::string title = isAscii(drawing.title) ? "" : textString(drawing.title);
+    const std::string title = isAscii(drawing.title) ? "" : pdfTextString(drawing.title);
     const std::string placeholder(title.size() - std::min<std::size_t>(title.size(), 2), 'T');
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_TITLE, title.empty() ? drawing.title.c_str() : placeholder.c_str());
     HPDF_SetInfoAttr(document.get(), HPDF_INFO_CREATOR, "oval4d");
@@ -177,7 +177,7 @@ std::string pdf(const Drawing& drawing) {
     HPDF_Page_SetWidth(page, static_cast<float>(drawing.width * scale));
     HPDF_Page_SetHeight(page, static_cast<float>(drawing.height * scale));
     HPDF_Page_Concat(page, static_cast<float>(scale), 0, 0, static_cast<float>(scale), 0, 0);
-    PageWriter writer(document.get(), page, drawing.height);
+    PdfPageWriter writer(document.get(), page, drawing.height);
     for (const ShapeGroup& group : drawing.groups) {
         for (const DrawnShape& shape : group.shapes) {
             if (const auto drawn = cutAtBounds(shape, kFarthest)) std::visit(writer, *drawn);

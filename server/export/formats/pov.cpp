@@ -74,17 +74,17 @@ class PovTextures {
   public:
     /// Returns the number of the texture with this color, opacity (0 … 1) and finish. Declares the texture if it is
     /// new.
-    std::uint32_t numberOf(scene::Color color, double opacity, std::string_view finish) {
+    std::uint32_t textureNumberOf(scene::Color color, double opacity, std::string_view finish) {
         const auto next = static_cast<std::uint32_t>(numbers_.size());
         const auto [found, isNew] = numbers_.try_emplace(std::tuple(color, opacity, finish), next);
         if (isNew) {
-            declarations_ += "#declare " + nameOf(next) + " = texture { pigment { rgbt <" + povChannels(color) + ", " +
-                             povNumber(static_cast<float>(1 - opacity)) + "> } finish { ";
+            declarations_ += "#declare " + textureName(next) + " = texture { pigment { rgbt <" + povChannels(color) +
+                             ", " + povNumber(static_cast<float>(1 - opacity)) + "> } finish { ";
             declarations_.append(finish).append(" } }\n");
         }
         return found->second;
     }
-    static std::string nameOf(std::uint32_t number) { return "Texture" + std::to_string(number); }
+    static std::string textureName(std::uint32_t number) { return "Texture" + std::to_string(number); }
     const std::string& declarations() const { return declarations_; }
 
   private:
@@ -125,7 +125,7 @@ void appendPovMesh(std::string& out, const PovMesh& mesh) {
     std::size_t place = 0;
     for (auto& entry : places) {
         entry.second = place++;
-        out += ", texture { " + PovTextures::nameOf(entry.first) + " }";
+        out += ", texture { " + PovTextures::textureName(entry.first) + " }";
     }
     out += " }\nface_indices { " + std::to_string(mesh.triangles.size());
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -179,7 +179,7 @@ class PovWriter {
 
     std::string header() const {
         const bool isTransparent = style_.backgroundOpacity == 0;
-        std::string out = "// " + onlyXmlCharacters(scene_.title) + ", from oval4d: povray +W" +
+        std::string out = "// " + removeNonXmlCharacters(scene_.title) + ", from oval4d: povray +W" +
                           std::to_string(scene_.viewport.width) + " +H" + std::to_string(scene_.viewport.height) +
                           (isTransparent ? " +UA" : "") + " +A FILE.pov\n#version 3.7;\n";
         out +=
@@ -229,7 +229,7 @@ class PovWriter {
             addFaces(set_, slice, part, scene_.faceOpacity,
                      [this](std::uint32_t f) { return scene_.coloringCellOfFace(f); });
         }
-        if (!scene_.fill.empty()) addPieces(scene_.fill, scene_.fillCells, slice, part, scene_.faceOpacity);
+        if (!scene_.fill.empty()) addConvexPieces(scene_.fill, scene_.fillCells, slice, part, scene_.faceOpacity);
         if (!scene_.surfaces.empty()) addSurfaces(slice, part);
         addBalls(set_, slice, part);
         addBars(set_, slice, part);
@@ -251,7 +251,7 @@ class PovWriter {
                                     look.ballColor,
                                     look.barColor};
             if (projection.drawsPieces(i)) {
-                addPieces(projection.fill, projection.fillCells, i, part, look.faceOpacity);
+                addConvexPieces(projection.fill, projection.fillCells, i, part, look.faceOpacity);
             } else {
                 addFaces(projection.elements, i, part, look.faceOpacity,
                          [&](std::uint32_t f) { return projection.faceCells[f]; });
@@ -278,7 +278,7 @@ class PovWriter {
         for (std::uint32_t f = set.faceBegin[slice]; f < set.faceBegin[slice + 1]; ++f) {
             const double own = opacity * slicing::opacityOf(scene_.visibilities.face(set.faceSource[f]));
             if (own == 0) continue;
-            const std::uint32_t texture = textures_.numberOf(scene_.cellColors[cellOf(f)], own, kMatte);
+            const std::uint32_t texture = textures_.textureNumberOf(scene_.cellColors[cellOf(f)], own, kMatte);
             const std::uint32_t first = set.cornerBegin[f];
             for (std::uint32_t c = first + 2; c < set.cornerBegin[f + 1]; ++c)
                 mesh.add(set.corners[first], set.corners[c - 1], set.corners[c], texture);
@@ -288,14 +288,14 @@ class PovWriter {
 
     /// Adds the convex pieces into which the faces of a slice of `fill` are divided. `cells` contains the cell that
     /// gives each face its color. `opacity` is the opacity of fully visible faces.
-    void addPieces(const slicing::FilledFaces& fill, const std::vector<std::uint32_t>& cells, std::size_t slice,
-                   const PovPlacement& part, double opacity) {
+    void addConvexPieces(const slicing::FilledFaces& fill, const std::vector<std::uint32_t>& cells, std::size_t slice,
+                         const PovPlacement& part, double opacity) {
         PovMesh mesh;
         mesh.isLitFromBehind = true;
         for (std::uint32_t f = fill.faceBegin[slice]; f < fill.faceBegin[slice + 1]; ++f) {
             const double own = opacity * slicing::opacityOf(scene_.visibilities.face(fill.faces[f].source));
             if (own == 0) continue;
-            const std::uint32_t texture = textures_.numberOf(scene_.cellColors[cells[f]], own, kMatte);
+            const std::uint32_t texture = textures_.textureNumberOf(scene_.cellColors[cells[f]], own, kMatte);
             for (std::uint32_t k = fill.pieceBegin[f]; k < fill.pieceBegin[f + 1]; ++k) {
                 const auto first = static_cast<std::uint32_t>(mesh.points.size());
                 for (std::uint32_t c = fill.cornerBegin[k]; c < fill.cornerBegin[k + 1]; ++c)
@@ -307,7 +307,7 @@ class PovWriter {
     }
 
     void addSurfaces(std::size_t slice, const PovPlacement& part) {
-        const FieldSliceSurface exported = surfaces_->ofSlice(static_cast<int>(slice));
+        const FieldSliceSurface exported = surfaces_->surfaceOfSlice(static_cast<int>(slice));
         const slicing::SliceSurface& surface = exported.surface;
         triangles_ += surface.triangles.size();
         source_.budget.checkTrianglesAndMemory(triangles_);
@@ -335,8 +335,8 @@ class PovWriter {
                     numbers[point] = static_cast<std::uint32_t>(mesh.points.size());
                     mesh.points.push_back(part(glm::dvec3(surface.points[point])));
                     if (!ofCaps) mesh.normals.push_back(surface.normals[point]);
-                    textureOf.push_back(
-                        textures_.numberOf(colorOf(surface, slice, level, ofCaps, point), level.opacity, kShiny));
+                    textureOf.push_back(textures_.textureNumberOf(colorOf(surface, slice, level, ofCaps, point),
+                                                                  level.opacity, kShiny));
                 }
                 corners[i] = numbers[point];
                 textures[i] = textureOf[numbers[point]];
@@ -383,8 +383,8 @@ class PovWriter {
     /// twice. Each crossing transmits the fraction √(1 − opacity) of the light, so that the whole shape has the opacity
     /// `opacity`.
     void endShape(scene::Color color, double opacity) {
-        const std::uint32_t texture = textures_.numberOf(color, 1 - std::sqrt(1 - opacity), kShiny);
-        objects_ += " texture { " + PovTextures::nameOf(texture) + " } }\n";
+        const std::uint32_t texture = textures_.textureNumberOf(color, 1 - std::sqrt(1 - opacity), kShiny);
+        objects_ += " texture { " + PovTextures::textureName(texture) + " } }\n";
     }
 
     /// Adds the labels, as texts that are parallel to the plane of the picture.
@@ -423,7 +423,7 @@ class PovWriter {
     const SceneToWrite& source_;
     const scene::Scene& scene_;
     const slicing::SliceSet& set_;
-    const scene::Style& style_;
+    const scene::PictureStyle& style_;
     const glm::dmat4 toView_;
     const glm::dmat3 axes_;  // the directions right, up and back of the camera
     PovTextures textures_;

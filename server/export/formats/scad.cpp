@@ -24,7 +24,7 @@ void appendBracketed(std::string& out, const glm::dvec3& vector) {
 void appendModule(std::string& out, const std::string& name, const PlacedMesh& solid) {
     // `convexity` is the number of times that a line of sight may enter the body. If a line enters the body more often,
     // previews of differences and intersections in OpenSCAD are wrong.
-    out += "\n// " + onlyXmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
+    out += "\n// " + removeNonXmlCharacters(solid.name) + "\nmodule " + name + "() {\n    color(\"" +
            scene::cssColor(solid.color) + "\") polyhedron(convexity = 10, points = [";
     std::string_view separator = "\n";
     for (const glm::dvec3& point : solid.mesh.points) {
@@ -45,8 +45,8 @@ void appendModule(std::string& out, const std::string& name, const PlacedMesh& s
 }  // namespace
 
 std::string scad(const MeshesToWrite& meshes) {
-    // onlyXmlCharacters() removes line ends, because a line end in a name would end the comment.
-    std::string out = "// " + onlyXmlCharacters(meshes.title) + ", in millimeters, from oval4d\n";
+    // removeNonXmlCharacters() removes line ends, because a line end in a name would end the comment.
+    std::string out = "// " + removeNonXmlCharacters(meshes.title) + ", in millimeters, from oval4d\n";
     for (std::size_t i = 0; i < meshes.solids.size(); ++i) {
         meshes.budget.checkTimeAndStop();
         appendModule(out, moduleName(i), meshes.solids[i]);

@@ -15,7 +15,7 @@ namespace oval4d::exports {
 
 namespace {
 
-std::string number(double value) {
+std::string svgNumber(double value) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.3f", value + 0.0);
     return text.data();
@@ -24,14 +24,14 @@ std::string number(double value) {
 std::string attribute(std::string_view name, const std::string& value) {
     return ' ' + std::string(name) + "=\"" + value + '"';
 }
-std::string attribute(std::string_view name, double value) { return attribute(name, number(value)); }
+std::string attribute(std::string_view name, double value) { return attribute(name, svgNumber(value)); }
 
 /// Returns points as text for the attribute `points`.
-std::string listOf(const std::vector<glm::dvec2>& points) {
+std::string pointListText(const std::vector<glm::dvec2>& points) {
     std::string list;
     for (const glm::dvec2& point : points) {
         if (!list.empty()) list += ' ';
-        list += number(point.x) + ',' + number(point.y);
+        list += svgNumber(point.x) + ',' + svgNumber(point.y);
     }
     return list;
 }
@@ -58,14 +58,14 @@ std::string densityPaths(const OpacityImage& density) {
     for (int tone = 1; tone <= kTones; ++tone) {
         const std::string& path = paths[static_cast<std::size_t>(tone)];
         if (path.empty()) continue;
-        out += "<path fill-opacity=\"" + number(static_cast<double>(tone) / kTones) + "\" d=\"" + path + "\"/>\n";
+        out += "<path fill-opacity=\"" + svgNumber(static_cast<double>(tone) / kTones) + "\" d=\"" + path + "\"/>\n";
     }
     return out;
 }
 
 /// Returns an SVG gradient with the id `axes-colors`, which runs through OpacityImage::colors from the first column to
 /// the last.
-std::string gradient(const OpacityImage& density) {
+std::string svgGradientOf(const OpacityImage& density) {
     std::string out = "<linearGradient id=\"axes-colors\" gradientUnits=\"userSpaceOnUse\"" + attribute("x1", 0.5) +
                       attribute("x2", density.columns - 0.5) + ">\n";
     const double last = static_cast<double>(density.colors.size()) - 1;
@@ -77,8 +77,8 @@ std::string gradient(const OpacityImage& density) {
 }
 
 /// A visitor that returns a shape as an SVG element.
-struct ElementWriter {
-    std::string operator()(const Line& line) const {
+struct SvgElementWriter {
+    std::string operator()(const LineSegment& line) const {
         return "<line" + (line.id.empty() ? "" : attribute("id", xmlEscaped(line.id))) +
                attribute("stroke", scene::cssColor(line.color)) + attribute("stroke-width", line.width) +
                (line.roundEnds ? attribute("stroke-linecap", "round") : "") +
@@ -88,11 +88,11 @@ struct ElementWriter {
     std::string operator()(const Polyline& line) const {
         return "<polyline fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\"" +
                attribute("stroke", scene::cssColor(line.color)) + attribute("stroke-width", line.width) +
-               attribute("points", listOf(line.points)) + "/>\n";
+               attribute("points", pointListText(line.points)) + "/>\n";
     }
     std::string operator()(const FilledPolygon& polygon) const {
         return "<polygon" + attribute("fill", scene::cssColor(polygon.color)) +
-               opacityAttribute("fill-opacity", polygon.opacity) + attribute("points", listOf(polygon.corners)) +
+               opacityAttribute("fill-opacity", polygon.opacity) + attribute("points", pointListText(polygon.corners)) +
                "/>\n";
     }
     std::string operator()(const Disk& disk) const {
@@ -111,25 +111,25 @@ struct ElementWriter {
         const double across = (density.bottomRight.x - density.topLeft.x) / (density.columns - 1);
         const double down = (density.bottomRight.y - density.topLeft.y) / (density.rows() - 1);
         const bool isPlain = density.colors.size() == 1;
-        return (isPlain ? std::string() : gradient(density)) + "<g" +
+        return (isPlain ? std::string() : svgGradientOf(density)) + "<g" +
                attribute("fill", isPlain ? scene::cssColor(density.colors.front()) : "url(#axes-colors)") +
-               " shape-rendering=\"crispEdges\" transform=\"translate(" + number(density.topLeft.x - across / 2) + ' ' +
-               number(density.topLeft.y - down / 2) + ") scale(" + std::to_string(across) + ' ' + std::to_string(down) +
-               ")\">\n" + densityPaths(density) + "</g>\n";
+               " shape-rendering=\"crispEdges\" transform=\"translate(" + svgNumber(density.topLeft.x - across / 2) +
+               ' ' + svgNumber(density.topLeft.y - down / 2) + ") scale(" + std::to_string(across) + ' ' +
+               std::to_string(down) + ")\">\n" + densityPaths(density) + "</g>\n";
     }
 };
 
 }  // namespace
 
 std::string svg(const Drawing& drawing) {
-    const auto millimeters = [&](double length) { return number(length * drawing.millimetersPerUnit()) + "mm"; };
-    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + number(drawing.width) + ' ' +
-                      number(drawing.height) + '"' + attribute("width", millimeters(drawing.width)) +
+    const auto millimeters = [&](double length) { return svgNumber(length * drawing.millimetersPerUnit()) + "mm"; };
+    std::string out = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + svgNumber(drawing.width) + ' ' +
+                      svgNumber(drawing.height) + '"' + attribute("width", millimeters(drawing.width)) +
                       attribute("height", millimeters(drawing.height)) + ">\n<title>" + xmlEscaped(drawing.title) +
                       "</title>\n";
     for (const ShapeGroup& group : drawing.groups) {
         out += "<g" + attribute("id", xmlEscaped(group.id)) + ">\n";
-        for (const DrawnShape& shape : group.shapes) out += std::visit(ElementWriter(), shape);
+        for (const DrawnShape& shape : group.shapes) out += std::visit(SvgElementWriter(), shape);
         out += "</g>\n";
     }
     return out + "</svg>\n";

@@ -35,7 +35,7 @@ std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin) 
     return "w = " + scene::labelNumber(origin + planes.w(i), scene::labelDecimals(planes));
 }
 
-std::string onlyXmlCharacters(std::string_view text) {
+std::string removeNonXmlCharacters(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
         const std::string_view rest = text.substr(i);
@@ -52,7 +52,7 @@ std::string xmlEscaped(std::string_view text) {
     constexpr auto kEntities = std::to_array<std::pair<char, std::string_view>>(
         {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&apos;"}});
     std::string out;
-    for (const char c : onlyXmlCharacters(text)) {
+    for (const char c : removeNonXmlCharacters(text)) {
         const auto entity = std::ranges::find(kEntities, c, &std::pair<char, std::string_view>::first);
         if (entity != kEntities.end()) {
             out += entity->second;

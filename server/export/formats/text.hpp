@@ -23,7 +23,7 @@ std::string labelOfW(const geometry::Hyperplanes& planes, int i, double origin =
 /// Returns the text without the characters that XML 1.0 forbids (section 2.2): control characters below U+0020, U+FFFE
 /// and U+FFFF. Also removes tabs and line ends, so that the result is one line in any text format. The text must be
 /// UTF-8.
-std::string onlyXmlCharacters(std::string_view text);
+std::string removeNonXmlCharacters(std::string_view text);
 
 /// Returns onlyXmlCharacters(text) escaped for XML content and attributes: &, <, > and quotes become entities.
 std::string xmlEscaped(std::string_view text);

@@ -14,7 +14,7 @@ namespace {
 
 using namespace NMR;
 
-void check(LIB3MFRESULT result, const char* what) {
+void throwOnLib3mfError(LIB3MFRESULT result, const char* what) {
     if (result != LIB3MF_OK) throw std::runtime_error(std::string("lib3mf: ") + what);
 }
 
@@ -24,9 +24,9 @@ using Lib3mfPointer = std::unique_ptr<Thing, decltype(&lib3mf_release)>;
 // Calls `make(&pointer)`, which creates a lib3mf object, and returns an owning pointer to this object. Throws an
 // exception with the message `what` if the call fails.
 template <typename Thing, typename Make>
-Lib3mfPointer<Thing> owned(const char* what, Make&& make) {
+Lib3mfPointer<Thing> makeOwned(const char* what, Make&& make) {
     Thing* made = nullptr;
-    check(make(&made), what);
+    throwOnLib3mfError(make(&made), what);
     return {made, &lib3mf_release};
 }
 
@@ -48,8 +48,8 @@ struct SeekableBuffer {
 };
 
 // A progress callback for lib3mf. Returns false to cancel writing.
-bool mayContinue(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
-    return !static_cast<const Budget*>(budget)->mustStop();
+bool onWriteProgress(int /*progress*/, ProgressIdentifier /*step*/, void* budget) {
+    return !static_cast<const ExportBudget*>(budget)->mustStop();
 }
 
 void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
@@ -62,13 +62,14 @@ void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
     std::vector<MODELMESHTRIANGLE> triangles;
     triangles.reserve(solid.mesh.triangles.size());
     for (const auto& [a, b, c] : solid.mesh.triangles) triangles.push_back({{a, b, c}});
-    const auto object = owned<PLib3MFModelMeshObject>(
+    const auto object = makeOwned<PLib3MFModelMeshObject>(
         "cannot create an object", [&](auto** out) { return lib3mf_model_addmeshobject(model, out); });
-    check(lib3mf_meshobject_setgeometry(object.get(), points.data(), static_cast<DWORD>(points.size()),
-                                        triangles.data(), static_cast<DWORD>(triangles.size())),
-          "cannot set the mesh");
-    check(lib3mf_object_setnameutf8(object.get(), onlyXmlCharacters(solid.name).c_str()), "cannot name the object");
-    owned<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
+    throwOnLib3mfError(lib3mf_meshobject_setgeometry(object.get(), points.data(), static_cast<DWORD>(points.size()),
+                                                     triangles.data(), static_cast<DWORD>(triangles.size())),
+                       "cannot set the mesh");
+    throwOnLib3mfError(lib3mf_object_setnameutf8(object.get(), removeNonXmlCharacters(solid.name).c_str()),
+                       "cannot name the object");
+    makeOwned<PLib3MFModelBuildItem>("cannot add the object to the build", [&](auto** out) {
         return lib3mf_model_addbuilditem(model, object.get(), nullptr, out);
     });
 }
@@ -76,24 +77,28 @@ void addMesh(PLib3MFModel* model, const PlacedMesh& solid) {
 }  // namespace
 
 std::string threeMf(const MeshesToWrite& meshes) {
-    const auto model = owned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
-    check(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
+    const auto model =
+        makeOwned<PLib3MFModel>("cannot create a model", [](auto** out) { return lib3mf_createmodel(out); });
+    throwOnLib3mfError(lib3mf_model_setunit(model.get(), MODELUNIT_MILLIMETER), "cannot set the unit");
     // Escape the title, because lib3mf escapes names, but not metadata.
-    check(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()), "cannot set the title");
-    check(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"), "cannot set the application");
+    throwOnLib3mfError(lib3mf_model_addmetadatautf8(model.get(), "Title", xmlEscaped(meshes.title).c_str()),
+                       "cannot set the title");
+    throwOnLib3mfError(lib3mf_model_addmetadatautf8(model.get(), "Application", "oval4d"),
+                       "cannot set the application");
     for (const PlacedMesh& solid : meshes.solids) {
         meshes.budget.checkTimeAndStop();
         addMesh(model.get(), solid);
     }
-    const auto writer = owned<PLib3MFModelWriter>(
+    const auto writer = makeOwned<PLib3MFModelWriter>(
         "cannot create a writer", [&](auto** out) { return lib3mf_model_querywriter(model.get(), "3mf", out); });
-    check(lib3mf_writer_setprogresscallback(writer.get(), &mayContinue, const_cast<Budget*>(&meshes.budget)),
-          "cannot set the progress callback");
+    throwOnLib3mfError(
+        lib3mf_writer_setprogresscallback(writer.get(), &onWriteProgress, const_cast<ExportBudget*>(&meshes.budget)),
+        "cannot set the progress callback");
     SeekableBuffer sink;
     const auto result = lib3mf_writer_writetocallback(writer.get(), reinterpret_cast<void*>(&SeekableBuffer::write),
                                                       reinterpret_cast<void*>(&SeekableBuffer::seek), &sink);
     meshes.budget.checkTimeAndStop();
-    check(result, "cannot write the file");
+    throwOnLib3mfError(result, "cannot write the file");
     return std::move(sink.bytes);
 }
 

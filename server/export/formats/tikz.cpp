@@ -24,7 +24,7 @@ namespace {
 constexpr double kFarthestPoints = 16'000, kPointsPerMillimeter = 72.27 / 25.4;
 
 // Returns a number with at most `count` decimals.
-std::string decimals(double value, int count) {
+std::string toDecimal(double value, int count) {
     std::array<char, 32> text{};
     std::snprintf(text.data(), text.size(), "%.*f", count, value);
     std::string out = text.data();
@@ -34,7 +34,7 @@ std::string decimals(double value, int count) {
     return out == "-0" ? "0" : out;
 }
 
-std::string position(const glm::dvec2& at) { return '(' + decimals(at.x, 2) + ',' + decimals(at.y, 2) + ')'; }
+std::string tikzPosition(const glm::dvec2& at) { return '(' + toDecimal(at.x, 2) + ',' + toDecimal(at.y, 2) + ')'; }
 
 // Returns ASCII text as LaTeX. A hyphen before a digit becomes a minus sign, if it is at the start or after a blank.
 std::string latexEscaped(std::string_view text) {
@@ -62,41 +62,41 @@ std::string latexEscaped(std::string_view text) {
 }
 
 /// A visitor that writes shapes as TikZ commands and collects their colors.
-class CommandWriter {
+class TikzCommandWriter {
   public:
     /// `unit` is the result of Drawing::millimetersPerUnit().
-    explicit CommandWriter(double unit) : unit_(unit) {}
+    explicit TikzCommandWriter(double unit) : unit_(unit) {}
 
-    void operator()(const Line& line) {
-        out += "\\draw[" + use(line.color) + ",line width=" + millimeters(line.width) +
+    void operator()(const LineSegment& line) {
+        out += "\\draw[" + registerColor(line.color) + ",line width=" + millimeters(line.width) +
                (line.roundEnds ? ",line cap=round" : "") + opacityOption("draw", line.opacity) + "] " +
-               position(line.from) + " -- " + position(line.to) + ";\n";
+               tikzPosition(line.from) + " -- " + tikzPosition(line.to) + ";\n";
     }
     void operator()(const Polyline& line) {
-        out +=
-            "\\draw[" + use(line.color) + ",line width=" + millimeters(line.width) + ",line cap=round,line join=round]";
+        out += "\\draw[" + registerColor(line.color) + ",line width=" + millimeters(line.width) +
+               ",line cap=round,line join=round]";
         for (std::size_t i = 0; i < line.points.size(); ++i) {
             if (i > 0) out += " --";
-            append(line.points[i], i);
+            appendPathPoint(line.points[i], i);
         }
         out += ";\n";
     }
     void operator()(const FilledPolygon& polygon) {
-        out += "\\fill[" + use(polygon.color) + opacityOption("fill", polygon.opacity) + ']';
+        out += "\\fill[" + registerColor(polygon.color) + opacityOption("fill", polygon.opacity) + ']';
         for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-            append(polygon.corners[i], i);
+            appendPathPoint(polygon.corners[i], i);
             out += " --";
         }
         out += " cycle;\n";
     }
     void operator()(const Disk& disk) {
-        out += "\\fill[" + use(disk.color) + opacityOption("fill", disk.opacity) + "] " + position(disk.center) +
-               " circle[radius=" + millimeters(disk.radius) + "];\n";
+        out += "\\fill[" + registerColor(disk.color) + opacityOption("fill", disk.opacity) + "] " +
+               tikzPosition(disk.center) + " circle[radius=" + millimeters(disk.radius) + "];\n";
     }
     void operator()(const TextLine& line) {
-        const std::string size = decimals(line.size * unit_ * kPointsPerMillimeter, 2);
-        out += "\\node[anchor=base,inner sep=0pt,text=" + use(line.color) + ",font=\\fontsize{" + size + "}{" + size +
-               "}\\selectfont] at " + position(line.at) + " {" + latexEscaped(line.text) + "};\n";
+        const std::string size = toDecimal(line.size * unit_ * kPointsPerMillimeter, 2);
+        out += "\\node[anchor=base,inner sep=0pt,text=" + registerColor(line.color) + ",font=\\fontsize{" + size +
+               "}{" + size + "}\\selectfont] at " + tikzPosition(line.at) + " {" + latexEscaped(line.text) + "};\n";
     }
     void operator()(const OpacityImage& density) {
         // The centers of the outer pixels lie on the edges of the rectangle (see OpacityImage), so the image extends
@@ -104,13 +104,13 @@ class CommandWriter {
         const glm::dvec2 size = density.bottomRight - density.topLeft;
         const glm::dvec2 pixel(size.x / (density.columns - 1), size.y / (density.rows() - 1));
         for (int column = 0; column < density.columns; ++column) {
-            const std::string color = use(density.colorOfPixelColumn(column));
+            const std::string color = registerColor(density.colorOfPixelColumn(column));
             for (int row = 0, end = 0; row < density.rows(); row = end) {
                 const std::uint8_t alpha = density.alpha(row, column);
                 while (end < density.rows() && density.alpha(end, column) == alpha) ++end;
                 if (alpha == 0) continue;
                 const auto corner = [&](int x, int y) {
-                    return position(density.topLeft + (glm::dvec2(x, y) - 0.5) * pixel);
+                    return tikzPosition(density.topLeft + (glm::dvec2(x, y) - 0.5) * pixel);
                 };
                 out += "\\fill[" + color + opacityOption("fill", alpha / 255.0) + "] " + corner(column, row) +
                        " rectangle " + corner(column + 1, end) + ";\n";
@@ -122,7 +122,7 @@ class CommandWriter {
     std::string colorDefinitions() const {
         std::string definitions;
         for (const scene::Color color : colors_)
-            definitions += "\\definecolor{" + nameFor(color) + "}{HTML}{" + hexadecimal(color) + "}\n";
+            definitions += "\\definecolor{" + colorName(color) + "}{HTML}{" + hexadecimal(color) + "}\n";
         return definitions;
     }
 
@@ -130,27 +130,27 @@ class CommandWriter {
 
   private:
     // Adds point i of a path. Several points share a line of the file.
-    void append(const glm::dvec2& point, std::size_t i) {
+    void appendPathPoint(const glm::dvec2& point, std::size_t i) {
         constexpr std::size_t kPointsPerLine = 6;
         out += i > 0 && i % kPointsPerLine == 0 ? '\n' : ' ';
-        out += position(point);
+        out += tikzPosition(point);
     }
 
-    std::string millimeters(double length) const { return decimals(length * unit_, 3) + "mm"; }
+    std::string millimeters(double length) const { return toDecimal(length * unit_, 3) + "mm"; }
 
     static std::string opacityOption(std::string_view of, double opacity) {
-        return opacity < 1 ? ',' + std::string(of) + " opacity=" + decimals(opacity, 3) : std::string();
+        return opacity < 1 ? ',' + std::string(of) + " opacity=" + toDecimal(opacity, 3) : std::string();
     }
     static std::string hexadecimal(scene::Color color) {
         std::array<char, 8> digits{};
         std::snprintf(digits.data(), digits.size(), "%06X", color & 0xFFFFFFU);
         return digits.data();
     }
-    static std::string nameFor(scene::Color color) { return "oval" + hexadecimal(color); }
+    static std::string colorName(scene::Color color) { return "oval" + hexadecimal(color); }
     // Returns the LaTeX name of a color, and adds the color to the colors that colorDefinitions() returns.
-    std::string use(scene::Color color) {
+    std::string registerColor(scene::Color color) {
         colors_.insert(color);
-        return nameFor(color);
+        return colorName(color);
     }
 
     double unit_;
@@ -162,19 +162,19 @@ class CommandWriter {
 std::string tikz(const Drawing& drawing) {
     const double unit = drawing.millimetersPerUnit(),
                  farthest = kFarthestPoints / std::max(1.0, unit * kPointsPerMillimeter);
-    CommandWriter writer(unit);
+    TikzCommandWriter writer(unit);
     for (const ShapeGroup& group : drawing.groups) {
         writer.out += "% " + group.id + '\n';
         for (const DrawnShape& shape : group.shapes) {
             if (const auto drawn = cutAtBounds(shape, farthest)) std::visit(writer, *drawn);
         }
     }
-    const std::string across = decimals(unit, 6) + "mm";
-    return "% " + onlyXmlCharacters(drawing.title) + "\n% A figure of " + decimals(drawing.width * unit, 1) +
-           " mm by " + decimals(drawing.height * unit, 1) +
+    const std::string across = toDecimal(unit, 6) + "mm";
+    return "% " + removeNonXmlCharacters(drawing.title) + "\n% A figure of " + toDecimal(drawing.width * unit, 1) +
+           " mm by " + toDecimal(drawing.height * unit, 1) +
            " mm for LaTeX. In the preamble: \\usepackage{tikz}. In the text: \\input{this file}.\n" +
            "\\begin{tikzpicture}[x=" + across + ",y=-" + across + "]\n" + writer.colorDefinitions() +
-           "\\clip (0,0) rectangle " + position({drawing.width, drawing.height}) + ";\n" + writer.out +
+           "\\clip (0,0) rectangle " + tikzPosition({drawing.width, drawing.height}) + ";\n" + writer.out +
            "\\end{tikzpicture}%\n";
 }
 

@@ -48,8 +48,8 @@ SliceLattice latticeOf(const slicing::SliceSet& slices, double step) {
 
 /// Returns the values at the lattice points in the hyperplane at `w`, x fastest. Values outside the domain are NaN.
 /// `toFunction` maps coordinates of the rotated object to coordinates of the function, measured from Field::center.
-std::vector<float> sample(const fields::Field& field, const SliceLattice& lattice, const glm::dmat4& toFunction,
-                          double w, const Budget& budget) {
+std::vector<float> sampleSlice(const fields::Field& field, const SliceLattice& lattice, const glm::dmat4& toFunction,
+                               double w, const ExportBudget& budget) {
     std::vector<float> values(lattice.size());
     const auto row = static_cast<std::size_t>(lattice.points.x);
     std::array<std::vector<float>, 4> at;
@@ -94,7 +94,7 @@ std::string vti(const SceneToWrite& source) {
     const SliceLattice lattice = latticeOf(slices, 2 * field.circumradius / kCells);
     source.budget.checkFileSize(3 * sizeof(float) * lattice.size());  // enough for the values and their Base64 text
     const glm::dmat4 toFunction = field.toFunction * source.orientation.inverse().matrix();
-    const std::vector<float> values = sample(field, lattice, toFunction, slices.planes.w(0), source.budget);
+    const std::vector<float> values = sampleSlice(field, lattice, toFunction, slices.planes.w(0), source.budget);
 
     std::string extent;
     for (int axis = 0; axis < 3; ++axis) extent += (axis > 0 ? " 0 " : "0 ") + std::to_string(lattice.points[axis] - 1);

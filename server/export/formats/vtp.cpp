@@ -22,7 +22,7 @@ namespace {
 /// The kind of slice elements in the file: the kind with the highest dimension that slices of the object have.
 enum class ListedElementKind : std::uint8_t { vertices, edges, faces };
 
-ListedElementKind elementsOf(const slicing::Object& object) {
+ListedElementKind listedElementKindOf(const slicing::Object& object) {
     switch (slicing::propertiesOf(object).slices) {
         case slicing::SliceContent::curves:
             return ListedElementKind::edges;
@@ -53,14 +53,14 @@ void appendVector(std::vector<Number>& out, const glm::dvec3& v) {
     for (int i = 0; i < 3; ++i) out.push_back(static_cast<Number>(v[i]));
 }
 
-glm::dvec3 placeOf(const SceneToWrite& source, int slice) {
+glm::dvec3 slicePosition(const SceneToWrite& source, int slice) {
     if (source.contents != ExportContentsKind::oval) return glm::dvec3(0);
     return source.scene.placements[static_cast<std::size_t>(slice)].position / source.scene.scale;
 }
 
 void addElements(const SceneToWrite& source, int slice, PolyData& out) {
     const slicing::SliceSet& slices = *source.scene.slices;
-    const glm::dvec3 place = placeOf(source, slice);
+    const glm::dvec3 place = slicePosition(source, slice);
     const auto i = static_cast<std::size_t>(slice);
     const auto first = static_cast<std::int64_t>(out.points.size() / 3);
     for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v)
@@ -148,7 +148,7 @@ std::vector<std::int64_t> addCapPoints(const slicing::SliceSurface& surface, std
 void addSurface(const SceneToWrite& source, const FieldSliceSurface& exported, int slice, PolyData& out) {
     const slicing::SliceSet& slices = *source.scene.slices;
     const slicing::SliceSurface& surface = exported.surface;
-    const std::int64_t first = addPoints(exported, placeOf(source, slice), out);
+    const std::int64_t first = addPoints(exported, slicePosition(source, slice), out);
     const std::vector<std::int64_t> copies = addCapPoints(surface, first, out);
     const auto& levels = source.scene.look.field.levels;
     for (std::size_t t = 0; t < surface.triangles.size(); ++t) {
@@ -218,7 +218,7 @@ std::string vtp(const SceneToWrite& source) {
     const fields::Field* const field = slicing::fieldIn(source.object);
     const bool isField = field != nullptr;
     PolyData data;
-    if (!isField) data.elements = elementsOf(source.object);
+    if (!isField) data.elements = listedElementKindOf(source.object);
     std::optional<FieldSurfaceSource> surfaces;
     if (isField) surfaces.emplace(source.scene, *field, source.orientation, source.exact, source.budget);
     std::vector<int> empty;
@@ -226,7 +226,7 @@ std::string vtp(const SceneToWrite& source) {
         source.budget.checkTimeAndStop();
         source.budget.checkTrianglesAndMemory(data.ends.size());
         const std::size_t before = data.ends.size();
-        isField ? addSurface(source, surfaces->ofSlice(i), i, data) : addElements(source, i, data);
+        isField ? addSurface(source, surfaces->surfaceOfSlice(i), i, data) : addElements(source, i, data);
         if (data.ends.size() == before) empty.push_back(i);
     }
     if (!empty.empty()) {

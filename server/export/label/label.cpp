@@ -21,7 +21,7 @@ constexpr double kMinDepth = 0.25;  // minimum depth of letters, in millimeters
 constexpr double kMaxDepth = 0.8;   // maximum depth of letters, in millimeters
 
 /// A face of a body: all triangles of the mesh with the same cell.
-struct CellFace {
+struct BodyFace {
     std::vector<std::uint32_t> loop;  // indices of mesh points, counterclockwise
     glm::dvec3 normal{0};
     glm::dvec3 middle{0};  // centroid of the face
@@ -32,19 +32,19 @@ struct CellFace {
 /// of a capital letter, and `depth` the depth of letters, both in millimeters.
 struct TextPlacement {
     std::uint32_t cell = kNoCell;
-    const Lettering* text = nullptr;
+    const TextOutlines* text = nullptr;
     glm::dvec3 middle{0}, right{0}, up{0}, normal{0};
     double height = 0, depth = 0;
 };
 
 /// Returns the faces of the mesh, by their cells. Leaves out faces without area, faces with holes, and faces in several
 /// parts.
-std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
-    std::map<std::uint32_t, CellFace> faces;
+std::map<std::uint32_t, BodyFace> facesOf(const Mesh& mesh) {
+    std::map<std::uint32_t, BodyFace> faces;
     std::map<std::uint32_t, std::map<std::pair<std::uint32_t, std::uint32_t>, int>> edges;
     for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
         const auto& triangle = mesh.triangles[t];
-        CellFace& face = faces[mesh.cells[t]];
+        BodyFace& face = faces[mesh.cells[t]];
         const glm::dvec3 across = doubleAreaNormalOf(mesh, triangle);
         face.normal += across;
         for (int i = 0; i < 3; ++i) {
@@ -72,7 +72,7 @@ std::map<std::uint32_t, CellFace> facesOf(const Mesh& mesh) {
 /// Returns the place in the middle of `face` that allows the largest letters with a free margin. The text runs along
 /// `right`; if letters would be upside down, in the opposite direction. The caller must set `cell` and `depth` of the
 /// result.
-TextPlacement fit(const Mesh& mesh, const CellFace& face, const glm::dvec3& right, const Lettering& text) {
+TextPlacement fitText(const Mesh& mesh, const BodyFace& face, const glm::dvec3& right, const TextOutlines& text) {
     TextPlacement placement{kNoCell, &text, face.middle, right, glm::cross(face.normal, right), face.normal, 1e300, 0};
     if (placement.up.z < -1e-9 || (std::abs(placement.up.z) < 1e-9 && placement.up.y < 0)) {
         placement.right = -placement.right;
@@ -93,7 +93,7 @@ TextPlacement fit(const Mesh& mesh, const CellFace& face, const glm::dvec3& righ
 
 /// Returns the depth of letters, the least of three numbers: kMaxDepth, a quarter of the letters' height, and half the
 /// depth at which the rectangle around the text would meet another face, if moved into the body.
-double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, CellFace>& faces, const Mesh& mesh) {
+double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, BodyFace>& faces, const Mesh& mesh) {
     double depth = kMaxDepth;
     const glm::dvec2 half = (placement.text->size / 2.0 + kMargin / 2) * placement.height;
     for (const auto& [cell, face] : faces) {
@@ -108,8 +108,8 @@ double depthAt(const TextPlacement& placement, const std::map<std::uint32_t, Cel
 }
 
 /// Returns whether the mesh is convex and consists of exactly these faces, none of which has a hole.
-bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, const RoundingGrid& grid,
-              const Budget& budget) {
+bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, BodyFace>& faces, const RoundingGrid& grid,
+              const ExportBudget& budget) {
     std::size_t triangles = 0;
     for (const auto& [cell, face] : faces) {
         budget.checkTimeAndStop();
@@ -123,7 +123,7 @@ bool isConvex(const Mesh& mesh, const std::map<std::uint32_t, CellFace>& faces, 
 
 /// Engraves the text: cuts holes for letters into the face, and adds the walls and floors of the letters. Returns false
 /// and leaves the mesh unchanged if the result would not be a closed manifold.
-bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placement, const RoundingGrid& grid) {
+bool engraveText(Mesh& mesh, const BodyFace& face, const TextPlacement& placement, const RoundingGrid& grid) {
     const auto flat = [&](const glm::dvec3& p) {
         return glm::dvec2(glm::dot(p - placement.middle, placement.right),
                           glm::dot(p - placement.middle, placement.up));
@@ -182,7 +182,7 @@ bool engraveText(Mesh& mesh, const CellFace& face, const TextPlacement& placemen
 LabelText::LabelText(const std::string& name, const std::string& w)
     : versions_{letteringOf({name + "  " + w}), letteringOf({name, w})} {}
 
-bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const Budget& budget) const {
+bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const ExportBudget& budget) const {
     const auto faces = facesOf(mesh);
     if (!isConvex(mesh, faces, grid, budget)) return false;
     std::vector<TextPlacement> placements;
@@ -191,8 +191,8 @@ bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const
             budget.checkTimeAndStop();
             const glm::dvec3 along = mesh.points[face.loop[(i + 1) % face.loop.size()]] - mesh.points[face.loop[i]];
             const glm::dvec3 right = glm::normalize(along - glm::dot(along, face.normal) * face.normal);
-            for (const Lettering& text : versions_) {
-                TextPlacement placement = fit(mesh, face, right, text);
+            for (const TextOutlines& text : versions_) {
+                TextPlacement placement = fitText(mesh, face, right, text);
                 placement.cell = cell;
                 placement.height = std::min(placement.height, size / 10);
                 if (placement.height < kMinHeight) continue;
@@ -208,9 +208,9 @@ bool LabelText::engrave(Mesh& mesh, double size, const RoundingGrid& grid, const
     });
 }
 
-Mesh LabelText::labelBody(double size, const RoundingGrid& grid) const {
+Mesh LabelText::makeLabelPlate(double size, const RoundingGrid& grid) const {
     const double height = std::clamp(size / 15, 3.0, 12.0);
-    const Lettering& text = versions_.back();
+    const TextOutlines& text = versions_.back();
     const glm::dvec2 extent = (text.size + 2.2 * kMargin) * height;
     constexpr double kThickness = 2;
     std::vector<glm::dvec3> corners;
@@ -228,8 +228,8 @@ Mesh LabelText::labelBody(double size, const RoundingGrid& grid) const {
         }
     }
     const auto faces = facesOf(mesh);
-    const CellFace& top = faces.at(5);
-    TextPlacement placement = fit(mesh, top, {1, 0, 0}, text);
+    const BodyFace& top = faces.at(5);
+    TextPlacement placement = fitText(mesh, top, {1, 0, 0}, text);
     placement.cell = 5;
     placement.height = height;
     placement.depth = std::min(kMaxDepth, height / 4);

@@ -12,7 +12,7 @@
 namespace oval4d::exports {
 
 /// The text of a label, laid out in one line and in two lines. engrave() uses the layout that allows larger letters.
-/// labelBody() uses two lines.
+/// makeLabelPlate() uses two lines.
 class LabelText {
   public:
     /// `name` is the object's name, and `w` the position of the slice's hyperplane as text, such as "w = −0.25". Throws
@@ -23,17 +23,17 @@ class LabelText {
     /// entry in `mesh.cells` form a face. Letters are at most size / 10 high, and from 0.25 to 0.8 mm deep. `size` is
     /// ExportRequest::size, in millimeters. Returns false and leaves the mesh unchanged if the body is not convex or is
     /// too thin, or if the letters would be less than 1 mm high. Takes quadratic time in the number of faces; throws
-    /// ExportRefused as Budget::checkTimeAndStop() does.
-    bool engrave(Mesh& mesh, double size, const RoundingGrid& grid, const Budget& budget) const;
+    /// ExportRefused as ExportBudget::checkTimeAndStop() does.
+    bool engrave(Mesh& mesh, double size, const RoundingGrid& grid, const ExportBudget& budget) const;
 
     /// Returns a plate with the text engraved into its top side. Letters are size / 15 high, but at least 3 and at most
     /// 12 mm. The bottom of the plate lies in the plane z = 0. The plate is centered along x, and extends from y = 0
     /// toward negative y. `size` is ExportRequest::size, in millimeters. Throws std::runtime_error if the letters
     /// cannot be engraved.
-    Mesh labelBody(double size, const RoundingGrid& grid) const;
+    Mesh makeLabelPlate(double size, const RoundingGrid& grid) const;
 
   private:
-    std::vector<Lettering> versions_;  // the layout in one line, and the layout in two lines
+    std::vector<TextOutlines> versions_;  // the layout in one line, and the layout in two lines
 };
 
 }  // namespace oval4d::exports

@@ -40,19 +40,19 @@ class TextOutliner {
     TextOutliner& operator=(const TextOutliner&) = delete;
 
     /// Appends the contours of a line of text. The baseline starts at (0, y). Returns the length of the line.
-    double write(const std::string& text, double y, std::vector<Contour>& out) {
+    double outlineText(const std::string& text, double y, std::vector<Contour>& out) {
         origin_ = {0, y};
         out_ = &out;
-        for (const char32_t character : decoded(text)) {
+        for (const char32_t character : decodeUtf8(text)) {
             if (FT_Load_Char(face_, character, FT_LOAD_NO_SCALE) != 0) continue;
             FT_Outline_Funcs funcs{};
-            funcs.move_to = [](const FT_Vector* to, void* pen) { return static_cast<TextOutliner*>(pen)->move(to); };
-            funcs.line_to = [](const FT_Vector* to, void* pen) { return static_cast<TextOutliner*>(pen)->line(to); };
+            funcs.move_to = [](const FT_Vector* to, void* pen) { return static_cast<TextOutliner*>(pen)->moveTo(to); };
+            funcs.line_to = [](const FT_Vector* to, void* pen) { return static_cast<TextOutliner*>(pen)->lineTo(to); };
             funcs.conic_to = [](const FT_Vector* control, const FT_Vector* to, void* pen) {
-                return static_cast<TextOutliner*>(pen)->curve(control, control, to, 2);
+                return static_cast<TextOutliner*>(pen)->addCurve(control, control, to, 2);
             };
             funcs.cubic_to = [](const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, void* pen) {
-                return static_cast<TextOutliner*>(pen)->curve(first, second, to, 3);
+                return static_cast<TextOutliner*>(pen)->addCurve(first, second, to, 3);
             };
             FT_Outline_Decompose(&face_->glyph->outline, &funcs, this);
             origin_.x += static_cast<double>(face_->glyph->metrics.horiAdvance) / capital_;
@@ -61,7 +61,7 @@ class TextOutliner {
     }
 
   private:
-    static std::u32string decoded(const std::string& text) {
+    static std::u32string decodeUtf8(const std::string& text) {
         std::u32string out;
         for (const char c : text) {
             const auto byte = static_cast<unsigned char>(c);
@@ -74,24 +74,24 @@ class TextOutliner {
         return out;
     }
 
-    glm::dvec2 place(const FT_Vector* v) const {
+    glm::dvec2 toOutlineUnits(const FT_Vector* v) const {
         return origin_ + glm::dvec2(static_cast<double>(v->x), static_cast<double>(v->y)) / capital_;
     }
-    int move(const FT_Vector* to) {
-        out_->push_back({place(to)});
+    int moveTo(const FT_Vector* to) {
+        out_->push_back({toOutlineUnits(to)});
         return 0;
     }
-    int line(const FT_Vector* to) {
-        out_->back().push_back(place(to));
+    int lineTo(const FT_Vector* to) {
+        out_->back().push_back(toOutlineUnits(to));
         return 0;
     }
-    int curve(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, int degree) {
+    int addCurve(const FT_Vector* first, const FT_Vector* second, const FT_Vector* to, int degree) {
         const glm::dvec2 a = out_->back().back();
-        const glm::dvec2 d = place(to);
+        const glm::dvec2 d = toOutlineUnits(to);
         // Convert a quadratic Bézier curve to an equal cubic curve. Each control point of the cubic curve lies two
         // thirds of the way from an end to the control point of the quadratic curve.
-        const glm::dvec2 b = degree == 3 ? place(first) : glm::mix(a, place(first), 2.0 / 3);
-        const glm::dvec2 c = degree == 3 ? place(second) : glm::mix(d, place(second), 2.0 / 3);
+        const glm::dvec2 b = degree == 3 ? toOutlineUnits(first) : glm::mix(a, toOutlineUnits(first), 2.0 / 3);
+        const glm::dvec2 c = degree == 3 ? toOutlineUnits(second) : glm::mix(d, toOutlineUnits(second), 2.0 / 3);
         for (int i = 1; i <= kPieces; ++i) {
             const double t = static_cast<double>(i) / kPieces;
             const double s = 1 - t;
@@ -115,20 +115,20 @@ void removeDuplicates(Contour& contour) {
 
 }  // namespace
 
-Lettering letteringOf(const std::vector<std::string>& lines) {
+TextOutlines letteringOf(const std::vector<std::string>& lines) {
     TextOutliner pen;
     std::vector<Contour> drawn;
     double y = 0;
     for (const std::string& line : lines) {
         const std::size_t first = drawn.size();
-        const double length = pen.write(line, y, drawn);
+        const double length = pen.outlineText(line, y, drawn);
         for (std::size_t i = first; i < drawn.size(); ++i) {
             for (glm::dvec2& p : drawn[i]) p.x -= length / 2;
         }
         y -= kLineStep;
     }
     for (Contour& contour : drawn) removeDuplicates(contour);
-    Lettering out;
+    TextOutlines out;
     out.contours = outlineOf(drawn);
     glm::dvec2 least(1e300);
     glm::dvec2 most(-1e300);

@@ -12,28 +12,28 @@ namespace {
 
 // Returns the size, in bytes, of the tables of a slicing::ClosedSurfaceSlicer for an array: two numbers for each index
 // along each axis. Returns 0 for a formula, whose tables are small.
-std::size_t tableBytes(const fields::Field& field) {
+std::size_t slicerTableBytes(const fields::Field& field) {
     std::size_t indices = 0;
     if (field.array)
         for (const std::size_t samples : field.array->shape()) indices += samples;
     return 2 * sizeof(double) * indices;
 }
 
-const fields::Field& withRoomForTables(const fields::Field& field, const Budget& budget) {
-    budget.checkFileSize(tableBytes(field));
+const fields::Field& checkTableMemory(const fields::Field& field, const ExportBudget& budget) {
+    budget.checkFileSize(slicerTableBytes(field));
     return field;
 }
 
 }  // namespace
 
-ExactSlicer::ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
-                         const Budget& budget)
+ExactFieldSlicer::ExactFieldSlicer(const fields::Field& field, const geometry::Rotation& orientation,
+                                   SurfaceOptions options, const ExportBudget& budget)
     : field_(field),
       budget_(budget),
       options_(std::move(options)),
-      slicer_(withRoomForTables(field, budget), orientation) {}
+      slicer_(checkTableMemory(field, budget), orientation) {}
 
-void ExactSlicer::slice(double w, double level, std::size_t others, slicing::ClosedSurface& out) {
+void ExactFieldSlicer::slice(double w, double level, std::size_t others, slicing::ClosedSurface& out) {
     const std::size_t limit = budget_.triangleLimit();
     const auto done = slicer_.slice(w,
                                     {.level = level,

@@ -15,10 +15,10 @@ namespace oval4d::exports {
 
 /// A slicer that slices a field exactly (see slicing::ClosedSurfaceSlicer). A formula is sampled on its default
 /// lattice.
-class ExactSlicer {
+class ExactFieldSlicer {
   public:
     struct SurfaceOptions {
-        fields::Inside inside = fields::Inside::below;
+        fields::BodySide inside = fields::BodySide::below;
         bool pointData = false;  ///< whether to compute the function's value and gradient at each point
         /// What the user can do about too many triangles, as the end of the error message. Empty, or begins with a
         /// semicolon.
@@ -27,8 +27,8 @@ class ExactSlicer {
 
     /// `field` and `budget` must outlive this object. Throws ExportRefused if there is no memory for the tables of the
     /// slicer.
-    ExactSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
-                const Budget& budget);
+    ExactFieldSlicer(const fields::Field& field, const geometry::Rotation& orientation, SurfaceOptions options,
+                     const ExportBudget& budget);
 
     /// Slices the body of one level (isovalue) by the hyperplane at `w`. Overwrites `out`. `others` is the number of
     /// triangles that the export has made before; the limits apply to all triangles together. Throws ExportRefused if a
@@ -37,7 +37,7 @@ class ExactSlicer {
 
   private:
     const fields::Field& field_;
-    const Budget& budget_;
+    const ExportBudget& budget_;
     const SurfaceOptions options_;
     slicing::ClosedSurfaceSlicer slicer_;
 };

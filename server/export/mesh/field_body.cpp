@@ -34,7 +34,7 @@ std::vector<scene::Color> colorsOf(const slicing::SliceSurface& surface, std::si
 }  // namespace
 
 Mesh fieldBodyOf(const scene::Scene& scene, const FieldSliceSurface& slice, int i, std::size_t level, double scale,
-                 const RoundingGrid& grid, const Budget& budget) {
+                 const RoundingGrid& grid, const ExportBudget& budget) {
     const slicing::SliceSurface& surface = slice.surface;
     const scene::SurfaceLook::LevelLook& look = scene.surfaces.levels[level];
     std::vector<std::array<std::uint32_t, 3>> triangles;

@@ -16,6 +16,6 @@ namespace oval4d::exports {
 /// Mesh::pointValues. Returns an empty mesh if the rounded body has no volume (see isThickEnough()). Throws the
 /// exceptions of snapSurface().
 Mesh fieldBodyOf(const scene::Scene& scene, const FieldSliceSurface& slice, int i, std::size_t level, double scale,
-                 const RoundingGrid& grid, const Budget& budget);
+                 const RoundingGrid& grid, const ExportBudget& budget);
 
 }  // namespace oval4d::exports

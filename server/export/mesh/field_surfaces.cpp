@@ -25,21 +25,21 @@ std::vector<std::size_t> allLevels(const scene::Scene& scene) {
 
 FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field,
                                        const geometry::Rotation& orientation, bool exact,
-                                       std::vector<std::size_t> levels, const Budget& budget)
+                                       std::vector<std::size_t> levels, const ExportBudget& budget)
     : scene_(scene), field_(field), orientation_(orientation), levels_(std::move(levels)) {
     if (!exact) return;
     slicer_.emplace(
         field, orientation_,
-        ExactSlicer::SurfaceOptions{
+        ExactFieldSlicer::SurfaceOptions{
             .inside = scene.look.field.inside, .pointData = true, .advice = "; export fewer slices, or without exact"},
         budget);
 }
 
 FieldSurfaceSource::FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field,
-                                       const geometry::Rotation& orientation, bool exact, const Budget& budget)
+                                       const geometry::Rotation& orientation, bool exact, const ExportBudget& budget)
     : FieldSurfaceSource(scene, field, orientation, exact, allLevels(scene), budget) {}
 
-FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
+FieldSliceSurface FieldSurfaceSource::surfaceOfSlice(int i) {
     if (!slicer_) return {scene_.slices->surfaces[static_cast<std::size_t>(i)], {}};
     surface_.clear();
     points_.clear();
@@ -47,7 +47,7 @@ FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
     for (const std::size_t level : levels_) {
         slicer_->slice(w, scene_.look.field.levels[level], triangles_, closed_);
         triangles_ += closed_.triangles.size();
-        append(level);
+        appendLevelSurface(level);
     }
     if (field_.second) {
         slicing::placeSection(field_, field_.toFunction * orientation_.inverse().matrix(), w, section_);
@@ -60,9 +60,9 @@ FieldSliceSurface FieldSurfaceSource::ofSlice(int i) {
 }
 
 // Appends the surface of one level, which is in closed_, to surface_.
-void FieldSurfaceSource::append(std::size_t level) {
+void FieldSurfaceSource::appendLevelSurface(std::size_t level) {
     const auto first = static_cast<std::uint32_t>(points_.size());
-    const double sign = scene_.look.field.inside == fields::Inside::below ? 1 : -1;
+    const double sign = scene_.look.field.inside == fields::BodySide::below ? 1 : -1;
     for (std::size_t p = 0; p < closed_.points.size(); ++p) {
         const glm::dvec4& gradient = closed_.gradients[p];
         const glm::dvec3 slope(gradient);

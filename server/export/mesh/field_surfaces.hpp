@@ -30,34 +30,35 @@ struct FieldSliceSurface {
 };
 
 /// A source of the surfaces in the slices of a field, one after another. The surfaces are those of a scene, or exact
-/// surfaces, which are made when they are needed (see ExactSlicer). The normal and the growth at a point of an exact
-/// surface are means over the triangles around the point.
+/// surfaces, which are made when they are needed (see ExactFieldSlicer). The normal and the growth at a point of an
+/// exact surface are means over the triangles around the point.
 class FieldSurfaceSource {
   public:
     /// The slices of `scene` must have been cut from `field` rotated by `orientation`. If `exact` is false, they must
     /// have surfaces (SliceSet::surfaces). If `exact` is true, `levels` are the needed levels, as ascending indices in
     /// FieldSettings::levels; otherwise, `levels` is ignored. `scene`, `field` and `budget` must outlive this object.
     FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
-                       bool exact, std::vector<std::size_t> levels, const Budget& budget);
+                       bool exact, std::vector<std::size_t> levels, const ExportBudget& budget);
     /// Does the same for all levels of the field.
     FieldSurfaceSource(const scene::Scene& scene, const fields::Field& field, const geometry::Rotation& orientation,
-                       bool exact, const Budget& budget);
+                       bool exact, const ExportBudget& budget);
 
     /// Returns the surface of slice i, which is valid until the next call. The limits on triangles and memory apply to
     /// all surfaces so far together. Throws ExportRefused if a limit is exceeded or a stop was requested. Throws
     /// std::runtime_error if the samples of the field are in a file that can no longer be read.
-    FieldSliceSurface ofSlice(int i);
+    FieldSliceSurface surfaceOfSlice(int i);
 
   private:
-    void append(std::size_t level);
+    void appendLevelSurface(std::size_t level);
 
     const scene::Scene& scene_;
     const fields::Field& field_;
     const geometry::Rotation orientation_;
     const std::vector<std::size_t> levels_;
-    std::optional<ExactSlicer> slicer_;  // the slicer of exact surfaces; empty if the surfaces are those of the scene
-    slicing::ClosedSurface closed_;      // the exact surface of one level
-    slicing::SliceSurface surface_;      // the exact surfaces of all levels_
+    std::optional<ExactFieldSlicer>
+        slicer_;                     // the slicer of exact surfaces; empty if the surfaces are those of the scene
+    slicing::ClosedSurface closed_;  // the exact surface of one level
+    slicing::SliceSurface surface_;  // the exact surfaces of all levels_
     std::vector<glm::dvec3> points_;
     slicing::FieldSection section_;
     std::size_t triangles_ = 0;  // number of triangles of all exact surfaces so far

@@ -22,8 +22,8 @@ using geometry::kNone;
 
 // Half-edge 3t + i leads from corner i of triangle t to the next corner of t.
 std::uint32_t triangleOf(std::uint32_t edge) { return edge / 3; }
-std::uint32_t nextOf(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
-std::uint32_t previousOf(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
+std::uint32_t nextHalfEdge(std::uint32_t edge) { return edge % 3 == 2 ? edge - 2 : edge + 1; }
+std::uint32_t previousHalfEdge(std::uint32_t edge) { return edge % 3 == 0 ? edge + 2 : edge - 1; }
 
 /// A hash function for positions of points, in grid steps.
 struct PositionHash {
@@ -34,7 +34,7 @@ struct PositionHash {
     }
     static constexpr std::uint64_t kOddMultiplier = 0x9e3779b97f4a7c15ULL;
 };
-using Positions = std::unordered_set<glm::i64vec3, PositionHash>;
+using PositionSet = std::unordered_set<glm::i64vec3, PositionHash>;
 
 /// Returns whether a · b = c · d, for whole numbers less than 2⁵³. The exact product is the sum of the rounded product
 /// and the rounding error, which fma() returns exactly.
@@ -48,7 +48,7 @@ bool productsAreEqual(double a, double b, double c, double d) {
 class HalfEdgeMesh {
   public:
     HalfEdgeMesh(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-                 const RoundingGrid& grid, const Budget& budget)
+                 const RoundingGrid& grid, const ExportBudget& budget)
         : grid_(grid), budget_(budget) {
         for (const auto& triangle : triangles) origins_.insert(origins_.end(), triangle.begin(), triangle.end());
         removed_.assign(triangles.size(), false);
@@ -81,19 +81,20 @@ class HalfEdgeMesh {
         }
     }
 
-    /// Collapses edges whose ends are equal on the grid (see collapse()), as long as any edge can be collapsed.
+    /// Collapses edges whose ends are equal on the grid (see collapseEdge()), as long as any edge can be collapsed.
     void collapseEdges() {
         for (bool changed = true; changed;) {
             changed = false;
             for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
-                if (!removed_[triangleOf(edge)] && at_[origins_[edge]] == at_[endOf(edge)]) changed |= collapse(edge);
+                if (!removed_[triangleOf(edge)] && at_[origins_[edge]] == at_[endOf(edge)])
+                    changed |= collapseEdge(edge);
             }
             budget_.checkTimeAndStop();
         }
     }
 
-    /// Flips the longest edge of each triangle whose corners lie on a line (see flip()).
-    void flipDegenerate() {
+    /// Flips the longest edge of each triangle whose corners lie on a line (see flipEdge()).
+    void flipDegenerateTriangles() {
         constexpr int kRounds = 4;
         for (int round = 0; round < kRounds; ++round) {
             for (std::uint32_t t = 0; t < removed_.size(); ++t) {
@@ -101,7 +102,7 @@ class HalfEdgeMesh {
                 std::uint32_t longest = 3 * t;
                 for (std::uint32_t edge = 3 * t + 1; edge < 3 * t + 3; ++edge)
                     longest = lengthOf(edge) > lengthOf(longest) ? edge : longest;
-                flip(longest);
+                flipEdge(longest);
             }
             budget_.checkTimeAndStop();
         }
@@ -109,16 +110,16 @@ class HalfEdgeMesh {
 
     /// Moves each point that is equal to an earlier point to a free grid point nearby.
     void separatePoints() {
-        Positions taken;
+        PositionSet taken;
         for (std::uint32_t point = 0; point < at_.size(); ++point) {
             if (outgoing_[point] == kNone || removed_[triangleOf(outgoing_[point])]) continue;
             if (taken.insert(at_[point]).second) continue;
-            at_[point] = nearestFree(at_[point], taken);
+            at_[point] = nearestFreePosition(at_[point], taken);
             taken.insert(at_[point]);
         }
     }
 
-    SnappedSurface result() const {
+    SnappedSurface toSnappedSurface() const {
         SnappedSurface result;
         std::vector<std::uint32_t> number(at_.size(), kNone);
         const auto numberOf = [&](std::uint32_t point) {
@@ -138,9 +139,9 @@ class HalfEdgeMesh {
     }
 
   private:
-    std::uint32_t endOf(std::uint32_t edge) const { return origins_[nextOf(edge)]; }
+    std::uint32_t endOf(std::uint32_t edge) const { return origins_[nextHalfEdge(edge)]; }
     /// Returns the next half-edge with the same origin, in counterclockwise order.
-    std::uint32_t turned(std::uint32_t edge) const { return twins_[previousOf(edge)]; }
+    std::uint32_t nextAroundOrigin(std::uint32_t edge) const { return twins_[previousHalfEdge(edge)]; }
 
     void pairTwins() {
         struct HalfEdge {
@@ -180,7 +181,7 @@ class HalfEdgeMesh {
         for (std::uint32_t edge = 0; edge < origins_.size(); ++edge) {
             if (seen[edge]) continue;
             const auto point = static_cast<std::uint32_t>(at_.size());
-            for (std::uint32_t around = edge; !seen[around]; around = turned(around)) {
+            for (std::uint32_t around = edge; !seen[around]; around = nextAroundOrigin(around)) {
                 seen[around] = true;
                 pointOf[around] = point;
             }
@@ -196,7 +197,7 @@ class HalfEdgeMesh {
         std::uint32_t around = edge;
         do {
             out.push_back(endOf(around));
-            around = turned(around);
+            around = nextAroundOrigin(around);
         } while (around != edge);
         std::ranges::sort(out);
     }
@@ -204,7 +205,7 @@ class HalfEdgeMesh {
     // Collapses an edge into its origin and returns true. Returns false and changes nothing in two cases: the ends of
     // the edge have a common neighbor other than the third corners of the two triangles at the edge, or the surface is
     // a tetrahedron, which would become flat.
-    bool collapse(std::uint32_t edge) {
+    bool collapseEdge(std::uint32_t edge) {
         const std::uint32_t twin = twins_[edge], kept = origins_[edge], lost = origins_[twin];
         findNeighbors(edge, neighbors_);
         findNeighbors(twin, otherNeighbors_);
@@ -214,11 +215,11 @@ class HalfEdgeMesh {
         std::uint32_t around = twin;
         do {
             origins_[around] = kept;
-            around = turned(around);
+            around = nextAroundOrigin(around);
         } while (around != twin);
         outgoing_[lost] = kNone;
         for (const std::uint32_t side : {edge, twin}) {
-            const std::uint32_t a = twins_[nextOf(side)], b = twins_[previousOf(side)];
+            const std::uint32_t a = twins_[nextHalfEdge(side)], b = twins_[previousHalfEdge(side)];
             twins_[a] = b;
             twins_[b] = a;
             outgoing_[origins_[a]] = a;
@@ -239,12 +240,13 @@ class HalfEdgeMesh {
         return productsAreEqual(a.y, b.z, a.z, b.y) && productsAreEqual(a.z, b.x, a.x, b.z) &&
                productsAreEqual(a.x, b.y, a.y, b.x);
     }
-    bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextOf(edge))); }
+    bool isFlat(std::uint32_t edge) const { return areParallel(vectorOf(edge), vectorOf(nextHalfEdge(edge))); }
 
     // Flips an edge: replaces it by an edge between the third corners of the two triangles at the edge. Changes nothing
     // if an edge already joins these corners, or if the corners of a new triangle would lie on a line.
-    void flip(std::uint32_t h) {
-        const std::uint32_t g = twins_[h], h1 = nextOf(h), h2 = previousOf(h), g1 = nextOf(g), g2 = previousOf(g);
+    void flipEdge(std::uint32_t h) {
+        const std::uint32_t g = twins_[h], h1 = nextHalfEdge(h), h2 = previousHalfEdge(h), g1 = nextHalfEdge(g),
+                            g2 = previousHalfEdge(g);
         const std::uint32_t p = origins_[h], r = origins_[g], q = origins_[h2], s = origins_[g2];
         findNeighbors(h2, neighbors_);
         if (q == s || std::ranges::binary_search(neighbors_, s)) return;
@@ -267,7 +269,7 @@ class HalfEdgeMesh {
         set(g2, r, outer[0]);
     }
 
-    static glm::i64vec3 nearestFree(const glm::i64vec3& at, const Positions& taken) {
+    static glm::i64vec3 nearestFreePosition(const glm::i64vec3& at, const PositionSet& taken) {
         for (int reach = 1;; ++reach) {
             for (int z = -reach; z <= reach; ++z) {
                 for (int y = -reach; y <= reach; ++y) {
@@ -281,7 +283,7 @@ class HalfEdgeMesh {
     }
 
     const RoundingGrid& grid_;
-    const Budget& budget_;
+    const ExportBudget& budget_;
     std::vector<std::uint32_t> origins_, twins_;  // for each half-edge: its first point, and its twin
     std::vector<bool> removed_;                   // for each triangle: whether it was removed
     std::vector<glm::i64vec3> at_;                // for each point: its position in grid steps
@@ -294,14 +296,14 @@ class HalfEdgeMesh {
 }  // namespace
 
 SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-                           const RoundingGrid& grid, const Budget& budget) {
+                           const RoundingGrid& grid, const ExportBudget& budget) {
     constexpr std::int64_t kLeastSteps = 4;
     HalfEdgeMesh surface(points, triangles, grid, budget);
     surface.removeSmallParts(kLeastSteps);
     surface.collapseEdges();
-    surface.flipDegenerate();
+    surface.flipDegenerateTriangles();
     surface.separatePoints();
-    return surface.result();
+    return surface.toSnappedSurface();
 }
 
 }  // namespace oval4d::exports

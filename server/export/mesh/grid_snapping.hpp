@@ -32,6 +32,6 @@ struct SnappedSurface {
 /// Throws ExportRefused if the time limit is exceeded or a stop was requested. Throws std::invalid_argument if the
 /// surface is not closed.
 SnappedSurface snapSurface(std::span<const glm::dvec3> points, std::span<const std::array<std::uint32_t, 3>> triangles,
-                           const RoundingGrid& grid, const Budget& budget);
+                           const RoundingGrid& grid, const ExportBudget& budget);
 
 }  // namespace oval4d::exports

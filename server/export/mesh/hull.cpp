@@ -23,11 +23,11 @@ class IncrementalHull {
         }
     }
 
-    std::vector<Triangle> run(const Budget* budget) {
-        if (!begin()) return {};
+    std::vector<Triangle> computeFacets(const ExportBudget* budget) {
+        if (!findInitialTetrahedron()) return {};
         for (std::uint32_t p = 0; p < points_.size(); ++p) {
             if (budget != nullptr) budget->checkTimeAndStop();
-            add(p);
+            addPoint(p);
         }
         return std::move(triangles_);
     }
@@ -56,7 +56,7 @@ class IncrementalHull {
     }
 
     /// Finds four points for the first tetrahedron. Returns false if all points lie in one plane.
-    bool begin() {
+    bool findInitialTetrahedron() {
         const auto count = static_cast<std::uint32_t>(points_.size());
         std::uint32_t b = 1;
         while (b < count && points_[b] == points_[0]) ++b;
@@ -70,7 +70,7 @@ class IncrementalHull {
         return true;
     }
 
-    void add(std::uint32_t p) {
+    void addPoint(std::uint32_t p) {
         std::set<std::pair<std::uint32_t, std::uint32_t>> seen;  // directed edges of removed triangles
         const auto removed = std::erase_if(triangles_, [&](const Triangle& t) {
             if (sixVolume(t, p) <= 0) return false;
@@ -89,7 +89,8 @@ class IncrementalHull {
 
 }  // namespace
 
-Mesh convexHullOfGridPoints(const std::vector<glm::dvec3>& points, const RoundingGrid& grid, const Budget* budget) {
+Mesh convexHullOfGridPoints(const std::vector<glm::dvec3>& points, const RoundingGrid& grid,
+                            const ExportBudget* budget) {
     Mesh mesh;
     std::vector<std::optional<std::uint32_t>> numbers(points.size());
     const auto number = [&](std::uint32_t point) {
@@ -99,7 +100,7 @@ Mesh convexHullOfGridPoints(const std::vector<glm::dvec3>& points, const Roundin
         }
         return *numbers[point];
     };
-    for (const auto& [a, b, c] : IncrementalHull(points, grid.step()).run(budget)) {
+    for (const auto& [a, b, c] : IncrementalHull(points, grid.step()).computeFacets(budget)) {
         const std::uint32_t first = number(a);
         const std::uint32_t second = number(b);
         mesh.add(first, second, number(c), kNoCell);

@@ -19,9 +19,9 @@ using geometry::kNone;
 
 glm::ivec3 blockOf(const glm::ivec3& point) { return {point.x >> 3, point.y >> 3, point.z >> 3}; }
 
-int indexIn(const glm::ivec3& point) { return (point.x & 7) | (point.y & 7) << 3 | (point.z & 7) << 6; }
+int indexInBlock(const glm::ivec3& point) { return (point.x & 7) | (point.y & 7) << 3 | (point.z & 7) << 6; }
 
-std::uint64_t keyOf(const glm::ivec3& point) {
+std::uint64_t pointKey(const glm::ivec3& point) {
     const glm::ivec3 block = blockOf(point);
     const auto part = [](int i) { return static_cast<std::uint64_t>(i + SampledField::kFarthest) & 0xfffffU; };
     return part(block.z) << 40U | part(block.y) << 20U | part(block.x);
@@ -29,7 +29,7 @@ std::uint64_t keyOf(const glm::ivec3& point) {
 
 // Returns the position of a cube's corner relative to the cube's lowest corner, or the direction of an edge, in steps
 // of the field. `bits` has one bit for each axis: 1 for x, 2 for y, 4 for z.
-glm::ivec3 offset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
+glm::ivec3 cornerOffset(unsigned bits) { return {bits & 1U, bits >> 1U & 1U, bits >> 2U & 1U}; }
 
 // The six tetrahedra of a cube. The number of a corner is its bits in offset(). The corners of a tetrahedron lie on a
 // path from corner 0 to corner 7 with one step along each axis. There is one tetrahedron for each order of the axes.
@@ -60,17 +60,17 @@ constexpr std::array<std::array<unsigned, 4>, 16> kOrder{{{0, 1, 2, 3},
 class MarchingTetrahedra {
   public:
     MarchingTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
-                       const Budget& budget)
+                       const ExportBudget& budget)
         : field_(field), crossing_(crossing), grid_(grid), budget_(budget) {}
 
-    Mesh run() {
+    Mesh march() {
         for (const SampledField::ValueBlock* block : field_.blocks()) {
             budget_.checkTimeAndStop();
             budget_.checkTrianglesAndMemory(mesh_.triangles.size());
-            load(block->corner);
-            for (int i = 0; i < kPoints; ++i) cube(block->corner, {i & 7, i >> 3 & 7, i >> 6});
+            loadInsideFlags(block->corner);
+            for (int i = 0; i < kPoints; ++i) triangulateCube(block->corner, {i & 7, i >> 3 & 7, i >> 6});
         }
-        assignCells();
+        assignTrianglesToCells();
         return std::move(mesh_);
     }
 
@@ -78,41 +78,42 @@ class MarchingTetrahedra {
     // Sets inside_: for each corner of the cubes of a block, whether the corner is inside the surface. The cubes of the
     // block at `corner` are those with their lowest corner in the block, so some of their corners are in adjacent
     // blocks.
-    void load(const glm::ivec3& corner) {
+    void loadInsideFlags(const glm::ivec3& corner) {
         inside_.fill(false);
         for (unsigned c = 0; c < 8; ++c) {
-            const SampledField::ValueBlock* block = field_.find(corner + kSide * offset(c));
+            const SampledField::ValueBlock* block = field_.find(corner + kSide * cornerOffset(c));
             if (block == nullptr) continue;
-            const glm::ivec3 shift = kSide * offset(c);
-            const glm::ivec3 count = glm::mix(glm::ivec3(kSide), glm::ivec3(1), glm::bvec3(offset(c)));
+            const glm::ivec3 shift = kSide * cornerOffset(c);
+            const glm::ivec3 count = glm::mix(glm::ivec3(kSide), glm::ivec3(1), glm::bvec3(cornerOffset(c)));
             for (int z = 0; z < count.z; ++z) {
                 for (int y = 0; y < count.y; ++y) {
                     for (int x = 0; x < count.x; ++x) {
-                        inside_[slot(shift + glm::ivec3(x, y, z))] = block->values[indexIn({x, y, z})] < 0;
+                        inside_[cornerIndexInBlock(shift + glm::ivec3(x, y, z))] =
+                            block->values[indexInBlock({x, y, z})] < 0;
                     }
                 }
             }
         }
     }
 
-    static int slot(const glm::ivec3& in) { return in.x + (kSide + 1) * (in.y + (kSide + 1) * in.z); }
+    static int cornerIndexInBlock(const glm::ivec3& in) { return in.x + (kSide + 1) * (in.y + (kSide + 1) * in.z); }
 
-    void cube(const glm::ivec3& block, const glm::ivec3& in) {
+    void triangulateCube(const glm::ivec3& block, const glm::ivec3& in) {
         unsigned inside = 0;
-        for (unsigned c = 0; c < 8; ++c) inside |= (inside_[slot(in + offset(c))] ? 1U : 0U) << c;
+        for (unsigned c = 0; c < 8; ++c) inside |= (inside_[cornerIndexInBlock(in + cornerOffset(c))] ? 1U : 0U) << c;
         if (inside == 0 || inside == 0xffU) return;
         const glm::ivec3 at = block + in;
         for (const auto& tetrahedron : kTetrahedra) {
             unsigned mask = 0;
             for (unsigned c = 0; c < 4; ++c) mask |= (inside >> tetrahedron[c] & 1U) << c;
-            if (mask != 0 && mask != 0xfU) section(at, tetrahedron, mask);
+            if (mask != 0 && mask != 0xfU) addSection(at, tetrahedron, mask);
         }
     }
 
-    void section(const glm::ivec3& at, const std::array<unsigned, 4>& tetrahedron, unsigned mask) {
+    void addSection(const glm::ivec3& at, const std::array<unsigned, 4>& tetrahedron, unsigned mask) {
         std::array<unsigned, 4> v{};
         for (unsigned c = 0; c < 4; ++c) v[c] = tetrahedron[kOrder[mask][c]];
-        const auto corner = [&](unsigned i, unsigned o) { return vertex(at, v[i], v[o]); };
+        const auto corner = [&](unsigned i, unsigned o) { return findOrAddVertex(at, v[i], v[o]); };
         const int count = std::popcount(mask);
         if (count == 2) {
             const std::array<std::uint32_t, 4> q{corner(0, 2), corner(0, 3), corner(1, 3), corner(1, 2)};
@@ -128,17 +129,17 @@ class MarchingTetrahedra {
     // Returns the index of the mesh point on the edge from the corner `inside` to the corner `outside` of the cube at
     // `at`. Creates the point at the first call. A corner is a set of bits (see offset()). On every edge of a
     // tetrahedron, the bits of one end are a subset of the bits of the other end.
-    std::uint32_t vertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
-        const glm::ivec3 lower = at + offset(inside & outside);
-        auto& ids = blockIdsOf(lower);
-        std::uint32_t& id = ids[static_cast<std::size_t>(indexIn(lower)) * 7 + (inside ^ outside) - 1];
+    std::uint32_t findOrAddVertex(const glm::ivec3& at, unsigned inside, unsigned outside) {
+        const glm::ivec3 lower = at + cornerOffset(inside & outside);
+        auto& ids = edgePointsOfBlock(lower);
+        std::uint32_t& id = ids[static_cast<std::size_t>(indexInBlock(lower)) * 7 + (inside ^ outside) - 1];
         if (id == kNone) {
             id = static_cast<std::uint32_t>(mesh_.points.size());
             // The least distance of a crossing from each end of its edge, as a fraction of the edge. Crossings on two
             // edges with a common end are therefore several grid steps apart.
             const double off = std::min(1.0 / 12, 6 * grid_.step() / field_.step());
-            const glm::ivec3 from = at + offset(inside);
-            const glm::ivec3 to = at + offset(outside);
+            const glm::ivec3 from = at + cornerOffset(inside);
+            const glm::ivec3 to = at + cornerOffset(outside);
             const EdgeCrossing cross = crossing_(from, to);
             const double part = std::clamp(cross.fraction, off, 1 - off);
             mesh_.points.push_back(grid_.snap(glm::mix(field_.positionOf(from), field_.positionOf(to), part)));
@@ -149,7 +150,7 @@ class MarchingTetrahedra {
 
     // Assigns each triangle to the cell of at least two of its corners. If all three corners have different cells,
     // assigns the triangle to the cell of the first corner.
-    void assignCells() {
+    void assignTrianglesToCells() {
         for (const auto& [a, b, c] : mesh_.triangles) {
             mesh_.cells.push_back(pointCells_[b] == pointCells_[c] ? pointCells_[b] : pointCells_[a]);
         }
@@ -159,8 +160,8 @@ class MarchingTetrahedra {
     // Returns the table of mesh points for the block that contains `point`. Each field point of the block has seven
     // entries, one for each direction of offset(): the index of the mesh point on the edge in this direction, or kNone.
     // Creates the table at the first call.
-    EdgePointIndices& blockIdsOf(const glm::ivec3& point) {
-        const std::uint64_t key = keyOf(point);
+    EdgePointIndices& edgePointsOfBlock(const glm::ivec3& point) {
+        const std::uint64_t key = pointKey(point);
         if (last_ == nullptr || lastKey_ != key) {
             auto& ids = ids_[key];
             if (!ids) {
@@ -176,7 +177,7 @@ class MarchingTetrahedra {
     const SampledField& field_;
     const CrossingFinder& crossing_;
     const RoundingGrid& grid_;
-    const Budget& budget_;
+    const ExportBudget& budget_;
     Mesh mesh_;
     std::vector<std::uint32_t> pointCells_;
     std::array<bool, (kSide + 1) * (kSide + 1) * (kSide + 1)> inside_{};
@@ -192,7 +193,7 @@ glm::ivec3 SampledField::floorIndex(const glm::dvec3& place) const { return {glm
 float& SampledField::operator[](const glm::ivec3& point) {
     const glm::ivec3 corner = blockOf(point) * kSide;
     if (last_ == nullptr || last_->corner != corner) {
-        auto& block = blocks_[keyOf(point)];
+        auto& block = blocks_[pointKey(point)];
         if (!block) {
             block = std::make_unique<ValueBlock>();
             block->corner = corner;
@@ -200,17 +201,17 @@ float& SampledField::operator[](const glm::ivec3& point) {
         }
         last_ = block.get();
     }
-    return last_->values[indexIn(point)];
+    return last_->values[indexInBlock(point)];
 }
 
 const SampledField::ValueBlock* SampledField::find(const glm::ivec3& point) const {
-    const auto found = blocks_.find(keyOf(point));
+    const auto found = blocks_.find(pointKey(point));
     return found == blocks_.end() ? nullptr : found->second.get();
 }
 
 float SampledField::value(const glm::ivec3& point) const {
     const ValueBlock* block = find(point);
-    return block != nullptr ? block->values[indexIn(point)] : std::numeric_limits<float>::infinity();
+    return block != nullptr ? block->values[indexInBlock(point)] : std::numeric_limits<float>::infinity();
 }
 
 std::vector<const SampledField::ValueBlock*> SampledField::blocks() const {
@@ -223,11 +224,11 @@ std::vector<const SampledField::ValueBlock*> SampledField::blocks() const {
 }
 
 Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
-                     const Budget& budget) {
-    return MarchingTetrahedra(field, crossing, grid, budget).run();
+                     const ExportBudget& budget) {
+    return MarchingTetrahedra(field, crossing, grid, budget).march();
 }
 
-CrossingFinder linearCrossing(const SampledField& field) {
+CrossingFinder linearCrossingFinder(const SampledField& field) {
     return [&field](const glm::ivec3& inside, const glm::ivec3& outside) {
         const double in = field.value(inside);
         const double out = field.value(outside);

@@ -91,10 +91,10 @@ inline constexpr double kLeastFieldStep = 24, kGoodFieldStep = 64;
 /// rounding, because crossings are kept away from the ends of their edges. From kGoodFieldStep on, rounding hardly
 /// changes the shapes of triangles.
 Mesh marchTetrahedra(const SampledField& field, const CrossingFinder& crossing, const RoundingGrid& grid,
-                     const Budget& budget);
+                     const ExportBudget& budget);
 
 /// Returns a function that finds crossings by linear interpolation of `field` along an edge. EdgeCrossing::cell of
 /// these crossings is kNoCell. `field` must outlive the function.
-CrossingFinder linearCrossing(const SampledField& field);
+CrossingFinder linearCrossingFinder(const SampledField& field);
 
 }  // namespace oval4d::exports

@@ -16,7 +16,7 @@ RoundingGrid::RoundingGrid(double size, double extent) {
     step_ = std::exp2(std::ceil(std::log2(needed)));
 }
 
-RoundingGrid RoundingGrid::forDoubles(double size, double extent) {
+RoundingGrid RoundingGrid::forDoublePrecision(double size, double extent) {
     // A double has 53 significant bits. So the sum of a point and a position, both on the grid, is exact.
     RoundingGrid grid(size, extent);
     grid.step_ = std::exp2(std::ceil(std::log2(std::max(size * 0x1p-40, extent * 0x1p-50))));

@@ -55,7 +55,7 @@ class RoundingGrid {
     RoundingGrid(double size, double extent);
     /// Returns a much finer grid, for formats with 64-bit floats. The step of this grid is the smallest power of two
     /// that is at least size / 2^40 and at least extent / 2^50.
-    static RoundingGrid forDoubles(double size, double extent);
+    static RoundingGrid forDoublePrecision(double size, double extent);
 
     /// Returns the distance between neighboring grid points in millimeters, a power of two.
     double step() const { return step_; }

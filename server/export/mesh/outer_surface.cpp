@@ -27,7 +27,8 @@ struct FanTriangle {
 
 class OuterSurfaceMesher {
   public:
-    OuterSurfaceMesher(const slicing::SliceSet& slices, int i, double scale, const Budget& budget) : budget_(budget) {
+    OuterSurfaceMesher(const slicing::SliceSet& slices, int i, double scale, const ExportBudget& budget)
+        : budget_(budget) {
         for (std::uint32_t v = slices.vertexBegin[i]; v < slices.vertexBegin[i + 1]; ++v) {
             points_.push_back(slices.vertices[v] * scale);
             box_.include(points_.back());
@@ -41,14 +42,14 @@ class OuterSurfaceMesher {
         }
     }
 
-    Mesh mesh(const RoundingGrid& grid) {
+    Mesh makeMesh(const RoundingGrid& grid) {
         const glm::dvec3 size = box_.size();
         const double cube = std::max({size.x, size.y, size.z}) / kCubes;
         if (!(cube > kGoodFieldStep * grid.step())) return {};
         // The offset keeps the points of the field away from the symmetry planes of the slice. On these planes, points
         // might lie exactly on faces.
         SampledField field(box_.min - glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
-        fill(field);
+        markInterior(field);
         sortIntoBoxes(4 * cube);
         return marchTetrahedra(
             field,
@@ -71,8 +72,8 @@ class OuterSurfaceMesher {
     // Returns −1 if the edge from a to b, projected to the yz-plane, crosses the ray y = row.y, z > row.z in the
     // direction +y; 1 if it crosses the ray in the direction −y; else 0. The results for (a, b) and (b, a) are exactly
     // opposite. So despite rounding, a closed surface crosses every line along x equally often in both directions.
-    int signedCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
-        if (a > b) return -signedCrossing(b, a, row);
+    int signedRayCrossing(std::uint32_t a, std::uint32_t b, const glm::dvec3& row) const {
+        if (a > b) return -signedRayCrossing(b, a, row);
         const glm::dvec3& p = points_[a];
         const glm::dvec3& q = points_[b];
         if ((p.y <= row.y) == (q.y <= row.y)) return 0;
@@ -83,7 +84,7 @@ class OuterSurfaceMesher {
 
     /// Sets the field to −1 at all points inside the surface. Works through the lines of points along x, one after
     /// another.
-    void fill(SampledField& field) const {
+    void markInterior(SampledField& field) const {
         std::unordered_map<std::uint64_t, std::vector<LineCrossing>> lines;
         for (const FanTriangle& triangle : triangles_) {
             const auto [a, b, c] = triangle.corners;
@@ -96,11 +97,11 @@ class OuterSurfaceMesher {
                 for (int j = least.y; j <= most.y; ++j) {
                     const glm::dvec3 row = field.positionOf({0, j, k});
                     const int windingChange =
-                        signedCrossing(a, b, row) + signedCrossing(b, c, row) + signedCrossing(c, a, row);
+                        signedRayCrossing(a, b, row) + signedRayCrossing(b, c, row) + signedRayCrossing(c, a, row);
                     if (windingChange == 0) continue;
                     const glm::dvec3 to = row - points_[a];
                     const double x = points_[a].x - (normal.y * to.y + normal.z * to.z) / normal.x;
-                    lines[key(j, k)].push_back({std::clamp(x, box.min.x, box.max.x), windingChange, triangle.cell});
+                    lines[lineKey(j, k)].push_back({std::clamp(x, box.min.x, box.max.x), windingChange, triangle.cell});
                 }
             }
         }
@@ -145,7 +146,7 @@ class OuterSurfaceMesher {
                 for (int y = least.y; y <= most.y; ++y) {
                     for (int x = least.x; x <= most.x; ++x) {
                         const glm::dvec3 middle = box_.min + width * (glm::dvec3(x, y, z) + 0.5);
-                        if (std::abs(glm::dot(middle - base, normal)) <= reach) boxes_[key({x, y, z})].push_back(p);
+                        if (std::abs(glm::dot(middle - base, normal)) <= reach) boxes_[boxKey({x, y, z})].push_back(p);
                     }
                 }
             }
@@ -161,7 +162,7 @@ class OuterSurfaceMesher {
         for (int z = least.z; z <= most.z; ++z) {
             for (int y = least.y; y <= most.y; ++y) {
                 for (int x = least.x; x <= most.x; ++x) {
-                    const auto found = boxes_.find(key({x, y, z}));
+                    const auto found = boxes_.find(boxKey({x, y, z}));
                     if (found != boxes_.end()) near.insert(near.end(), found->second.begin(), found->second.end());
                 }
             }
@@ -197,15 +198,15 @@ class OuterSurfaceMesher {
 
     glm::ivec3 boxAt(const glm::dvec3& place) const { return {glm::floor((place - box_.min) / width_)}; }
     static constexpr int kShift = 1 << 20;
-    static std::uint64_t key(int j, int k) {
+    static std::uint64_t lineKey(int j, int k) {
         return std::uint64_t{static_cast<std::uint32_t>(j + kShift)} << 32U | static_cast<std::uint32_t>(k + kShift);
     }
-    static std::uint64_t key(const glm::ivec3& box) {
+    static std::uint64_t boxKey(const glm::ivec3& box) {
         const auto bits = [](int i) { return std::uint64_t{static_cast<std::uint32_t>(i + kShift)}; };
         return bits(box.z) << 42U | bits(box.y) << 21U | bits(box.x);
     }
 
-    const Budget& budget_;
+    const ExportBudget& budget_;
     std::vector<glm::dvec3> points_;
     std::vector<FanTriangle> triangles_;
     BoundingBox box_;
@@ -216,8 +217,8 @@ class OuterSurfaceMesher {
 }  // namespace
 
 Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
-                    const Budget& budget) {
-    return OuterSurfaceMesher(slices, i, scale, budget).mesh(grid);
+                    const ExportBudget& budget) {
+    return OuterSurfaceMesher(slices, i, scale, budget).makeMesh(grid);
 }
 
 }  // namespace oval4d::exports

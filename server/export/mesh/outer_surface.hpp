@@ -13,6 +13,6 @@ namespace oval4d::exports {
 /// width of a cube. `scale` is in millimeters per unit of the polytope. Returns an empty mesh if no corner of a cube is
 /// inside, or if cubes are at most 64 steps of `grid` wide. Throws ExportRefused if `budget` is exceeded.
 Mesh outerSurfaceOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
-                    const Budget& budget);
+                    const ExportBudget& budget);
 
 }  // namespace oval4d::exports

@@ -100,7 +100,7 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
 }
 
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
-                const RoundingGrid& grid, const Budget& budget) {
+                const RoundingGrid& grid, const ExportBudget& budget) {
     // The offset keeps sample points off the symmetry planes of the polytope. On these planes, many samples could be
     // exactly 0, and triangles with corners there would degenerate.
     SampledField field(glm::dvec3(0.371, 0.217, 0.449) * cube, cube);
@@ -108,7 +108,7 @@ Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const Skel
         budget.checkTimeAndStop();
         addCapsule(capsule, field);
     }
-    return marchTetrahedra(field, linearCrossing(field), grid, budget);
+    return marchTetrahedra(field, linearCrossingFinder(field), grid, budget);
 }
 
 }  // namespace oval4d::exports

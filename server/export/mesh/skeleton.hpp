@@ -24,6 +24,6 @@ double estimateTriangles(const slicing::SliceSet& slices, double scale, const Sk
 /// Returns the skeleton of slice i, meshed by marching tetrahedra. The cubes are `cube` millimeters wide. `scale` is in
 /// millimeters per unit of the polytope. Throws ExportRefused if `budget` is exceeded.
 Mesh skeletonOf(const slicing::SliceSet& slices, int i, double scale, const SkeletonRadii& radii, double cube,
-                const RoundingGrid& grid, const Budget& budget);
+                const RoundingGrid& grid, const ExportBudget& budget);
 
 }  // namespace oval4d::exports

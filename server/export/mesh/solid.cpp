@@ -16,7 +16,7 @@ namespace oval4d::exports {
 
 namespace {
 
-using Loop = std::vector<std::uint32_t>;
+using VertexLoop = std::vector<std::uint32_t>;
 
 std::span<const std::uint32_t> cornersOf(const slicing::SliceSet& slices, std::uint32_t face) {
     return {slices.corners.data() + slices.cornerBegin[face], slices.cornerBegin[face + 1] - slices.cornerBegin[face]};
@@ -41,7 +41,7 @@ glm::dvec3 unitNormalOfFace(const slicing::SliceSet& slices, int i, std::uint32_
 }
 
 /// Returns whether the slice is convex: it lies on the inner side of every face, apart from rounding errors.
-bool isConvex(const slicing::SliceSet& slices, int i, const Budget& budget) {
+bool isConvex(const slicing::SliceSet& slices, int i, const ExportBudget& budget) {
     const glm::dvec3* points = slices.vertices.data() + slices.vertexBegin[i];
     const std::size_t count = slices.vertexCount(i);
     double extent = 0;
@@ -75,8 +75,8 @@ class WeldedVertices {
     }
     /// Converts the corners of a face from indices of the slice's vertices to indices into points(). Leaves out edges
     /// of length zero.
-    Loop loop(std::span<const std::uint32_t> corners) const {
-        Loop out;
+    VertexLoop weldedLoop(std::span<const std::uint32_t> corners) const {
+        VertexLoop out;
         for (const std::uint32_t corner : corners) {
             if (out.empty() || out.back() != index_[corner]) out.push_back(index_[corner]);
         }
@@ -92,7 +92,7 @@ class WeldedVertices {
 
 /// Triangulates a convex loop as a fan from one corner. Chooses the corner that maximizes the area of the smallest
 /// triangle.
-void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh, const Budget& budget) {
+void triangulateConvexLoop(const VertexLoop& loop, std::uint32_t cell, Mesh& mesh, const ExportBudget& budget) {
     const std::size_t n = loop.size();
     std::size_t best = 0;
     double bestLeast = -1;
@@ -112,13 +112,14 @@ void addConvex(const Loop& loop, std::uint32_t cell, Mesh& mesh, const Budget& b
     for (std::size_t c = 1; c + 1 < n; ++c) mesh.add(loop[best], loop[(best + c) % n], loop[(best + c + 1) % n], cell);
 }
 
-Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget) {
+Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
+                 const ExportBudget& budget) {
     const WeldedVertices welded(slices, i, scale, grid);
     Mesh mesh;
     mesh.points = welded.points();
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f) {
-        const Loop loop = welded.loop(cornersOf(slices, f));
-        if (loop.size() > 2) addConvex(loop, slices.faceSource[f], mesh, budget);
+        const VertexLoop weldedLoop = welded.weldedLoop(cornersOf(slices, f));
+        if (weldedLoop.size() > 2) triangulateConvexLoop(weldedLoop, slices.faceSource[f], mesh, budget);
     }
     return mesh;
 }
@@ -127,7 +128,7 @@ Mesh convexSolid(const slicing::SliceSet& slices, int i, double scale, const Rou
 /// vertices of the slice become equal on the grid, because two rounded faces may then share several edges. Each
 /// triangle gets the cell of the slice face with the most similar normal.
 Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const RoundingGrid& grid,
-                const Budget& budget) {
+                const ExportBudget& budget) {
     Mesh hull = convexHullOfGridPoints(faces.points, grid, &budget);
     std::vector<std::pair<glm::dvec3, std::uint32_t>> normals;
     for (std::uint32_t f = slices.faceBegin[i]; f < slices.faceBegin[i + 1]; ++f)
@@ -144,7 +145,8 @@ Mesh convexHull(const slicing::SliceSet& slices, int i, const Mesh& faces, const
 
 }  // namespace
 
-Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget) {
+Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
+             const ExportBudget& budget) {
     if (slices.faceCount(i) < 4) return {};
     if (isConvex(slices, i, budget)) {
         Mesh mesh = convexSolid(slices, i, scale, grid, budget);

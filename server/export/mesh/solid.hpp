@@ -13,6 +13,7 @@ namespace oval4d::exports {
 /// body is then bounded by the slice's outer surface (see outer_surface.hpp). Returns an empty mesh if the slice has
 /// fewer than four faces, or if the rounded body has no volume (see isThickEnough()). Throws ExportRefused if `budget`
 /// is exceeded.
-Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid, const Budget& budget);
+Mesh solidOf(const slicing::SliceSet& slices, int i, double scale, const RoundingGrid& grid,
+             const ExportBudget& budget);
 
 }  // namespace oval4d::exports

@@ -25,7 +25,7 @@ struct TessellatorData {
 
 using TessellatorCorner = decltype(TessellatorData::corners)::value_type;
 
-void begin(GLenum /*kind*/, void* to) { static_cast<TessellatorData*>(to)->contours.emplace_back(); }
+void beginContour(GLenum /*kind*/, void* to) { static_cast<TessellatorData*>(to)->contours.emplace_back(); }
 
 void vertex(void* data, void* to) {
     auto* tessellation = static_cast<TessellatorData*>(to);
@@ -35,16 +35,16 @@ void vertex(void* data, void* to) {
 }
 
 // An empty callback. If it is registered, GLU outputs separate triangles instead of strips and fans.
-void edgeFlag(GLboolean /*flag*/, void* /*to*/) {}
+void ignoreEdgeFlag(GLboolean /*flag*/, void* /*to*/) {}
 
-void combine(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {
+void addCrossing(GLdouble* at, void** /*joined*/, GLfloat* /*weights*/, void** made, void* to) {
     auto* tessellation = static_cast<TessellatorData*>(to);
     tessellation->crossed = true;
     tessellation->corners.push_back({{at[0], at[1], at[2]}, 0xffffffffU});
     *made = &tessellation->corners.back();
 }
 
-void fail(GLenum /*code*/, void* to) { static_cast<TessellatorData*>(to)->failed = true; }
+void recordFailure(GLenum /*code*/, void* to) { static_cast<TessellatorData*>(to)->failed = true; }
 
 template <typename Function>
 _GLUfuncptr callback(Function* function) {
@@ -57,11 +57,11 @@ TessellatorData tessellate(const std::vector<Contour>& contours, bool outline) {
     gluTessProperty(tess.get(), GLU_TESS_WINDING_RULE, GLU_TESS_WINDING_NONZERO);
     gluTessProperty(tess.get(), GLU_TESS_BOUNDARY_ONLY, outline ? GL_TRUE : GL_FALSE);
     gluTessNormal(tess.get(), 0, 0, 1);
-    gluTessCallback(tess.get(), GLU_TESS_BEGIN_DATA, callback(&begin));
+    gluTessCallback(tess.get(), GLU_TESS_BEGIN_DATA, callback(&beginContour));
     gluTessCallback(tess.get(), GLU_TESS_VERTEX_DATA, callback(&vertex));
-    gluTessCallback(tess.get(), GLU_TESS_COMBINE_DATA, callback(&combine));
-    gluTessCallback(tess.get(), GLU_TESS_ERROR_DATA, callback(&fail));
-    if (!outline) gluTessCallback(tess.get(), GLU_TESS_EDGE_FLAG_DATA, callback(&edgeFlag));
+    gluTessCallback(tess.get(), GLU_TESS_COMBINE_DATA, callback(&addCrossing));
+    gluTessCallback(tess.get(), GLU_TESS_ERROR_DATA, callback(&recordFailure));
+    if (!outline) gluTessCallback(tess.get(), GLU_TESS_EDGE_FLAG_DATA, callback(&ignoreEdgeFlag));
     gluTessBeginPolygon(tess.get(), &tessellation);
     for (const Contour& contour : contours) {
         gluTessBeginContour(tess.get());

@@ -15,7 +15,7 @@ namespace oval4d::fields {
 
 namespace {
 
-SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
+SampleStorage checkedSamples(SampleStorage samples, const Shape& shape, bool eager) {
     if (samples.values().size() != sampleCount(shape))
         throw std::invalid_argument("the number of samples does not match the shape of the array");
     samples.expectAccess(eager ? SampleStorage::AccessOrder::sequential : SampleStorage::AccessOrder::random);
@@ -26,7 +26,7 @@ SampleStorage checked(SampleStorage samples, const Shape& shape, bool eager) {
 // `min` to `max` depend. Rounding to floats and LatticeAxis::continuousIndex() are monotonic, so every float from `min`
 // to `max` has a position between those of the two rounded ends. If `min` or `max` is NaN, returns the first and the
 // last sample of the axis.
-std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, double min, double max) {
+std::pair<std::size_t, std::size_t> sampleIndicesBetween(const LatticeAxis& axis, double min, double max) {
     const auto position = [&](double coordinate) { return axis.continuousIndex(static_cast<float>(coordinate)); };
     const float first = std::isnan(min) || std::isnan(max) ? 0 : std::floor(position(min));
     const float last = std::isnan(min) || std::isnan(max) ? axis.last : std::ceil(position(max));
@@ -38,9 +38,9 @@ std::pair<std::size_t, std::size_t> samplesBetween(const LatticeAxis& axis, doub
 ArrayFunction::ArrayFunction(const Shape& shape, const Box& box, SampleStorage samples, std::size_t eagerSamples)
     : lattice_(shape, box),
       eagerSamples_(eagerSamples),
-      samples_(checked(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
-      bricks_({lattice_, samples_.values().data()}, isEager()),
-      coarser_(isEager() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
+      samples_(checkedSamples(std::move(samples), shape, sampleCount(shape) <= eagerSamples)),
+      bricks_({lattice_, samples_.values().data()}, hasReadSamples()),
+      coarser_(hasReadSamples() && this->samples().size() > kMaxSamplesWithoutCoarser ? downsampled() : nullptr) {
     samples_.expectAccess(SampleStorage::AccessOrder::random);
     releasePages();
 }
@@ -58,7 +58,8 @@ ValueBounds ArrayFunction::boundsIn(const Box& region) const {
     SampleIndexRange range{};
     for (std::size_t i = 0; i < 4; ++i) {
         const auto axis = static_cast<glm::length_t>(i);
-        std::tie(range.first[i], range.last[i]) = samplesBetween(lattice_.axes[i], region.min[axis], region.max[axis]);
+        std::tie(range.first[i], range.last[i]) =
+            sampleIndicesBetween(lattice_.axes[i], region.min[axis], region.max[axis]);
     }
     ValueBounds bounds = bricks_.boundsOf(range);
     if (!(bounds.min < bounds.max)) return bounds;
@@ -76,7 +77,7 @@ Shape ArrayFunction::selectionSize() const {
     return selectionShape(shape(), std::min(kSelectedSamples, eagerSamples_));
 }
 
-const ArrayFunction& ArrayFunction::selection() const {
+const ArrayFunction& ArrayFunction::sampleSelection() const {
     std::call_once(selected_, [&] {
         const Shape size = selectionSize();
         selection_ =
@@ -86,8 +87,8 @@ const ArrayFunction& ArrayFunction::selection() const {
     return *selection_;
 }
 
-const ScalarFunction& ArrayFunction::versionForSteps(std::span<const glm::dvec4> steps) const {
-    if (!isEager()) return selection().versionForSteps(steps);
+const ScalarFunction& ArrayFunction::downsampledForSteps(std::span<const glm::dvec4> steps) const {
+    if (!hasReadSamples()) return sampleSelection().downsampledForSteps(steps);
     const bool areLong = std::ranges::all_of(steps, [this](const glm::dvec4& step) {
         double squaredLength = 0;  // the squared length of the step, in cells
         for (std::size_t i = 0; i < 4; ++i) {
@@ -96,17 +97,17 @@ const ScalarFunction& ArrayFunction::versionForSteps(std::span<const glm::dvec4>
         }
         return squaredLength >= 4;
     });
-    return coarser_ != nullptr && areLong ? coarser_->versionForSteps(steps) : *this;
+    return coarser_ != nullptr && areLong ? coarser_->downsampledForSteps(steps) : *this;
 }
 
 void ArrayFunction::releasePages() const {
     // Samples that the constructor has read stay resident: reading them again would take longer than the interpolation.
-    if (!isEager() && samples_.file()) samples_.file()->releasePages();
+    if (!hasReadSamples() && samples_.file()) samples_.file()->releasePages();
 }
 
 std::size_t ArrayFunction::memoryBytes() const {
     std::size_t coarser = coarser_ == nullptr ? 0 : coarser_->memoryBytes();
-    if (!isEager()) {
+    if (!hasReadSamples()) {
         const std::size_t bytes = sampleCount(selectionSize()) * sizeof(float);
         coarser = bytes + bytes / 10;  // the selection, and a tenth more for its BrickBounds and its downsampled
                                        // versions

@@ -32,7 +32,7 @@ class ArrayFunction final : public ScalarFunction {
     static constexpr std::size_t kEagerSamples = std::size_t{1} << 27U;
     /// Arrays of up to this many samples have no coarser version, because slicing them is fast without one.
     static constexpr std::size_t kMaxSamplesWithoutCoarser = std::size_t{1} << 15U;
-    /// The maximum number of samples of a selection. versionForSteps() returns a selection for an array that the
+    /// The maximum number of samples of a selection. downsampledForSteps() returns a selection for an array that the
     /// constructor does not read.
     static constexpr std::size_t kSelectedSamples = std::size_t{1} << 20U;
 
@@ -47,23 +47,23 @@ class ArrayFunction final : public ScalarFunction {
 
     /// Writes the value and the gradient at each point (see ScalarFunction). The gradient belongs to the cell that
     /// contains the point; on a face between two cells, to the cell with the greater coordinates. Outside the box, it
-    /// is the gradient at the nearest point of the box, so it does not jump at the surface of the box. It is (0, 0, 0,
-    /// 0) if a corner of the cell is missing. Its component along an axis with one sample is 0.
+    /// is the gradient at the nearest point of the box, so the gradient does not jump at the surface of the box. The
+    /// gradient is (0, 0, 0, 0) if a corner of the cell is missing. Its component along an axis with one sample is 0.
     void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                               const GradientBatch& gradients) const override;
 
-    /// Returns bounds of the values in a region (see ScalarFunction). They are the bounds of all bricks that meet the
-    /// region (see BrickBounds), widened by the rounding error of the interpolation. `hasValueEverywhere` is false if a
-    /// sample of these bricks may be missing. It is also false if the difference of the bounds exceeds the largest
-    /// float, because an interpolated value may then be NaN. A region whose minimum or maximum along an axis is NaN
-    /// extends along the whole axis.
+    /// Returns bounds of the values in a region (see ScalarFunction). The result is the bounds of all bricks that meet
+    /// the region (see BrickBounds), widened by the rounding error of the interpolation. `hasValueEverywhere` is false
+    /// if a sample of these bricks may be missing. `hasValueEverywhere` is also false if the difference of the bounds
+    /// exceeds the largest float, because an interpolated value may then be NaN. A region whose minimum or maximum
+    /// along an axis is NaN extends along the whole axis.
     ValueBounds boundsIn(const Box& region) const override;
 
     /// Returns this array or a downsampled version: the coarsest version in which each step is at least one cell long.
     /// If a step is shorter than a cell of this array, returns this array. However, if the constructor has not read
     /// this array, returns a selection of at most kSelectedSamples of its samples, or a downsampled version of this
     /// selection.
-    const ScalarFunction& versionForSteps(std::span<const glm::dvec4> steps) const override;
+    const ScalarFunction& downsampledForSteps(std::span<const glm::dvec4> steps) const override;
 
     /// Releases the resident pages of the samples (see MappedFile::releasePages()). Does nothing if the samples are not
     /// in a mapped file, or if the constructor has read them.
@@ -73,7 +73,7 @@ class ArrayFunction final : public ScalarFunction {
 
     /// Returns the memory used, in bytes: by the BrickBounds, by the downsampled versions (at most about 1/15 of the
     /// memory of the samples), and by the samples unless they are in a mapped file. For an array that the constructor
-    /// has not read, includes the maximum that the BrickBounds and the selection of versionForSteps() may take.
+    /// has not read, includes the maximum that the BrickBounds and the selection of downsampledForSteps() may take.
     std::size_t memoryBytes() const override;
 
     const Shape& shape() const { return lattice_.shape; }
@@ -85,7 +85,7 @@ class ArrayFunction final : public ScalarFunction {
     /// considers only a selection of about 260,000 samples.
     const SampleStatistics& statistics() const { return bricks_.statistics(); }
     /// Returns whether statistics() considers all samples.
-    bool statisticsAreExact() const { return isEager(); }
+    bool statisticsAreExact() const { return hasReadSamples(); }
 
     /// Returns a coarser array with the same box and half as many cells along each axis, rounded up. A sample of the
     /// result is the mean of the interpolant over a box around the sample. Along each axis, this box is as long as a
@@ -96,17 +96,17 @@ class ArrayFunction final : public ScalarFunction {
 
   private:
     // Returns whether the constructor has read the samples.
-    bool isEager() const { return samples().size() <= eagerSamples_; }
+    bool hasReadSamples() const { return samples().size() <= eagerSamples_; }
     Shape selectionSize() const;
-    const ArrayFunction& selection() const;
+    const ArrayFunction& sampleSelection() const;
 
     const Lattice lattice_;
     const std::size_t eagerSamples_;
     const SampleStorage samples_;
     const BrickBounds bricks_;
     const std::shared_ptr<const ArrayFunction> coarser_;  // the result of downsampled(); null for small arrays, and
-                                                          // unless isEager()
-    // The selection for versionForSteps(), which is made when it is first needed; always null if isEager().
+                                                          // unless hasReadSamples()
+    // The selection for downsampledForSteps(), which is made when it is first needed; always null if hasReadSamples().
     mutable std::once_flag selected_;
     mutable std::shared_ptr<const ArrayFunction> selection_;
 };

@@ -20,7 +20,7 @@ constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 // the entry atomically. The lowest bit of the stored maximum is 1 if a sample is missing, else 0. If the maximum has
 // another lowest bit, the next greater float with the right bit is stored. A minimum of 0 is stored as −0, so no entry
 // is 0: the number 0 stands for an empty slot of the cache.
-std::uint64_t pack(const SampleStatistics& brick) {
+std::uint64_t packStatistics(const SampleStatistics& brick) {
     const bool missing = brick.missing > 0;
     float max = brick.max;
     if ((std::bit_cast<std::uint32_t>(max) & 1U) != (missing ? 1U : 0U)) max = std::nextafter(max, kInfinityF);
@@ -28,7 +28,7 @@ std::uint64_t pack(const SampleStatistics& brick) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(min)} << 32U | std::bit_cast<std::uint32_t>(max);
 }
 
-void join(ValueBounds& bounds, std::uint64_t entry) {
+void extendByEntry(ValueBounds& bounds, std::uint64_t entry) {
     const auto maxBits = static_cast<std::uint32_t>(entry);
     bounds.min = std::min(bounds.min, double{std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U))});
     bounds.max = std::max(bounds.max, double{std::bit_cast<float>(maxBits)});
@@ -50,7 +50,7 @@ void add(SampleStatistics& statistics, float sample) {
     statistics.max = std::max(statistics.max, sample);
 }
 
-const float* rowAt(const SampledLattice& from, const std::array<std::size_t, 4>& at) {
+const float* sampleRowAt(const SampledLattice& from, const std::array<std::size_t, 4>& at) {
     const auto& axes = from.lattice.axes;
     return from.samples + at[0] + at[1] * axes[1].stride + at[2] * axes[2].stride + at[3] * axes[3].stride;
 }
@@ -62,12 +62,12 @@ void visitRows(const SampledLattice& from, const SampleIndexRange& range, const 
     auto at = range.first;
     for (at[3] = range.first[3]; at[3] <= range.last[3]; ++at[3]) {
         for (at[2] = range.first[2]; at[2] <= range.last[2]; ++at[2]) {
-            for (at[1] = range.first[1]; at[1] <= range.last[1]; ++at[1]) visit(rowAt(from, at), at);
+            for (at[1] = range.first[1]; at[1] <= range.last[1]; ++at[1]) visit(sampleRowAt(from, at), at);
         }
     }
 }
 
-SampleIndexRange rangeOf(const Lattice& lattice, const std::array<std::size_t, 4>& brick) {
+SampleIndexRange sampleRangeOfBrick(const Lattice& lattice, const std::array<std::size_t, 4>& brick) {
     SampleIndexRange range{};
     for (std::size_t i = 0; i < 4; ++i) {
         range.first[i] = brick[i] * kCells;
@@ -88,7 +88,7 @@ SampleStatistics statisticsOf(const SampledLattice& from, const SampleIndexRange
 // Writes to `bricks` the statistics of a run: bricks that are neighbors along x, which together have the samples in
 // `range`. If a brick has missing samples, reads the brick again, to count these samples and leave them out of the
 // bounds.
-void readRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
+void readBrickRun(const SampledLattice& from, const SampleIndexRange& range, std::span<SampleStatistics> bricks) {
     std::array<float, kRun * kCells + 1> low, high, sum;  // sum: 0, or NaN if a sample of the column is missing
     const std::size_t count = range.last[0] - range.first[0] + 1;
     std::fill_n(low.begin(), count, kInfinityF);
@@ -121,8 +121,8 @@ void readRun(const SampledLattice& from, const SampleIndexRange& range, std::spa
 
 // Returns the number of missing samples of a brick, without samples on faces that the brick shares with an earlier
 // brick. So the sum over all bricks counts each sample once.
-std::size_t ownMissing(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
-    SampleIndexRange range = rangeOf(from.lattice, brick);
+std::size_t countMissingOnce(const SampledLattice& from, const std::array<std::size_t, 4>& brick) {
+    SampleIndexRange range = sampleRangeOfBrick(from.lattice, brick);
     for (std::size_t i = 0; i < 4; ++i) range.first[i] += brick[i] > 0 ? 1 : 0;
     return statisticsOf(from, range).missing;
 }
@@ -139,8 +139,8 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
     if (eager) {
         bricks.entries = eagerEntries_.emplace_back(count);
         levels_.push_back(bricks);
-        readAll();
-        while (levels_.back().entries.size() > 1) joinBricks();
+        readAllSamples();
+        while (levels_.back().entries.size() > 1) addPyramidLevel();
         return;
     }
     slotCount_ = std::min(std::bit_ceil(count), kMaxLazyBytes / sizeof(CacheSlot));
@@ -152,7 +152,7 @@ BrickBounds::BrickBounds(const SampledLattice& from, bool eager) : from_(from), 
     estimateStatistics();
 }
 
-void BrickBounds::readAll() {
+void BrickBounds::readAllSamples() {
     const PyramidLevel& level = levels_.front();
     const BrickIndex& size = level.size;
     std::array<SampleStatistics, kRun> run;
@@ -161,13 +161,13 @@ void BrickBounds::readAll() {
         BrickIndex brick{0, row % size[1], row / size[1] % size[2], row / size[1] / size[2]};
         for (; brick[0] < size[0]; brick[0] += kRun) {
             const std::size_t count = std::min(kRun, size[0] - brick[0]);
-            SampleIndexRange range = rangeOf(from_.lattice, brick);
+            SampleIndexRange range = sampleRangeOfBrick(from_.lattice, brick);
             range.last[0] = std::min(range.first[0] + count * kCells, from_.lattice.shape[0] - 1);
-            readRun(from_, range, std::span(run).first(count));
+            readBrickRun(from_, range, std::span(run).first(count));
             for (std::size_t i = 0; i < count; ++i) {
-                *entry++ = pack(run[i]);
+                *entry++ = packStatistics(run[i]);
                 if (run[i].missing > 0)
-                    run[i].missing = ownMissing(from_, {brick[0] + i, brick[1], brick[2], brick[3]});
+                    run[i].missing = countMissingOnce(from_, {brick[0] + i, brick[1], brick[2], brick[3]});
                 add(statistics_, run[i]);
             }
         }
@@ -189,7 +189,7 @@ void BrickBounds::estimateStatistics() {
 }
 
 // Adds a level to the pyramid. A brick of the new level joins up to 2⁴ bricks of the level below.
-void BrickBounds::joinBricks() {
+void BrickBounds::addPyramidLevel() {
     const PyramidLevel fine = levels_.back();
     PyramidLevel coarse;
     for (std::size_t i = 0; i < 4; ++i) coarse.size[i] = (fine.size[i] + 1) / 2;
@@ -199,13 +199,13 @@ void BrickBounds::joinBricks() {
         for (std::size_t k = 0; k < fine.size[2]; ++k) {
             for (std::size_t j = 0; j < fine.size[1]; ++j) {
                 const std::size_t row = ((l / 2 * coarse.size[2] + k / 2) * coarse.size[1] + j / 2) * coarse.size[0];
-                for (std::size_t i = 0; i < fine.size[0]; ++i) join(joined[row + i / 2], *entry++);
+                for (std::size_t i = 0; i < fine.size[0]; ++i) extendByEntry(joined[row + i / 2], *entry++);
             }
         }
     }
     coarse.entries = eagerEntries_.emplace_back(joined.size());
     std::transform(joined.begin(), joined.end(), coarse.entries.begin(), [](const ValueBounds& bounds) {
-        return pack(
+        return packStatistics(
             {static_cast<float>(bounds.min), static_cast<float>(bounds.max), bounds.hasValueEverywhere ? 0U : 1U});
     });
     levels_.push_back(coarse);
@@ -222,7 +222,7 @@ std::uint64_t BrickBounds::entryAt(const PyramidLevel& level, const BrickIndex& 
     std::uint64_t known = entry.load(std::memory_order_relaxed);
     if (known != 0 && (check.load(std::memory_order_relaxed) ^ known) == index) return known;
     // Several threads may compute this entry at the same time without a lock, because they store the same entry.
-    known = pack(statisticsOf(from_, rangeOf(from_.lattice, brick)));
+    known = packStatistics(statisticsOf(from_, sampleRangeOfBrick(from_.lattice, brick)));
     entry.store(known, std::memory_order_relaxed);
     check.store(known ^ index, std::memory_order_relaxed);
     return known;
@@ -252,7 +252,7 @@ ValueBounds BrickBounds::boundsOf(const SampleIndexRange& range) const {
     for (at[3] = first[3]; at[3] <= last[3]; ++at[3]) {
         for (at[2] = first[2]; at[2] <= last[2]; ++at[2]) {
             for (at[1] = first[1]; at[1] <= last[1]; ++at[1]) {
-                for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) join(bounds, entryAt(*level, at));
+                for (at[0] = first[0]; at[0] <= last[0]; ++at[0]) extendByEntry(bounds, entryAt(*level, at));
             }
         }
     }

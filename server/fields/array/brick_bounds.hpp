@@ -1,5 +1,6 @@
 #pragma once
-// Bounds of an array's values in regions. They come from the minimum and maximum of each brick of 4 × 4 × 4 × 4 cells.
+// Bounds of an array's values in regions. The bounds come from the minimum and maximum of each brick of 4 × 4 × 4 × 4
+// cells.
 
 #include <array>
 #include <cstddef>
@@ -70,11 +71,11 @@ class BrickBounds {
         std::span<std::uint64_t> entries;
     };
 
-    void readAll();
+    void readAllSamples();
     /// Sets statistics_ to the statistics of a selection of samples, spread evenly over the array. Used for an array
     /// that is too large to be read in full.
     void estimateStatistics();
-    void joinBricks();
+    void addPyramidLevel();
     std::uint64_t entryAt(const PyramidLevel& level, const BrickIndex& brick) const;
 
     const SampledLattice from_;

@@ -40,7 +40,7 @@ double hatIntegral(double x) {
 
 // Returns the weights for an axis that is downsampled from `fine` to `coarse` samples. For each coarse sample, the sum
 // of the weights of all fine samples is 1.
-ScatterWeights weightsOf(std::size_t fine, std::size_t coarse) {
+ScatterWeights downsamplingWeights(std::size_t fine, std::size_t coarse) {
     ScatterWeights weights;
     const double length =
         coarse == fine ? 1 : static_cast<double>(fine - 1) / static_cast<double>(std::max<std::size_t>(coarse, 2) - 1);
@@ -63,10 +63,10 @@ ScatterWeights weightsOf(std::size_t fine, std::size_t coarse) {
 
 // For each sample in a row of the downsampled array, the weighted sum of samples of the original array and the sum of
 // the weights.
-struct RowSums {
+struct WeightedRowSums {
     std::vector<float> values, weights;
 
-    void assign(const float* row, const ScatterWeights& weightsOfX) {
+    void setFromRow(const float* row, const ScatterWeights& weightsOfX) {
         std::fill(values.begin(), values.end(), 0.F);
         std::fill(weights.begin(), weights.end(), 0.F);
         for (std::size_t i = 0; i < weightsOfX.size(); ++i) {
@@ -103,14 +103,14 @@ Shape downsampledShape(const Shape& shape) {
 std::vector<float> downsample(const Shape& shape, std::span<const float> samples) {
     const Shape size = downsampledShape(shape);
     std::array<ScatterWeights, 4> weights;
-    for (std::size_t i = 0; i < 4; ++i) weights[i] = weightsOf(shape[i], size[i]);
+    for (std::size_t i = 0; i < 4; ++i) weights[i] = downsamplingWeights(shape[i], size[i]);
     std::vector<float> sums(sampleCount(size)), weightSums(sums.size());
-    RowSums row{std::vector<float>(size[0]), std::vector<float>(size[0])};
+    WeightedRowSums row{std::vector<float>(size[0]), std::vector<float>(size[0])};
     const float* from = samples.data();
     for (std::size_t l = 0; l < shape[3]; ++l) {
         for (std::size_t k = 0; k < shape[2]; ++k) {
             for (std::size_t j = 0; j < shape[1]; ++j) {
-                row.assign(from, weights[0]);
+                row.setFromRow(from, weights[0]);
                 from += shape[0];
                 for (const CoarseSampleWeight& w : weights[3][l]) {
                     for (const CoarseSampleWeight& z : weights[2][k]) {

@@ -51,9 +51,9 @@ Batch subBatch(const Batch& batch, std::size_t begin, std::size_t count) {
 }
 
 // A batch of fewer than kLanes points, followed by points at the origin up to kLanes points.
-class PaddedBatch {
+class PaddedPointBatch {
   public:
-    explicit PaddedBatch(const PointBatch& points) {
+    explicit PaddedPointBatch(const PointBatch& points) {
         std::copy(points.x.begin(), points.x.end(), coordinates_[0].begin());
         std::copy(points.y.begin(), points.y.end(), coordinates_[1].begin());
         std::copy(points.z.begin(), points.z.end(), coordinates_[2].begin());
@@ -70,7 +70,7 @@ void interpolateWithAvx2(const SampledLattice& from, const PointBatch& points, s
     const std::size_t whole = points.size() / kLanes * kLanes, rest = points.size() - whole;
     avx2::interpolate(from, subBatch(points, 0, whole), values, gradients);
     if (rest == 0) return;
-    const PaddedBatch padded(subBatch(points, whole, rest));
+    const PaddedPointBatch padded(subBatch(points, whole, rest));
     std::array<float, kLanes> value{}, x{}, y{}, z{}, w{};
     const GradientBatch gradient{x, y, z, w};
     avx2::interpolate(from, padded.batch(), value, gradients != nullptr ? &gradient : nullptr);

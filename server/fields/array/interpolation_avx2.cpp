@@ -60,7 +60,8 @@ OVAL4D_AVX2 inline void putIntegers(__m256d numbers, std::int64_t* to) {
 }
 
 // Sets `cells` to the cells that contain the kLanes points from the index `begin` on.
-OVAL4D_AVX2 inline void locate(const AxisLanes* axes, const PointBatch& points, std::size_t begin, CellLanes& cells) {
+OVAL4D_AVX2 inline void locateCells(const AxisLanes* axes, const PointBatch& points, std::size_t begin,
+                                    CellLanes& cells) {
     const __m256 at[4] = {_mm256_loadu_ps(&points.x[begin]), _mm256_loadu_ps(&points.y[begin]),
                           _mm256_loadu_ps(&points.z[begin]), _mm256_loadu_ps(&points.w[begin])};
     cells.nan = _mm256_or_ps(_mm256_cmp_ps(at[0], at[1], _CMP_UNORD_Q), _mm256_cmp_ps(at[2], at[3], _CMP_UNORD_Q));
@@ -86,17 +87,16 @@ inline void prefetch(const float* samples, const CellRowOffsets& offsets, const 
     }
 }
 
-inline double pairAt(const float* at) {
+inline double loadPair(const float* at) {
     double pair;
     std::memcpy(&pair, at, sizeof pair);
     return pair;
 }
 
-// Loads one row from each of four cells. These loads are used because on some processors, gather instructions are
-// slower.
-OVAL4D_AVX2 inline PairLanes rowAt(const float* samples, const std::int64_t* first) {
-    return _mm256_castpd_ps(_mm256_set_pd(pairAt(samples + first[3]), pairAt(samples + first[2]),
-                                          pairAt(samples + first[1]), pairAt(samples + first[0])));
+// Loads one row from each of four cells. Does not use gather instructions, because they are slower on some processors.
+OVAL4D_AVX2 inline PairLanes loadRows(const float* samples, const std::int64_t* first) {
+    return _mm256_castpd_ps(_mm256_set_pd(loadPair(samples + first[3]), loadPair(samples + first[2]),
+                                          loadPair(samples + first[1]), loadPair(samples + first[0])));
 }
 
 // Interpolates along w, z and y in four cells. `first` holds the indices of the cells' first samples. y, z and w are
@@ -106,7 +106,7 @@ OVAL4D_AVX2 inline void interpolateAlongWzy(const float* samples, const CellRowO
                                             const std::int64_t* first, const __m256& y, const __m256& z,
                                             const __m256& w, InterpolatedAlongWzy& out) {
     PairLanes rows[kCellRows];
-    for (std::size_t row = 0; row < kCellRows; ++row) rows[row] = rowAt(samples + offsets[row], first);
+    for (std::size_t row = 0; row < kCellRows; ++row) rows[row] = loadRows(samples + offsets[row], first);
     PairLanes v[4];  // at (y, z) = (0, 0), (1, 0), (0, 1), (1, 1) of the cells
     for (std::size_t i = 0; i < 4; ++i) v[i] = mix(rows[i], rows[i + 4], w);
     const PairLanes y0 = mix(v[0], v[2], z), y1 = mix(v[1], v[3], z);
@@ -125,16 +125,16 @@ struct ValuesAtXEnds {
     __m256 low, high;
 };
 
-OVAL4D_AVX2 inline void split(const PairLanes& firstFour, const PairLanes& lastFour, ValuesAtXEnds& ends) {
+OVAL4D_AVX2 inline void splitXEnds(const PairLanes& firstFour, const PairLanes& lastFour, ValuesAtXEnds& ends) {
     const __m256i evenThenOdd = _mm256_setr_epi32(0, 2, 4, 6, 1, 3, 5, 7);
     const __m256 a = _mm256_permutevar8x32_ps(firstFour, evenThenOdd);
     const __m256 b = _mm256_permutevar8x32_ps(lastFour, evenThenOdd);
     ends = {_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31)};
 }
 
-OVAL4D_AVX2 inline __m256 mixEnds(const PairLanes& firstFour, const PairLanes& lastFour, const __m256& x) {
+OVAL4D_AVX2 inline __m256 interpolateAlongX(const PairLanes& firstFour, const PairLanes& lastFour, const __m256& x) {
     ValuesAtXEnds ends;
-    split(firstFour, lastFour, ends);
+    splitXEnds(firstFour, lastFour, ends);
     return mix(ends.low, ends.high, x);
 }
 
@@ -144,7 +144,7 @@ OVAL4D_AVX2 inline __m256 isFinite(const __m256& numbers) {
 }
 
 // Returns a mask of the lanes whose points lie on a face of their cell, so that some corners have the weight 0.
-OVAL4D_AVX2 inline __m256 onFaces(const CellLanes& cells) {
+OVAL4D_AVX2 inline __m256 maskOfPointsOnFaces(const CellLanes& cells) {
     __m256 faces = _mm256_setzero_ps();
     for (const __m256& t : cells.t) {
         const __m256 lower = _mm256_cmp_ps(t, _mm256_setzero_ps(), _CMP_EQ_OQ);
@@ -169,12 +169,12 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
     const __m256i lastFour = _mm256_setr_epi32(4, 4, 5, 5, 6, 6, 7, 7);
     CellLanes upcoming[kAhead];  // the cells of the next kAhead groups; group g has the index g % kAhead
     for (std::size_t i = 0; i < std::min(points.size(), kAhead * kLanes); i += kLanes)
-        locate(axes, points, i, upcoming[i / kLanes]);
+        locateCells(axes, points, i, upcoming[i / kLanes]);
     for (std::size_t i = 0; i < points.size(); i += kLanes) {
         CellLanes& next = upcoming[i / kLanes % kAhead];
         const CellLanes cells = next;
         if (const std::size_t ahead = i + kAhead * kLanes; ahead < points.size()) {
-            locate(axes, points, ahead, next);
+            locateCells(axes, points, ahead, next);
             prefetch(from.samples, offsets, next);
         }
         const __m256* const t = cells.t;
@@ -186,16 +186,16 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
             from.samples, offsets, cells.first.data() + 4, _mm256_permutevar8x32_ps(t[1], lastFour),
             _mm256_permutevar8x32_ps(t[2], lastFour), _mm256_permutevar8x32_ps(t[3], lastFour), last);
         ValuesAtXEnds ends;
-        split(first.value, last.value, ends);
+        splitXEnds(first.value, last.value, ends);
         const __m256 value = mix(ends.low, ends.high, t[0]);
         const __m256 finite = isFinite(value);
         const __m256 valid = _mm256_andnot_ps(cells.nan, finite);
         _mm256_storeu_ps(&values[i], _mm256_blendv_ps(_mm256_set1_ps(kNoValue), value, valid));
         if constexpr (kGradient) {
             const __m256 x = _mm256_mul_ps(_mm256_sub_ps(ends.high, ends.low), axes[0].scale);
-            const __m256 y = _mm256_mul_ps(mixEnds(first.dy, last.dy, t[0]), axes[1].scale);
-            const __m256 z = _mm256_mul_ps(mixEnds(first.dz, last.dz, t[0]), axes[2].scale);
-            const __m256 w = _mm256_mul_ps(mixEnds(first.dw, last.dw, t[0]), axes[3].scale);
+            const __m256 y = _mm256_mul_ps(interpolateAlongX(first.dy, last.dy, t[0]), axes[1].scale);
+            const __m256 z = _mm256_mul_ps(interpolateAlongX(first.dz, last.dz, t[0]), axes[2].scale);
+            const __m256 w = _mm256_mul_ps(interpolateAlongX(first.dw, last.dw, t[0]), axes[3].scale);
             const __m256 exists = _mm256_andnot_ps(cells.nan, _mm256_and_ps(_mm256_and_ps(isFinite(x), isFinite(y)),
                                                                             _mm256_and_ps(isFinite(z), isFinite(w))));
             _mm256_storeu_ps(&gradients.x[i], _mm256_and_ps(x, exists));
@@ -206,7 +206,8 @@ OVAL4D_AVX2 void interpolateBatch(const SampledLattice& from, const PointBatch& 
         if (_mm256_movemask_ps(valid) == 0xff) continue;
         // On a face of a cell, a corner that is not finite may have the weight 0. At such points, compute again by the
         // code that handles this case, if the result so far is not finite.
-        const int unknown = _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), onFaces(cells)));
+        const int unknown =
+            _mm256_movemask_ps(_mm256_andnot_ps(_mm256_or_ps(finite, cells.nan), maskOfPointsOnFaces(cells)));
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             if ((unknown >> lane & 1) == 0) continue;
             const std::size_t j = i + lane;

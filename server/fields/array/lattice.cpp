@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMaxCoordinate = 1e30;
 
-LatticeAxis axisOf(std::size_t samples, std::size_t stride, double min, double max) {
+LatticeAxis latticeAxisOf(std::size_t samples, std::size_t stride, double min, double max) {
     if (!(std::abs(min) <= kMaxCoordinate && std::abs(max) <= kMaxCoordinate && min <= max))
         throw std::invalid_argument("the box must have finite coordinates within ±1e30, and min must not exceed max");
     LatticeAxis axis;
@@ -36,7 +36,7 @@ Lattice::Lattice(const Shape& latticeShape, const Box& latticeBox) : shape(latti
     std::size_t stride = 1;
     for (std::size_t i = 0; i < axes.size(); ++i) {
         const auto axis = static_cast<glm::length_t>(i);
-        axes.at(i) = axisOf(shape.at(i), stride, box.min[axis], box.max[axis]);
+        axes.at(i) = latticeAxisOf(shape.at(i), stride, box.min[axis], box.max[axis]);
         stride *= shape.at(i);
     }
 }

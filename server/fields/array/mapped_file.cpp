@@ -18,7 +18,7 @@ namespace {
 
 /// An entry in the list of mapped files, in which the handler of SIGBUS looks for the address of a fault. A free entry
 /// has a `begin` of 0. The handler reads only atomic members, because a signal handler may not wait for a mutex.
-struct MappedRange {
+struct MappedFileRange {
     std::atomic<std::uintptr_t> begin = 0;
     std::atomic<std::size_t> size = 0;
     std::atomic<int> protection = 0;
@@ -28,13 +28,13 @@ struct MappedRange {
 static_assert(std::atomic<std::uintptr_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 constexpr std::size_t kMaxFiles = 4096;
-std::array<MappedRange, kMaxFiles> mappedRanges;  // global, because a signal handler has no arguments of its own
-std::mutex mappedRangesMutex;                     // locked while a thread takes or frees an entry
+std::array<MappedFileRange, kMaxFiles> mappedRanges;  // global, because a signal handler has no arguments of its own
+std::mutex mappedRangesMutex;                         // locked while a thread takes or frees an entry
 
 void onBusError(int number, siginfo_t* info, void* /*context*/) {
     const int fault = errno;
     const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
-    for (MappedRange& range : mappedRanges) {
+    for (MappedFileRange& range : mappedRanges) {
         const std::uintptr_t begin = range.begin.load();
         if (begin == 0 || address < begin || address - begin >= range.size.load()) continue;
         // One mapping of zeros replaces the whole file, because a process may have only a limited number of mappings. A
@@ -50,7 +50,7 @@ void onBusError(int number, siginfo_t* info, void* /*context*/) {
     std::signal(number, SIG_DFL);  // the failed instruction is repeated, and ends the process
 }
 
-void handleBusErrors() {
+void installBusErrorHandler() {
     static std::once_flag once;
     std::call_once(once, [] {
         struct sigaction action{};
@@ -80,7 +80,7 @@ Result<std::shared_ptr<MappedFile>> MappedFile::mapAs(MappingAccess access, int 
     if (status.st_size <= 0) return Error{ErrorCode::bad_field, "the file is empty"};
     const auto size = static_cast<std::size_t>(status.st_size);
     const int protection = access == MappingAccess::write ? PROT_READ | PROT_WRITE : PROT_READ;
-    handleBusErrors();
+    installBusErrorHandler();
     const std::lock_guard lock(mappedRangesMutex);
     std::size_t entry = 0;
     while (entry < kMaxFiles && mappedRanges[entry].begin != 0) ++entry;
@@ -91,7 +91,7 @@ Result<std::shared_ptr<MappedFile>> MappedFile::mapAs(MappingAccess access, int 
         return Error{ErrorCode::too_large, "the file is larger than the memory that may be used to read it"};
     if (at == MAP_FAILED)
         return Error{ErrorCode::internal, "the file cannot be mapped: " + std::generic_category().message(errno)};
-    MappedRange& range = mappedRanges[entry];
+    MappedFileRange& range = mappedRanges[entry];
     range.size = size;
     range.protection = protection;
     range.lost = false;
@@ -107,7 +107,7 @@ Result<MappedFilePtr> MappedFile::map(std::shared_ptr<const FileHandle> file) {
     return MappedFilePtr(std::move(*mapped));
 }
 
-Result<std::shared_ptr<MappedFile>> MappedFile::mapToWrite(std::shared_ptr<const FileHandle> file) {
+Result<std::shared_ptr<MappedFile>> MappedFile::mapForWriting(std::shared_ptr<const FileHandle> file) {
     const int descriptor = file->descriptor();
     return mapAs(MappingAccess::write, descriptor, std::move(file));
 }
@@ -125,7 +125,7 @@ MappedFile::~MappedFile() {
 }
 
 bool MappedFile::isLost() const {
-    const MappedRange& range = mappedRanges[entry_];
+    const MappedFileRange& range = mappedRanges[entry_];
     if (range.lost || !file_) return range.lost;
     // Any modification of the file since it was mapped counts as a loss, even if the file has its full size now.
     // Someone may have shortened and then restored it. In between, another process of the server that has mapped the

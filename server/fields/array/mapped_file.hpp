@@ -47,7 +47,7 @@ class MappedFile {
     /// mapped; `internal` if the system cannot map the file.
     static Result<std::shared_ptr<const MappedFile>> map(std::shared_ptr<const FileHandle> file);
     /// Maps an open file as map() does, but for reading and writing.
-    static Result<std::shared_ptr<MappedFile>> mapToWrite(std::shared_ptr<const FileHandle> file);
+    static Result<std::shared_ptr<MappedFile>> mapForWriting(std::shared_ptr<const FileHandle> file);
     /// Maps an open file as map(file) does, but does not keep it open: the caller may close `descriptor` after the
     /// call. The result's descriptor() returns −1.
     static Result<std::shared_ptr<const MappedFile>> map(int descriptor);
@@ -57,7 +57,7 @@ class MappedFile {
     MappedFile& operator=(const MappedFile&) = delete;
 
     std::span<const std::byte> bytes() const { return {at_, size_}; }
-    /// Returns the bytes for reading and writing. The file must have been mapped by mapToWrite().
+    /// Returns the bytes for reading and writing. The file must have been mapped by mapForWriting().
     std::span<std::byte> writableBytes() { return {at_, size_}; }
     int descriptor() const { return file_ ? file_->descriptor() : -1; }
 

@@ -9,14 +9,14 @@
 
 namespace oval4d::fields {
 
-/// Memory that results of SampleStorage::followedBy() share. Each result begins with the samples of the result that it
-/// extends. A result reads only its own samples, so another thread may append samples at the same time.
+/// Memory that results of SampleStorage::withAppended() share. Each result begins with the samples of the result that
+/// it extends. A result reads only its own samples, so another thread may append samples at the same time.
 struct SampleStorage::SharedGrowthBuffer {
     std::mutex mutex;
     std::vector<float> values;  // guarded by mutex; never reallocated, because results refer to it
 };
 
-SampleStorage SampleStorage::followedBy(std::span<const float> others) const {
+SampleStorage SampleStorage::withAppended(std::span<const float> others) const {
     const std::size_t count = values_.size() + others.size();
     if (growthBuffer_) {
         const std::lock_guard lock(growthBuffer_->mutex);
@@ -58,7 +58,7 @@ std::size_t SampleStorage::byteOffsetInFile() const {
     return static_cast<std::size_t>(reinterpret_cast<const std::byte*>(values_.data()) - file_->bytes().data());
 }
 
-void SampleStorage::advise(std::size_t first, std::size_t count, int advice) const {
+void SampleStorage::adviseKernel(std::size_t first, std::size_t count, int advice) const {
     if (!file_ || count == 0) return;
     static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
     const auto begin = reinterpret_cast<std::uintptr_t>(values_.data() + first) / page * page;
@@ -68,9 +68,9 @@ void SampleStorage::advise(std::size_t first, std::size_t count, int advice) con
 }
 
 void SampleStorage::expectAccess(AccessOrder access) const {
-    advise(0, values_.size(), access == AccessOrder::random ? MADV_RANDOM : MADV_SEQUENTIAL);
+    adviseKernel(0, values_.size(), access == AccessOrder::random ? MADV_RANDOM : MADV_SEQUENTIAL);
 }
 
-void SampleStorage::prefetch(std::size_t first, std::size_t count) const { advise(first, count, MADV_WILLNEED); }
+void SampleStorage::prefetch(std::size_t first, std::size_t count) const { adviseKernel(first, count, MADV_WILLNEED); }
 
 }  // namespace oval4d::fields

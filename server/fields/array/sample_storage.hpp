@@ -36,7 +36,7 @@ class SampleStorage {
     /// 1.5 times as many samples. However, copies only `others` if an earlier call has returned these samples, if
     /// nothing has been appended to them yet, and if their memory has room for `others`. The result then shares this
     /// memory. Thread-safe.
-    SampleStorage followedBy(std::span<const float> others) const;
+    SampleStorage withAppended(std::span<const float> others) const;
 
     /// The order in which samples of a mapped file are going to be read. `random` makes the system read only the pages
     /// that are needed; `sequential` makes it read ahead.
@@ -49,12 +49,12 @@ class SampleStorage {
 
   private:
     struct SharedGrowthBuffer;
-    void advise(std::size_t first, std::size_t count, int advice) const;
+    void adviseKernel(std::size_t first, std::size_t count, int advice) const;
 
     std::shared_ptr<const void> owner_;
     std::span<const float> values_;
     MappedFilePtr file_;
-    std::shared_ptr<SharedGrowthBuffer> growthBuffer_;  // the memory of the samples if followedBy() made this object;
+    std::shared_ptr<SharedGrowthBuffer> growthBuffer_;  // the memory of the samples if withAppended() made this object;
                                                         // else null
 };
 

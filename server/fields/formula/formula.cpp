@@ -11,7 +11,7 @@ namespace oval4d::fields {
 
 namespace {
 
-Error error(std::string_view text, FormulaMistake mistake, FormulaMistake* copy) {
+Error formulaError(std::string_view text, FormulaMistake mistake, FormulaMistake* copy) {
     Error result{ErrorCode::bad_expression,
                  text::inQuotes(text) + ", position " + std::to_string(mistake.position) + ": " + mistake.what};
     if (copy != nullptr) *copy = std::move(mistake);
@@ -23,10 +23,10 @@ Error error(std::string_view text, FormulaMistake mistake, FormulaMistake* copy)
 Formula::Formula(ParsedFormula parsed, const FormulaLimits& limits)
     : parsed_(std::make_shared<const ParsedFormula>(std::move(parsed))), limits_(limits) {
     const auto& [tree, constants] = *parsed_;
-    text_ = toText(tree, constants, true);
-    if (text_.size() > limits_.bytes) text_ = toText(tree, constants, false);
-    Graph graph;
-    const Graph::Ref result = buildGraph(tree, constants, graph);
+    text_ = formulaText(tree, constants, true);
+    if (text_.size() > limits_.bytes) text_ = formulaText(tree, constants, false);
+    OperationGraph graph;
+    const OperationGraph::NodeIndex result = buildGraph(tree, constants, graph);
     tape_ = std::make_shared<const Tape>(compile(graph, result));
 }
 
@@ -42,7 +42,7 @@ std::string Formula::exceededLimitMessage() const {
     return {};
 }
 
-Result<Formula> Formula::with(std::span<const FormulaConstant> values) const {
+Result<Formula> Formula::withConstants(std::span<const FormulaConstant> values) const {
     std::vector<FormulaConstant> constants = parsed_->constants;
     for (const auto& [name, value] : values) {
         const auto named = [&name = name](const FormulaConstant& constant) { return constant.name == name; };
@@ -73,10 +73,10 @@ std::size_t Formula::memoryBytes() const {
 Result<Formula> parseFormula(std::string_view text, FormulaMistake* mistake, const FormulaLimits& limits,
                              const Formula* shared) {
     auto parsed = parseSyntax(text, limits, shared == nullptr ? nullptr : &shared->parsed());
-    if (auto* wrong = std::get_if<FormulaMistake>(&parsed)) return error(text, std::move(*wrong), mistake);
+    if (auto* wrong = std::get_if<FormulaMistake>(&parsed)) return formulaError(text, std::move(*wrong), mistake);
     Formula formula(std::move(std::get<ParsedFormula>(parsed)), limits);
     if (std::string message = formula.exceededLimitMessage(); !message.empty())
-        return error(text, {1, std::move(message)}, mistake);
+        return formulaError(text, {1, std::move(message)}, mistake);
     return formula;
 }
 

@@ -24,7 +24,7 @@ class Formula {
     /// Returns this formula with other values of the constants that `values` names. Errors: `bad_expression` if the
     /// formula has no constant with such a name; `out_of_range` if a value is not finite, or if the result exceeds a
     /// limit (see FormulaLimits).
-    Result<Formula> with(std::span<const FormulaConstant> values) const;
+    Result<Formula> withConstants(std::span<const FormulaConstant> values) const;
 
     /// Returns the formula as normalized text, with the values of its constants. From this text, parseFormula() makes
     /// the same function. Formulas that differ only in spaces, superfluous parentheses or the spelling of symbols have

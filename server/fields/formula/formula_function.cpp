@@ -14,23 +14,23 @@ namespace {
 static_assert(ScalarFunction::kLanes == kKernelLanes);
 
 // One float for each of kKernelLanes points, which are computed at once. Aligned for an AVX2 register.
-struct alignas(32) Lanes {
+struct alignas(32) FloatLanes {
     std::array<float, kKernelLanes> values;
 };
 
 // Returns memory for at least `size` floats. May return null if `size` is 0. Each thread has its own memory, which the
 // next call on the thread reuses.
-float* scratch(std::size_t size) {
-    thread_local std::vector<Lanes> memory;
+float* scratchFloats(std::size_t size) {
+    thread_local std::vector<FloatLanes> memory;
     const std::size_t lanes = (size + kKernelLanes - 1) / kKernelLanes;
     if (memory.size() < lanes) memory.resize(lanes);
     return memory.empty() ? nullptr : memory.front().values.data();
 }
 
-using PaddedPoints = std::array<Lanes, 4>;  // the coordinates x, y, z and w of kKernelLanes points
+using PaddedPoints = std::array<FloatLanes, 4>;  // the coordinates x, y, z and w of kKernelLanes points
 // Returns kKernelLanes points: the points from the index `begin` to the end of the batch, then copies of the last
 // point. The batch must have fewer than kKernelLanes points from `begin` on.
-PaddedPoints padded(const PointBatch& points, std::size_t begin) {
+PaddedPoints paddedPoints(const PointBatch& points, std::size_t begin) {
     PaddedPoints result;
     const std::array<std::span<const float>, 4> coordinates{points.x, points.y, points.z, points.w};
     for (std::size_t axis = 0; axis < 4; ++axis) {
@@ -42,12 +42,12 @@ PaddedPoints padded(const PointBatch& points, std::size_t begin) {
 
 }  // namespace
 
-FormulaFunction::FormulaFunction(Formula formula, const Kernels& kernels)
+FormulaFunction::FormulaFunction(Formula formula, const TapeKernels& kernels)
     : formula_(std::move(formula)), kernels_(kernels) {}
 
 void FormulaFunction::evaluate(const PointBatch& points, std::span<float> values) const {
     const auto& [instructions, registers] = formula_.tape();
-    float* memory = scratch(registers * kBlockPoints);
+    float* memory = scratchFloats(registers * kBlockPoints);
     const std::size_t whole = points.size() / kKernelLanes * kKernelLanes;
     for (std::size_t i = 0; i < whole; i += kBlockPoints) {
         const PointBlock block{{points.x.data() + i, points.y.data() + i, points.z.data() + i, points.w.data() + i},
@@ -57,8 +57,8 @@ void FormulaFunction::evaluate(const PointBatch& points, std::span<float> values
         kernels_.evaluate(instructions.data(), instructions.size(), block);
     }
     if (whole == points.size()) return;
-    const auto [x, y, z, w] = padded(points, whole);
-    Lanes result;
+    const auto [x, y, z, w] = paddedPoints(points, whole);
+    FloatLanes result;
     const PointBlock block{{x.values.data(), y.values.data(), z.values.data(), w.values.data()},
                            result.values.data(),
                            memory,
@@ -70,7 +70,7 @@ void FormulaFunction::evaluate(const PointBatch& points, std::span<float> values
 void FormulaFunction::evaluateWithGradient(const PointBatch& points, std::span<float> values,
                                            const GradientBatch& gradients) const {
     const auto& [instructions, registers] = formula_.tape();
-    float* memory = scratch(registers * 5 * kGradientBlockPoints);
+    float* memory = scratchFloats(registers * 5 * kGradientBlockPoints);
     const std::size_t whole = points.size() / kKernelLanes * kKernelLanes;
     for (std::size_t i = 0; i < whole; i += kGradientBlockPoints) {
         const GradientBlock block{
@@ -82,8 +82,8 @@ void FormulaFunction::evaluateWithGradient(const PointBatch& points, std::span<f
         kernels_.differentiate(instructions.data(), instructions.size(), block);
     }
     if (whole == points.size()) return;
-    const auto [x, y, z, w] = padded(points, whole);
-    std::array<Lanes, 5> results;  // the value and the gradient
+    const auto [x, y, z, w] = paddedPoints(points, whole);
+    std::array<FloatLanes, 5> results;  // the value and the gradient
     const GradientBlock block{
         {x.values.data(), y.values.data(), z.values.data(), w.values.data()},
         results[0].values.data(),

@@ -15,22 +15,22 @@ namespace oval4d::fields {
 /// gradient on one side, or 0. Where the gradient is infinite or undefined, evaluateWithGradient() writes (0, 0, 0, 0).
 class FormulaFunction final : public ScalarFunction {
   public:
-    explicit FormulaFunction(Formula formula, const Kernels& kernels = fastestKernels());
+    explicit FormulaFunction(Formula formula, const TapeKernels& kernels = fastestKernels());
 
     const Formula& formula() const { return formula_; }
 
     void evaluate(const PointBatch& points, std::span<float> values) const override;
     void evaluateWithGradient(const PointBatch& points, std::span<float> values,
                               const GradientBatch& gradients) const override;
-    /// Returns bounds that contain both the values that evaluate() returns and the exact real values. They hold at all
-    /// points of the region, and at these points rounded to 32-bit floats.
+    /// Returns bounds that contain both the values that evaluate() returns and the exact real values. The bounds hold
+    /// at all points of the region, and at these points rounded to 32-bit floats.
     ValueBounds boundsIn(const Box& region) const override;
     EvaluationCost cost() const override;
     std::size_t memoryBytes() const override;
 
   private:
     Formula formula_;
-    Kernels kernels_;
+    TapeKernels kernels_;
 };
 
 }  // namespace oval4d::fields

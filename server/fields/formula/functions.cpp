@@ -9,88 +9,96 @@ namespace oval4d::fields {
 
 namespace {
 
-using Ref = Graph::Ref;
-using Arguments = std::span<const Ref>;
+using NodeIndex = OperationGraph::NodeIndex;
+using Arguments = std::span<const NodeIndex>;
 constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
 
 template <Operation operation>
-Ref unary(Graph& graph, Arguments a) {
-    return graph.unary(operation, a[0]);
+NodeIndex unaryOperation(OperationGraph& graph, Arguments a) {
+    return graph.unaryNode(operation, a[0]);
 }
 
 // Applies a binary operation to any number of arguments, from left to right.
 template <Operation operation>
-Ref combined(Graph& graph, Arguments a) {
-    Ref result = a[0];
-    for (const Ref argument : a.subspan(1)) result = graph.binary(operation, result, argument);
+NodeIndex foldArguments(OperationGraph& graph, Arguments a) {
+    NodeIndex result = a[0];
+    for (const NodeIndex argument : a.subspan(1)) result = graph.binaryNode(operation, result, argument);
     return result;
 }
 
-Ref hypot(Graph& graph, Arguments a) {
-    Ref sum = graph.square(a[0]);
-    for (const Ref argument : a.subspan(1)) sum = graph.add(sum, graph.square(argument));
+NodeIndex hypot(OperationGraph& graph, Arguments a) {
+    NodeIndex sum = graph.square(a[0]);
+    for (const NodeIndex argument : a.subspan(1)) sum = graph.add(sum, graph.square(argument));
     return graph.sqrt(sum);
 }
 
-Ref clamp(Graph& graph, Arguments a) {
-    return graph.binary(Operation::min, graph.binary(Operation::max, a[0], a[1]), a[2]);
+NodeIndex clamp(OperationGraph& graph, Arguments a) {
+    return graph.binaryNode(Operation::min, graph.binaryNode(Operation::max, a[0], a[1]), a[2]);
 }
 
-Ref mix(Graph& graph, Arguments a) { return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2])); }
+NodeIndex mix(OperationGraph& graph, Arguments a) {
+    return graph.add(a[0], graph.multiply(graph.subtract(a[1], a[0]), a[2]));
+}
 
-// Adds Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0), or min(a, b) if k ≤ 0.
-// The correction k h² / 4 is computed as (k h)² / max(4 k, kLeastDivisor). For k ≤ 0, k h is 0, and the positive
-// divisor makes the correction 0 instead of 0/0.
-Ref smoothMin(Graph& graph, Arguments a) {
-    const Ref distance = graph.unary(Operation::abs, graph.subtract(a[0], a[1]));
-    const Ref overlap = graph.binary(Operation::max, graph.subtract(a[2], distance), graph.constant(0));
+// Adds Quilez's polynomial smooth minimum: min(a, b) − k h² / 4 with h = max(1 − |a − b|/k, 0) if k > 0, otherwise
+// min(a, b). `overlap` is k h = max(k − |a − b|, 0), so the correction k h² / 4 is overlap² / (4 k). For k ≤ 0,
+// `overlap` is 0, and the positive divisor makes the correction 0 instead of 0/0.
+NodeIndex smoothMin(OperationGraph& graph, Arguments a) {
+    const NodeIndex distance = graph.unaryNode(Operation::abs, graph.subtract(a[0], a[1]));
+    const NodeIndex overlap = graph.binaryNode(Operation::max, graph.subtract(a[2], distance), graph.constant(0));
     constexpr double kLeastDivisor = std::numeric_limits<float>::min();
-    const Ref divisor =
-        graph.binary(Operation::max, graph.multiply(a[2], graph.constant(4)), graph.constant(kLeastDivisor));
-    const Ref correction = graph.divide(graph.square(overlap), divisor);
-    return graph.subtract(graph.binary(Operation::min, a[0], a[1]), correction);
+    const NodeIndex divisor =
+        graph.binaryNode(Operation::max, graph.multiply(a[2], graph.constant(4)), graph.constant(kLeastDivisor));
+    const NodeIndex correction = graph.divide(graph.square(overlap), divisor);
+    return graph.subtract(graph.binaryNode(Operation::min, a[0], a[1]), correction);
 }
 
-Ref ceil(Graph& graph, Arguments a) { return graph.negate(graph.unary(Operation::floor, graph.negate(a[0]))); }
+NodeIndex ceil(OperationGraph& graph, Arguments a) {
+    return graph.negate(graph.unaryNode(Operation::floor, graph.negate(a[0])));
+}
 
-Ref round(Graph& graph, Arguments a) { return graph.unary(Operation::floor, graph.add(a[0], graph.constant(0.5))); }
+NodeIndex round(OperationGraph& graph, Arguments a) {
+    return graph.unaryNode(Operation::floor, graph.add(a[0], graph.constant(0.5)));
+}
 
-Ref radians(Graph& graph, Arguments a) { return graph.multiply(a[0], graph.constant(std::numbers::pi / 180)); }
+NodeIndex radians(OperationGraph& graph, Arguments a) {
+    return graph.multiply(a[0], graph.constant(std::numbers::pi / 180));
+}
 
 constexpr auto kFunctions = std::to_array<BuiltinFunction>({
-    {"abs", "a", "the absolute value", 1, 1, unary<Operation::abs>},
-    {"min", "a, b, ...", "the smallest value: the union of bodies", 2, kAny, combined<Operation::min>},
-    {"max", "a, b, ...", "the largest value: the intersection of bodies", 2, kAny, combined<Operation::max>},
+    {"abs", "a", "the absolute value", 1, 1, unaryOperation<Operation::abs>},
+    {"min", "a, b, ...", "the smallest value: the union of bodies", 2, kAny, foldArguments<Operation::min>},
+    {"max", "a, b, ...", "the largest value: the intersection of bodies", 2, kAny, foldArguments<Operation::max>},
     {"smin", "a, b, k", "min with its edge smoothed where a and b differ by less than k", 3, 3, smoothMin},
     {"clamp", "a, low, high", "a, but not below low nor above high", 3, 3, clamp},
     {"mix", "a, b, t", "a + (b - a) t", 3, 3, mix},
-    {"sqrt", "a", "the square root", 1, 1, unary<Operation::sqrt>},
-    {"cbrt", "a", "the cube root, also of negative numbers", 1, 1, unary<Operation::cbrt>},
+    {"sqrt", "a", "the square root", 1, 1, unaryOperation<Operation::sqrt>},
+    {"cbrt", "a", "the cube root, also of negative numbers", 1, 1, unaryOperation<Operation::cbrt>},
     {"hypot", "a, b, ...", "sqrt(a^2 + b^2 + ...)", 2, kAny, hypot},
-    {"exp", "a", "e to the power of a", 1, 1, unary<Operation::exp>},
-    {"log", "a", "the natural logarithm", 1, 1, unary<Operation::log>},
-    {"sin", "a", "the sine of an angle in radians", 1, 1, unary<Operation::sin>},
-    {"cos", "a", "the cosine", 1, 1, unary<Operation::cos>},
-    {"tan", "a", "the tangent", 1, 1, unary<Operation::tan>},
-    {"asin", "a", "the arcsine, in radians", 1, 1, unary<Operation::asin>},
-    {"acos", "a", "the arccosine", 1, 1, unary<Operation::acos>},
-    {"atan", "a", "the arctangent", 1, 1, unary<Operation::atan>},
-    {"atan2", "b, a", "the angle of the point (a, b), from -pi to pi", 2, 2, combined<Operation::atan2>},
-    {"sinh", "a", "the hyperbolic sine", 1, 1, unary<Operation::sinh>},
-    {"cosh", "a", "the hyperbolic cosine", 1, 1, unary<Operation::cosh>},
-    {"tanh", "a", "the hyperbolic tangent", 1, 1, unary<Operation::tanh>},
-    {"step", "a", "0 for negative a, otherwise 1", 1, 1, unary<Operation::step>},
-    {"sign", "a", "-1, 0 or 1", 1, 1, unary<Operation::sign>},
-    {"floor", "a", "the largest integer that is at most a", 1, 1, unary<Operation::floor>},
+    {"exp", "a", "e to the power of a", 1, 1, unaryOperation<Operation::exp>},
+    {"log", "a", "the natural logarithm", 1, 1, unaryOperation<Operation::log>},
+    {"sin", "a", "the sine of an angle in radians", 1, 1, unaryOperation<Operation::sin>},
+    {"cos", "a", "the cosine", 1, 1, unaryOperation<Operation::cos>},
+    {"tan", "a", "the tangent", 1, 1, unaryOperation<Operation::tan>},
+    {"asin", "a", "the arcsine, in radians", 1, 1, unaryOperation<Operation::asin>},
+    {"acos", "a", "the arccosine", 1, 1, unaryOperation<Operation::acos>},
+    {"atan", "a", "the arctangent", 1, 1, unaryOperation<Operation::atan>},
+    {"atan2", "b, a", "the angle of the point (a, b), from -pi to pi", 2, 2, foldArguments<Operation::atan2>},
+    {"sinh", "a", "the hyperbolic sine", 1, 1, unaryOperation<Operation::sinh>},
+    {"cosh", "a", "the hyperbolic cosine", 1, 1, unaryOperation<Operation::cosh>},
+    {"tanh", "a", "the hyperbolic tangent", 1, 1, unaryOperation<Operation::tanh>},
+    {"step", "a", "0 for negative a, otherwise 1", 1, 1, unaryOperation<Operation::step>},
+    {"sign", "a", "-1, 0 or 1", 1, 1, unaryOperation<Operation::sign>},
+    {"floor", "a", "the largest integer that is at most a", 1, 1, unaryOperation<Operation::floor>},
     {"ceil", "a", "the smallest integer that is at least a", 1, 1, ceil},
     {"round", "a", "the nearest integer", 1, 1, round},
-    {"mod", "a, b", "a - b floor(a/b), which has the sign of b", 2, 2, combined<Operation::mod>},
+    {"mod", "a, b", "a - b floor(a/b), which has the sign of b", 2, 2, foldArguments<Operation::mod>},
     {"deg", "a", "a degrees in radians", 1, 1, radians},
 });
 
 }  // namespace
 
-std::span<const BuiltinFunction> functions() { return kFunctions; }
+std::span<const BuiltinFunction> builtinFunctions() { return kFunctions; }
 
 std::optional<std::size_t> functionNamed(std::string_view name) {
     const auto found =

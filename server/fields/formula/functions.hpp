@@ -17,13 +17,13 @@ struct BuiltinFunction {
     std::string_view meaning;    ///< the explanation shown in help
     std::size_t minArguments, maxArguments;
     /// Adds the operations of a call of the function to the graph. Returns the node of the result.
-    Graph::Ref (*build)(Graph& graph, std::span<const Graph::Ref> arguments);
+    OperationGraph::NodeIndex (*build)(OperationGraph& graph, std::span<const OperationGraph::NodeIndex> arguments);
 };
 
 /// Returns all functions that formulas may call.
-std::span<const BuiltinFunction> functions();
+std::span<const BuiltinFunction> builtinFunctions();
 
-/// Returns the index in functions() of the function with this name; an empty optional if there is none.
+/// Returns the index in builtinFunctions() of the function with this name; an empty optional if there is none.
 std::optional<std::size_t> functionNamed(std::string_view name);
 
 }  // namespace oval4d::fields

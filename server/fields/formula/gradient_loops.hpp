@@ -1,5 +1,6 @@
 #pragma once
-// The loops that compute values and gradients. They are templates, for the reasons in the comments of value_loops.hpp.
+// The loops that compute values and gradients. The loops are templates, for the reasons in the comments of
+// value_loops.hpp.
 
 #include <cstddef>
 
@@ -11,11 +12,11 @@ namespace oval4d::fields {
 /// derivatives with respect to x, y, z, w. If Instruction::axes says that a derivative is 0 everywhere, its array is
 /// not used.
 template <typename Math>
-class GradientLoops : private ValueLoops<Math> {
-    using Base = ValueLoops<Math>;
+class TapeDifferentiator : private TapeEvaluator<Math> {
+    using Base = TapeEvaluator<Math>;
 
   public:
-    static constexpr Kernels kernels() { return {&Base::evaluate, &differentiate}; }
+    static constexpr TapeKernels kernels() { return {&Base::evaluate, &differentiate}; }
 
     static void differentiate(const Instruction* instructions, std::size_t count, const GradientBlock& block) {
         float ones[kGradientBlockPoints];
@@ -179,11 +180,11 @@ class GradientLoops : private ValueLoops<Math> {
                     },
                     instruction, out, a, b, size);
             case Operation::min:
-                return fill([](float x, float y) { return choice(choosesFirst(x < y, x), x, y); }, instruction, out, a,
-                            b, size);
+                return fill([](float x, float y) { return chosenOperand(choosesFirst(x < y, x), x, y); }, instruction,
+                            out, a, b, size);
             case Operation::max:
-                return fill([](float x, float y) { return choice(choosesFirst(x > y, x), x, y); }, instruction, out, a,
-                            b, size);
+                return fill([](float x, float y) { return chosenOperand(choosesFirst(x > y, x), x, y); }, instruction,
+                            out, a, b, size);
             case Operation::atan2:
                 return arctangent2Partials(instruction, out, a, b, size);
             case Operation::power:
@@ -193,7 +194,7 @@ class GradientLoops : private ValueLoops<Math> {
                 return unaryPartials(instruction, out, a, size);
         }
     }
-    static ValueAndPartials choice(bool choosesFirst, float x, float y) {
+    static ValueAndPartials chosenOperand(bool choosesFirst, float x, float y) {
         return {choosesFirst ? x : y, choosesFirst ? 1.0F : 0.0F, 0};
     }
 

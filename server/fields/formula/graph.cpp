@@ -19,36 +19,38 @@ bool isPowerOfTwo(double value) {
 
 }  // namespace
 
-Graph::Ref Graph::node(Operation operation, Ref a, Ref b, double number) {
-    const auto [found, isNew] =
-        known_.try_emplace({operation, a, b, std::bit_cast<std::uint64_t>(number)}, static_cast<Ref>(nodes_.size()));
+OperationGraph::NodeIndex OperationGraph::findOrAddNode(Operation operation, NodeIndex a, NodeIndex b, double number) {
+    const auto [found, isNew] = known_.try_emplace({operation, a, b, std::bit_cast<std::uint64_t>(number)},
+                                                   static_cast<NodeIndex>(nodes_.size()));
     if (isNew) nodes_.push_back({operation, a, b, number});
     return found->second;
 }
 
-Graph::Ref Graph::constant(double value) { return node(Operation::constant, 0, 0, value); }
+OperationGraph::NodeIndex OperationGraph::constant(double value) {
+    return findOrAddNode(Operation::constant, 0, 0, value);
+}
 
-Graph::Ref Graph::variable(int axis) { return node(Operation::variable, 0, 0, axis); }
+OperationGraph::NodeIndex OperationGraph::variable(int axis) { return findOrAddNode(Operation::variable, 0, 0, axis); }
 
-std::optional<double> Graph::constantAt(Ref node) const {
+std::optional<double> OperationGraph::constantAt(NodeIndex node) const {
     if (nodes_[node].operation != Operation::constant) return {};
     return nodes_[node].number;
 }
 
-Graph::Ref Graph::unary(Operation operation, Ref a) {
+OperationGraph::NodeIndex OperationGraph::unaryNode(Operation operation, NodeIndex a) {
     if (const auto value = constantAt(a)) return constant(apply(operation, *value, 0));
     const Operation inner = nodes_[a].operation;
     if (inner == Operation::negate) {
         if (operation == Operation::negate) return nodes_[a].a;
         const bool isEven =
             operation == Operation::abs || operation == Operation::square || operation == Operation::cos;
-        if (isEven) return unary(operation, nodes_[a].a);
+        if (isEven) return unaryNode(operation, nodes_[a].a);
     }
     if (operation == Operation::abs && (inner == Operation::abs || inner == Operation::square)) return a;
-    return node(operation, a, 0, 0);
+    return findOrAddNode(operation, a, 0, 0);
 }
 
-Graph::Ref Graph::binary(Operation operation, Ref a, Ref b) {
+OperationGraph::NodeIndex OperationGraph::binaryNode(Operation operation, NodeIndex a, NodeIndex b) {
     const auto left = constantAt(a), right = constantAt(b);
     if (left && right) return constant(apply(operation, *left, *right));
     if (operation == Operation::power && right) return power(a, *right);
@@ -56,27 +58,27 @@ Graph::Ref Graph::binary(Operation operation, Ref a, Ref b) {
                           operation == Operation::min || operation == Operation::max;
     if (commutes && (left || (!right && a > b))) std::swap(a, b);  // a constant becomes the right operand
     if (const auto simple = simplified(operation, a, b)) return *simple;
-    return node(operation, a, b, 0);
+    return findOrAddNode(operation, a, b, 0);
 }
 
 // Returns the node of a power. First rounds the exponent to a float, so that the kernels (in floats) and interval
 // arithmetic (in doubles) agree on whether it is an integer.
-Graph::Ref Graph::power(Ref a, double exponent) {
+OperationGraph::NodeIndex OperationGraph::power(NodeIndex a, double exponent) {
     exponent = static_cast<float>(exponent);
     const bool isInteger = std::floor(exponent) == exponent && std::abs(exponent) <= kMaxIntegerExponent;
     if (exponent == 0) return constant(1);
     if (exponent == 1) return a;
     if (exponent == -1) return divide(constant(1), a);
     if (exponent == 2) return square(a);
-    if (isInteger) return node(Operation::integer_power, a, 0, exponent);
+    if (isInteger) return findOrAddNode(Operation::integer_power, a, 0, exponent);
     if (exponent == 0.5) return sqrt(a);
     if (exponent == -0.5) return divide(constant(1), sqrt(a));
-    return node(Operation::power, a, constant(exponent), 0);
+    return findOrAddNode(Operation::power, a, constant(exponent), 0);
 }
 
 // Returns the node of a simpler expression with the same values. Returns an empty optional if the operation cannot be
 // simplified. If the operation is commutative, `a` must not be a constant.
-std::optional<Graph::Ref> Graph::simplified(Operation operation, Ref a, Ref b) {
+std::optional<OperationGraph::NodeIndex> OperationGraph::simplified(Operation operation, NodeIndex a, NodeIndex b) {
     const auto left = constantAt(a), right = constantAt(b);
     switch (operation) {
         case Operation::add:

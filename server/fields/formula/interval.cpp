@@ -29,7 +29,7 @@ bool contains(const ValueBounds& a, double value) { return a.min <= value && val
 bool mayBeInfinite(const ValueBounds& a) { return a.min == -kInfinity || a.max == kInfinity; }
 
 // Returns an upper bound of the floats that are computed for real results up to `max`.
-double upperBound(double max, RoundingError error) {
+double roundedUpperBound(double max, RoundingError error) {
     if (max == 0 || std::isinf(max)) return max;
     const double wider = max + std::abs(max) * error.relative + error.absolute;
     if (wider > kMaxFloat) return kInfinity;
@@ -37,33 +37,33 @@ double upperBound(double max, RoundingError error) {
 }
 
 // Returns an interval of the floats that are computed for real results in [min, max]. A NaN end becomes infinite.
-ValueBounds widened(double min, double max, bool hasValueEverywhere, RoundingError error) {
-    return {std::isnan(min) ? -kInfinity : -upperBound(-min, error),
-            std::isnan(max) ? kInfinity : upperBound(max, error), hasValueEverywhere};
+ValueBounds withRoundingError(double min, double max, bool hasValueEverywhere, RoundingError error) {
+    return {std::isnan(min) ? -kInfinity : -roundedUpperBound(-min, error),
+            std::isnan(max) ? kInfinity : roundedUpperBound(max, error), hasValueEverywhere};
 }
 
 // Returns the interval from the smallest to the largest of the candidates, widened by `error`. If a candidate is NaN,
 // the interval is unbounded.
-ValueBounds hull(std::initializer_list<double> candidates, bool hasValueEverywhere, RoundingError error) {
+ValueBounds boundsOfCandidates(std::initializer_list<double> candidates, bool hasValueEverywhere, RoundingError error) {
     double min = kInfinity, max = -kInfinity;
     for (const double candidate : candidates) {
         if (std::isnan(candidate)) return {-kInfinity, kInfinity, hasValueEverywhere};
         min = std::min(min, candidate);
         max = std::max(max, candidate);
     }
-    return widened(min, max, hasValueEverywhere, error);
+    return withRoundingError(min, max, hasValueEverywhere, error);
 }
 
 // Returns the interval of f on `a`, for a monotonic function f.
 template <typename F>
-ValueBounds monotonic(F f, const ValueBounds& a, RoundingError error = kFunction) {
-    return hull({f(a.min), f(a.max)}, a.hasValueEverywhere, error);
+ValueBounds applyMonotonic(F f, const ValueBounds& a, RoundingError error = kFunction) {
+    return boundsOfCandidates({f(a.min), f(a.max)}, a.hasValueEverywhere, error);
 }
 
 ValueBounds add(const ValueBounds& a, const ValueBounds& b) {
     const bool mayCancel = (a.max == kInfinity && b.min == -kInfinity) || (a.min == -kInfinity && b.max == kInfinity);
-    return widened(a.min + b.min, a.max + b.max, a.hasValueEverywhere && b.hasValueEverywhere && !mayCancel,
-                   kCorrectlyRounded);
+    return withRoundingError(a.min + b.min, a.max + b.max, a.hasValueEverywhere && b.hasValueEverywhere && !mayCancel,
+                             kCorrectlyRounded);
 }
 
 ValueBounds negate(const ValueBounds& a) { return {-a.max, -a.min, a.hasValueEverywhere}; }
@@ -74,15 +74,17 @@ ValueBounds multiply(const ValueBounds& a, const ValueBounds& b) {
     // An infinite end stands for large finite numbers, whose products with 0 are 0. The product 0 · ∞ is NaN, for which
     // `hasValueEverywhere` is false.
     const auto product = [](double x, double y) { return x == 0 || y == 0 ? 0 : x * y; };
-    return hull({product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)},
-                hasValueEverywhere, kCorrectlyRounded);
+    return boundsOfCandidates(
+        {product(a.min, b.min), product(a.min, b.max), product(a.max, b.min), product(a.max, b.max)},
+        hasValueEverywhere, kCorrectlyRounded);
 }
 
 ValueBounds divide(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere &&
                                     !(contains(a, 0) && contains(b, 0)) && !(mayBeInfinite(a) && mayBeInfinite(b));
     if (contains(b, 0)) return {-kInfinity, kInfinity, hasValueEverywhere};
-    return hull({a.min / b.min, a.min / b.max, a.max / b.min, a.max / b.max}, hasValueEverywhere, kCorrectlyRounded);
+    return boundsOfCandidates({a.min / b.min, a.min / b.max, a.max / b.min, a.max / b.max}, hasValueEverywhere,
+                              kCorrectlyRounded);
 }
 
 ValueBounds abs(const ValueBounds& a) {
@@ -92,26 +94,27 @@ ValueBounds abs(const ValueBounds& a) {
 
 ValueBounds square(const ValueBounds& a) {
     const ValueBounds size = abs(a);
-    return widened(size.min * size.min, size.max * size.max, a.hasValueEverywhere, kCorrectlyRounded);
+    return withRoundingError(size.min * size.min, size.max * size.max, a.hasValueEverywhere, kCorrectlyRounded);
 }
 
 ValueBounds integerPower(const ValueBounds& a, int exponent) {
     const int n = std::abs(exponent);
     const ValueBounds base = n % 2 == 0 ? abs(a) : a;
-    const ValueBounds power = widened(std::pow(base.min, n), std::pow(base.max, n), a.hasValueEverywhere,
-                                      {n * kCorrectlyRounded.relative, n * 0x1p-148});
+    const ValueBounds power = withRoundingError(std::pow(base.min, n), std::pow(base.max, n), a.hasValueEverywhere,
+                                                {n * kCorrectlyRounded.relative, n * 0x1p-148});
     return exponent > 0 ? power : divide({1, 1, true}, power);
 }
 
 ValueBounds sqrt(const ValueBounds& a) {
     if (a.max < 0) return kEmpty;
-    return widened(std::sqrt(std::max(a.min, 0.0)), std::sqrt(a.max), a.hasValueEverywhere && a.min >= 0,
-                   kCorrectlyRounded);
+    return withRoundingError(std::sqrt(std::max(a.min, 0.0)), std::sqrt(a.max), a.hasValueEverywhere && a.min >= 0,
+                             kCorrectlyRounded);
 }
 
 ValueBounds log(const ValueBounds& a) {
     if (a.max < 0) return kEmpty;
-    return widened(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0, kFunction);
+    return withRoundingError(std::log(std::max(a.min, 0.0)), std::log(a.max), a.hasValueEverywhere && a.min >= 0,
+                             kFunction);
 }
 
 // Returns whether `a`, widened by possible rounding errors, contains phase + k · period for an integer k.
@@ -122,34 +125,34 @@ bool containsPhase(const ValueBounds& a, double phase, double period) {
 
 // Returns the interval of `f` on `a`. `f` must be sin or cos, and `top` a point where `f` is 1.
 template <typename F>
-ValueBounds sine(F f, double top, const ValueBounds& a) {
+ValueBounds sineOrCosine(F f, double top, const ValueBounds& a) {
     constexpr double kLarge = 1e6;  // beyond ±kLarge, containsPhase() is too imprecise
     const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
-    if (a.min < -kLarge || a.max > kLarge) return widened(-1, 1, hasValueEverywhere, kFunction);
+    if (a.min < -kLarge || a.max > kLarge) return withRoundingError(-1, 1, hasValueEverywhere, kFunction);
     const double first = f(a.min), last = f(a.max);
     const bool hasMin = containsPhase(a, top + pi, 2 * pi), hasMax = containsPhase(a, top, 2 * pi);
-    return widened(hasMin ? -1 : std::min(first, last), hasMax ? 1 : std::max(first, last), hasValueEverywhere,
-                   kFunction);
+    return withRoundingError(hasMin ? -1 : std::min(first, last), hasMax ? 1 : std::max(first, last),
+                             hasValueEverywhere, kFunction);
 }
 
 ValueBounds tangent(const ValueBounds& a) {
     const bool hasValueEverywhere = a.hasValueEverywhere && !mayBeInfinite(a);
     if (mayBeInfinite(a) || a.max - a.min >= pi || containsPhase(a, pi / 2, pi))
         return {-kInfinity, kInfinity, hasValueEverywhere};
-    return widened(std::tan(a.min), std::tan(a.max), hasValueEverywhere, kFunction);
+    return withRoundingError(std::tan(a.min), std::tan(a.max), hasValueEverywhere, kFunction);
 }
 
 // Returns the interval of `f`, which must be asin or acos, on `a`.
 template <typename F>
-ValueBounds arc(F f, const ValueBounds& a) {
+ValueBounds arcsineOrArccosine(F f, const ValueBounds& a) {
     if (a.max < -1 || a.min > 1) return kEmpty;
     const bool hasValueEverywhere = a.hasValueEverywhere && a.min >= -1 && a.max <= 1;
-    return hull({f(std::max(a.min, -1.0)), f(std::min(a.max, 1.0))}, hasValueEverywhere, kFunction);
+    return boundsOfCandidates({f(std::max(a.min, -1.0)), f(std::min(a.max, 1.0))}, hasValueEverywhere, kFunction);
 }
 
 ValueBounds hyperbolicCosine(const ValueBounds& a) {
     const ValueBounds size = abs(a);
-    return widened(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
+    return withRoundingError(std::cosh(size.min), std::cosh(size.max), a.hasValueEverywhere, kFunction);
 }
 
 // Returns the interval of a^b for a ≥ 0. On the rectangle of all pairs (a, b), a^b has no extrema inside and is
@@ -158,8 +161,9 @@ ValueBounds powerOfPositive(const ValueBounds& a, const ValueBounds& b) {
     const bool hasValueEverywhere = a.hasValueEverywhere && b.hasValueEverywhere;
     // A zero in `a` may be −0. A power of −0 with an odd negative exponent is −∞, not ∞.
     if (a.min == 0 && b.min < 0) return {-kInfinity, kInfinity, hasValueEverywhere};
-    return hull({std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)},
-                hasValueEverywhere, kFunction);
+    return boundsOfCandidates(
+        {std::pow(a.min, b.min), std::pow(a.min, b.max), std::pow(a.max, b.min), std::pow(a.max, b.max)},
+        hasValueEverywhere, kFunction);
 }
 
 ValueBounds power(const ValueBounds& a, const ValueBounds& b) {
@@ -181,8 +185,8 @@ ValueBounds power(const ValueBounds& a, const ValueBounds& b) {
 ValueBounds arctangent2(const ValueBounds& y, const ValueBounds& x) {
     const bool hasValueEverywhere = y.hasValueEverywhere && x.hasValueEverywhere;
     const bool containsCut = contains(y, 0) && x.min <= 0;
-    if (containsCut) return widened(-pi, pi, hasValueEverywhere, kFunction);
-    return hull(
+    if (containsCut) return withRoundingError(-pi, pi, hasValueEverywhere, kFunction);
+    return boundsOfCandidates(
         {std::atan2(y.min, x.min), std::atan2(y.min, x.max), std::atan2(y.max, x.min), std::atan2(y.max, x.max)},
         hasValueEverywhere, kFunction);
 }
@@ -235,29 +239,29 @@ ValueBounds intervalOf(Operation operation, const ValueBounds& a, const ValueBou
         case Operation::sqrt:
             return sqrt(a);
         case Operation::cbrt:
-            return monotonic([](double x) { return std::cbrt(x); }, a);
+            return applyMonotonic([](double x) { return std::cbrt(x); }, a);
         case Operation::exp:
-            return monotonic([](double x) { return std::exp(x); }, a);
+            return applyMonotonic([](double x) { return std::exp(x); }, a);
         case Operation::log:
             return log(a);
         case Operation::sin:
-            return sine([](double x) { return std::sin(x); }, pi / 2, a);
+            return sineOrCosine([](double x) { return std::sin(x); }, pi / 2, a);
         case Operation::cos:
-            return sine([](double x) { return std::cos(x); }, 0, a);
+            return sineOrCosine([](double x) { return std::cos(x); }, 0, a);
         case Operation::tan:
             return tangent(a);
         case Operation::asin:
-            return arc([](double x) { return std::asin(x); }, a);
+            return arcsineOrArccosine([](double x) { return std::asin(x); }, a);
         case Operation::acos:
-            return arc([](double x) { return std::acos(x); }, a);
+            return arcsineOrArccosine([](double x) { return std::acos(x); }, a);
         case Operation::atan:
-            return monotonic([](double x) { return std::atan(x); }, a);
+            return applyMonotonic([](double x) { return std::atan(x); }, a);
         case Operation::sinh:
-            return monotonic([](double x) { return std::sinh(x); }, a);
+            return applyMonotonic([](double x) { return std::sinh(x); }, a);
         case Operation::cosh:
             return hyperbolicCosine(a);
         case Operation::tanh:
-            return monotonic([](double x) { return std::tanh(x); }, a);
+            return applyMonotonic([](double x) { return std::tanh(x); }, a);
         case Operation::step:
         case Operation::sign:
         case Operation::floor:

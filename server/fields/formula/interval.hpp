@@ -25,8 +25,8 @@
 
 namespace oval4d::fields {
 
-/// Returns the interval of a number in a formula. It contains the number, and the float that evaluate() uses for it.
-/// For NaN, returns an empty interval (min > max).
+/// Returns the interval of a number in a formula. The interval contains the number, and the float that evaluate() uses
+/// for it. For NaN, returns an empty interval (min > max).
 ValueBounds intervalOf(double number);
 
 /// Returns the interval of a coordinate between `min` and `max`. The ends are rounded outward to floats, so the

@@ -5,8 +5,8 @@
 
 namespace oval4d::fields {
 
-const Kernels& fastestKernels() {
-    static const Kernels* const kFastest = avx2Kernels() != nullptr ? avx2Kernels() : &portableKernels();
+const TapeKernels& fastestKernels() {
+    static const TapeKernels* const kFastest = avx2Kernels() != nullptr ? avx2Kernels() : &portableKernels();
     return *kFastest;
 }
 

@@ -36,12 +36,12 @@ struct GradientBlock {
 /// The functions of one instruction set that run the `count` instructions of a tape for a block of points. Both
 /// functions compute the same values. The value at a point does not depend on the other points of the block. A gradient
 /// is (0, 0, 0, 0) if the value or one of the derivatives is not finite.
-struct Kernels {
+struct TapeKernels {
     void (*evaluate)(const Instruction* instructions, std::size_t count, const PointBlock& block);
     void (*differentiate)(const Instruction* instructions, std::size_t count, const GradientBlock& block);
 };
 
 /// Returns the kernels of the fastest instruction set that this processor has.
-const Kernels& fastestKernels();
+const TapeKernels& fastestKernels();
 
 }  // namespace oval4d::fields

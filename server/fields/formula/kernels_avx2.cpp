@@ -32,7 +32,7 @@ __m256 atan28(__m256, __m256) __asm__("_ZGVdN8vv_atan2f");
 
 namespace {
 
-struct VectorMath {
+struct Avx2Math {
     static void unary(Operation operation, float* out, const float* a, std::size_t size) {
         switch (operation) {
             case Operation::exp:
@@ -83,7 +83,7 @@ struct VectorMath {
             _mm256_storeu_ps(out + i, function(_mm256_loadu_ps(a + i), _mm256_loadu_ps(b + i)));
     }
 };
-using Math = VectorMath;
+using Math = Avx2Math;
 
 #else
 
@@ -96,8 +96,8 @@ using Math = PortableMath<Avx2SourceTag>;
 
 }  // namespace
 
-const Kernels* avx2Kernels() {
-    static constexpr Kernels kKernels = GradientLoops<Math>::kernels();
+const TapeKernels* avx2Kernels() {
+    static constexpr TapeKernels kKernels = TapeDifferentiator<Math>::kernels();
     return __builtin_cpu_supports("avx2") ? &kKernels : nullptr;
 }
 
@@ -107,7 +107,7 @@ const Kernels* avx2Kernels() {
 
 namespace oval4d::fields {
 
-const Kernels* avx2Kernels() { return nullptr; }
+const TapeKernels* avx2Kernels() { return nullptr; }
 
 }  // namespace oval4d::fields
 

@@ -7,6 +7,6 @@ namespace oval4d::fields {
 
 /// Returns the kernels for AVX2. Returns nullptr if this processor has no AVX2, or if the program was compiled without
 /// it.
-const Kernels* avx2Kernels();
+const TapeKernels* avx2Kernels();
 
 }  // namespace oval4d::fields

@@ -11,8 +11,8 @@ struct PortableSourceTag {};
 
 }  // namespace
 
-const Kernels& portableKernels() {
-    static constexpr Kernels kKernels = GradientLoops<PortableMath<PortableSourceTag>>::kernels();
+const TapeKernels& portableKernels() {
+    static constexpr TapeKernels kKernels = TapeDifferentiator<PortableMath<PortableSourceTag>>::kernels();
     return kKernels;
 }
 

@@ -6,6 +6,6 @@
 namespace oval4d::fields {
 
 /// Returns the kernels that run on every processor.
-const Kernels& portableKernels();
+const TapeKernels& portableKernels();
 
 }  // namespace oval4d::fields

@@ -27,15 +27,15 @@ constexpr std::size_t kMaxNameLength = 32;
 
 struct ComparisonSymbol {
     std::string_view symbol;
-    Relation relation;
+    ComparisonRelation relation;
 };
-constexpr auto kComparisons = std::to_array<ComparisonSymbol>({{"<=", Relation::less_equal},
-                                                               {"≤", Relation::less_equal},
-                                                               {">=", Relation::greater_equal},
-                                                               {"≥", Relation::greater_equal},
-                                                               {"<", Relation::less},
-                                                               {">", Relation::greater},
-                                                               {"=", Relation::equal}});
+constexpr auto kComparisons = std::to_array<ComparisonSymbol>({{"<=", ComparisonRelation::less_equal},
+                                                               {"≤", ComparisonRelation::less_equal},
+                                                               {">=", ComparisonRelation::greater_equal},
+                                                               {"≥", ComparisonRelation::greater_equal},
+                                                               {"<", ComparisonRelation::less},
+                                                               {">", ComparisonRelation::greater},
+                                                               {"=", ComparisonRelation::equal}});
 
 using text::isDigit;
 using text::isLetter;
@@ -46,12 +46,12 @@ bool contains(const Names& names, std::string_view name) {
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-bool isTaken(std::string_view name) {
+bool isReservedName(std::string_view name) {
     return contains(kVariablesAndConstants, name) || contains(kUnits, name) || functionNamed(name).has_value();
 }
 
 // Converts the index of a byte of `text` to the position that users see: the number of the character, counted from 1.
-std::size_t positionOf(std::string_view text, std::size_t byte) {
+std::size_t characterPosition(std::string_view text, std::size_t byte) {
     const auto startsCharacter = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; };
     return 1 + static_cast<std::size_t>(
                    std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(byte), startsCharacter));
@@ -61,9 +61,9 @@ std::size_t positionOf(std::string_view text, std::size_t byte) {
 //   formula = sum [comparison sum] {(;|,) name = sum}   sum = product {(+|−) product}
 //   product = signed {(*|/) signed}   signed = {+|−} power   power = angle [^ signed]   angle = atom [unit]
 // The formula and each definition are parsed to separate trees, whose nodes are then collected in one tree.
-class Parser {
+class FormulaParser {
   public:
-    Parser(std::string_view text, const FormulaLimits& limits, const ParsedFormula* shared)
+    FormulaParser(std::string_view text, const FormulaLimits& limits, const ParsedFormula* shared)
         : text_(text), limits_(limits) {
         if (shared == nullptr) return;
         constants_ = shared->constants;
@@ -84,7 +84,7 @@ class Parser {
     ParsedFormula parse() {
         tree_.left = sum();
         tree_.relation = takeComparison();
-        if (tree_.relation != Relation::none) {
+        if (tree_.relation != ComparisonRelation::none) {
             tree_.right = sum();
             if (isAtComparison()) fail("only one comparison is allowed");
         }
@@ -168,7 +168,7 @@ class Parser {
         if (take(kPiLetter)) return add(NodeKind::pi, {});
         if (take(kPhiLetter)) return add(NodeKind::phi, {});
         if (at_ < text_.size() && (isDigit(text_[at_]) || text_[at_] == '.')) return number();
-        if (at_ < text_.size() && isLetter(text_[at_])) return named();
+        if (at_ < text_.size() && isLetter(text_[at_])) return functionOrConstant();
         fail("a number, a name or '(' is expected");
     }
     Index number() {
@@ -181,7 +181,7 @@ class Parser {
         tree_.nodes[node].number = value;
         return node;
     }
-    Index named() {
+    Index functionOrConstant() {
         const std::size_t start = at_;
         const std::string_view name = takeName();
         if (const auto function = functionNamed(name)) return call(*function, start);
@@ -198,10 +198,10 @@ class Parser {
             failAt(start, "no function is called " + text::inQuotes(name) + suggestion(name) +
                               "; known functions are " + functionNames());
         }
-        return isInDefinition_ ? earlierName(name, start) : reference(name, start);
+        return isInDefinition_ ? addEarlierNameNode(name, start) : reference(name, start);
     }
     Index call(std::size_t function, std::size_t start) {
-        const BuiltinFunction& entry = functions()[function];
+        const BuiltinFunction& entry = builtinFunctions()[function];
         if (!take("(")) fail("'(' is expected after " + std::string(entry.name));
         const NestingGuard deeper(*this);
         std::vector<Index> arguments{sum()};
@@ -223,7 +223,7 @@ class Parser {
         if (isAtComparison()) fail("a comparison is allowed only outside of parentheses");
         skipBlanks();
         if (at_ == text_.size() || text_[at_] == ';' || text_[at_] == ',') fail("a ')' is missing");
-        fail("an operator or ')' is expected" + hint());
+        fail("an operator or ')' is expected" + productHint());
     }
 
     // A name in the formula. The formula is parsed before the definitions of its names. Until resolveNames() is called,
@@ -241,7 +241,7 @@ class Parser {
     }
     // Adds a node for `name`, which occurs in the definition of another name. `name` must be defined before this
     // definition; otherwise, throws SyntaxError.
-    Index earlierName(std::string_view name, std::size_t byte) {
+    Index addEarlierNameNode(std::string_view name, std::size_t byte) {
         isConstantDefinition_ = false;
         if (const auto found = resolve(name)) return add(found->kind, {}, found->index);
         failAt(byte, "nothing before this is called " + text::inQuotes(name) + suggestion(name) +
@@ -252,7 +252,7 @@ class Parser {
         const std::size_t start = at_;
         if (at_ == text_.size() || !isLetter(text_[at_])) fail("the name of a constant is expected, as in a=0.7");
         std::string name(takeName());
-        if (isTaken(name))
+        if (isReservedName(name))
             failAt(start, text::inQuotes(name) + " has a meaning already, so no constant can be called so");
         if (name.size() > kMaxNameLength)
             failAt(start, "a name may have at most " + std::to_string(kMaxNameLength) + " characters");
@@ -278,7 +278,7 @@ class Parser {
     void defineConstant(std::string name, std::size_t start, std::size_t valueStart) {
         if (constants_.size() - expressions_.sharedConstants == limits_.constants)
             failAt(start, "a formula may have at most " + std::to_string(limits_.constants) + " constants");
-        Graph graph;
+        OperationGraph graph;
         const double value = *graph.constantAt(buildGraph(tree_, {}, graph));  // buildGraph() folds constants
         if (!std::isfinite(value)) failAt(valueStart, "the value of " + name + " is not a finite number");
         constants_.push_back({std::move(name), value});
@@ -303,7 +303,7 @@ class Parser {
         std::vector<ResolvedName> definitions;
         for (const auto& [name, byte] : uses_) {
             const auto found = resolve(name);
-            if (!found) failAt(byte, "nothing is called " + text::inQuotes(name) + explanation(name));
+            if (!found) failAt(byte, "nothing is called " + text::inQuotes(name) + undefinedNameHint(name));
             definitions.push_back(*found);
         }
         for (SyntaxNode& node : formula.nodes) {
@@ -355,10 +355,10 @@ class Parser {
         while (at_ < text_.size() && isNamePart(text_[at_])) ++at_;
         return text_.substr(start, at_ - start);
     }
-    Relation takeComparison() {
+    ComparisonRelation takeComparison() {
         for (const auto& [symbol, relation] : kComparisons)
             if (take(symbol)) return relation;
-        return Relation::none;
+        return ComparisonRelation::none;
     }
     bool isAtComparison() {
         skipBlanks();
@@ -372,23 +372,23 @@ class Parser {
             ++at_;
     }
 
-    std::string hint() const {
+    std::string productHint() const {
         const bool isOperand = at_ < text_.size() && (isNamePart(text_[at_]) || text_[at_] == '(');
         return isOperand ? " (a product is written 2*x)" : "";
     }
     static std::string suggestion(std::string_view name) {
         if (name.size() == 1) return "";  // there is no suggestion, because all other letters are equally similar
         std::vector<std::string_view> known(kVariablesAndConstants.begin(), kVariablesAndConstants.end());
-        for (const auto& function : functions()) known.push_back(function.name);
+        for (const auto& function : builtinFunctions()) known.push_back(function.name);
         return text::didYouMean(name, known);
     }
     static std::string functionNames() {
         std::vector<std::string_view> known;
-        for (const auto& function : functions()) known.push_back(function.name);
+        for (const auto& function : builtinFunctions()) known.push_back(function.name);
         return text::commaSeparated(known);
     }
     // Returns the last part of the message about a name that is not defined: a hint how to correct the mistake.
-    static std::string explanation(std::string_view name) {
+    static std::string undefinedNameHint(std::string_view name) {
         if (name.size() > 1 && name.find_first_not_of("xyzwtr") == std::string_view::npos) {
             std::string product(1, name[0]);
             for (const char c : name.substr(1)) product += {'*', c};
@@ -399,19 +399,19 @@ class Parser {
     }
     [[noreturn]] void failAfterOperand() const {
         if (text_[at_] == ')') fail("a '(' is missing for this ')'");
-        fail("an operator is expected" + hint());
+        fail("an operator is expected" + productHint());
     }
     [[noreturn]] void fail(std::string what) const { throw SyntaxError{at_, std::move(what)}; }
     [[noreturn]] static void failAt(std::size_t byte, std::string what) { throw SyntaxError{byte, std::move(what)}; }
 
     struct NestingGuard {
-        explicit NestingGuard(Parser& owner) : parser(owner) {
+        explicit NestingGuard(FormulaParser& owner) : parser(owner) {
             if (++parser.depth_ > parser.limits_.nesting) parser.fail("the formula nests too deeply");
         }
         ~NestingGuard() { --parser.depth_; }
         NestingGuard(const NestingGuard&) = delete;
         NestingGuard& operator=(const NestingGuard&) = delete;
-        Parser& parser;
+        FormulaParser& parser;
     };
 
     std::string_view text_;
@@ -431,15 +431,15 @@ class Parser {
 std::variant<ParsedFormula, FormulaMistake> parseSyntax(std::string_view text, const FormulaLimits& limits,
                                                         const ParsedFormula* shared) {
     if (text.size() > limits.bytes) {
-        return FormulaMistake{positionOf(text, limits.bytes),
+        return FormulaMistake{characterPosition(text, limits.bytes),
                               "a formula may have at most " + std::to_string(limits.bytes) + " bytes"};
     }
     if (text.find_first_not_of(" \t\r\n") == std::string_view::npos)
         return FormulaMistake{1, "a formula is expected, such as x^2+y^2+z^2+w^2-1"};
     try {
-        return Parser(text, limits, shared).parse();
-    } catch (const Parser::SyntaxError& error) {
-        return FormulaMistake{positionOf(text, error.byte), error.what};
+        return FormulaParser(text, limits, shared).parse();
+    } catch (const FormulaParser::SyntaxError& error) {
+        return FormulaMistake{characterPosition(text, error.byte), error.what};
     }
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The mathematical functions of the C library, applied to the elements of arrays.
 
-#include <math.h>  // not <cmath>, whose inline functions must not be used: see ValueLoops
+#include <math.h>  // not <cmath>, whose inline functions must not be used: see TapeEvaluator
 
 #include <cstddef>
 
@@ -9,8 +9,8 @@
 
 namespace oval4d::fields {
 
-/// The `Math` argument of ValueLoops for every processor. `Source` must be a type that only the including source file
-/// has, so that other source files do not share the code (see ValueLoops).
+/// The `Math` argument of TapeEvaluator for every processor. `Source` must be a type that only the including source
+/// file has, so that other source files do not share the code (see TapeEvaluator).
 template <typename Source>
 struct PortableMath {
     static void unary(Operation operation, float* out, const float* a, std::size_t size) {

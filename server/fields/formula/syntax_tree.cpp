@@ -12,19 +12,19 @@ namespace oval4d::fields {
 namespace {
 
 using NodeKind = SyntaxNode::NodeKind;
-using Ref = Graph::Ref;
+using NodeIndex = OperationGraph::NodeIndex;
 
-Ref buildVariable(std::uint32_t index, Graph& graph) {
+NodeIndex buildVariable(std::uint32_t index, OperationGraph& graph) {
     if (index != SyntaxTree::kR) return graph.variable(static_cast<int>(index));
-    Ref sum = graph.square(graph.variable(0));
+    NodeIndex sum = graph.square(graph.variable(0));
     for (const int axis : {1, 2}) sum = graph.add(sum, graph.square(graph.variable(axis)));
     return graph.sqrt(sum);
 }
 
 // Adds the operation of `node`, a node of the tree, to the graph. Returns the new node of the graph. `operands` are the
 // nodes of the graph for the operands of `node`.
-Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<const FormulaConstant> constants,
-              Graph& graph) {
+NodeIndex buildNode(const SyntaxNode& node, std::span<const NodeIndex> operands,
+                    std::span<const FormulaConstant> constants, OperationGraph& graph) {
     switch (node.kind) {
         case NodeKind::number:
             return graph.constant(node.number);
@@ -49,26 +49,26 @@ Ref buildNode(const SyntaxNode& node, std::span<const Ref> operands, std::span<c
         case NodeKind::divide:
             return graph.divide(operands[0], operands[1]);
         case NodeKind::power:
-            return graph.binary(Operation::power, operands[0], operands[1]);
+            return graph.binaryNode(Operation::power, operands[0], operands[1]);
         case NodeKind::call:
-            return functions()[node.index].build(graph, operands);
+            return builtinFunctions()[node.index].build(graph, operands);
     }
     return 0;
 }
 
-std::string_view symbolOf(Relation relation) {
+std::string_view symbolOf(ComparisonRelation relation) {
     switch (relation) {
-        case Relation::none:
+        case ComparisonRelation::none:
             return "";
-        case Relation::equal:
+        case ComparisonRelation::equal:
             return "=";
-        case Relation::less:
+        case ComparisonRelation::less:
             return "<";
-        case Relation::less_equal:
+        case ComparisonRelation::less_equal:
             return "<=";
-        case Relation::greater:
+        case ComparisonRelation::greater:
             return ">";
-        case Relation::greater_equal:
+        case ComparisonRelation::greater_equal:
             return ">=";
     }
     return "";
@@ -83,7 +83,9 @@ struct TextWithPrecedence {
     Precedence precedence;
 
     // Returns the text; adds parentheses if its precedence is lower than `least`.
-    std::string atLeast(Precedence least) && { return precedence < least ? "(" + text + ")" : std::move(text); }
+    std::string parenthesizedIfLooserThan(Precedence least) && {
+        return precedence < least ? "(" + text + ")" : std::move(text);
+    }
 };
 
 // A placeholder for a space that is written only outside of parentheses.
@@ -97,7 +99,7 @@ class FormulaWriter {
         for (const SyntaxNode& node : tree.nodes) written_.push_back(write(node));
     }
 
-    std::string side(std::uint32_t node) { return std::move(written_[node].text); }
+    std::string sideText(std::uint32_t node) { return std::move(written_[node].text); }
 
   private:
     TextWithPrecedence write(const SyntaxNode& node) {
@@ -131,29 +133,30 @@ class FormulaWriter {
         }
         return {};
     }
-    std::string operand(const SyntaxNode& node, std::size_t i, Precedence least) {
-        return std::move(written_[tree_.operandsOf(node)[i]]).atLeast(least);
+    std::string operandText(const SyntaxNode& node, std::size_t i, Precedence least) {
+        return std::move(written_[tree_.operandsOf(node)[i]]).parenthesizedIfLooserThan(least);
     }
     // Writes a negation. The negation of a product is −a·b, without parentheses: the parser moves the sign of a factor
     // out of the product, so it makes the same tree of −a·b.
     TextWithPrecedence writeNegation(const SyntaxNode& node) {
         const bool isProduct = written_[tree_.operandsOf(node)[0]].precedence == Precedence::product;
-        return {"-" + operand(node, 0, Precedence::product), isProduct ? Precedence::product : Precedence::negation};
+        return {"-" + operandText(node, 0, Precedence::product),
+                isProduct ? Precedence::product : Precedence::negation};
     }
     TextWithPrecedence writeBinary(const SyntaxNode& node, std::string_view symbol, Precedence own, Precedence left,
                                    Precedence right) {
-        std::string text = operand(node, 0, left);
+        std::string text = operandText(node, 0, left);
         text += symbol;
-        text += operand(node, 1, right);
+        text += operandText(node, 1, right);
         return {std::move(text), own};
     }
     TextWithPrecedence writeCall(const SyntaxNode& node) {
-        const std::string_view name = functions()[node.index].name;
-        if (name == "deg") return {operand(node, 0, Precedence::atom) + "°", Precedence::unit};
+        const std::string_view name = builtinFunctions()[node.index].name;
+        if (name == "deg") return {operandText(node, 0, Precedence::atom) + "°", Precedence::unit};
         std::string text(name);
         for (std::size_t i = 0; i < node.operandCount; ++i) {
             text += i == 0 ? "(" : ",";
-            text += operand(node, i, Precedence::sum);
+            text += operandText(node, i, Precedence::sum);
         }
         return {text + ")", Precedence::atom};
     }
@@ -180,8 +183,9 @@ std::string withOuterSpaces(std::string_view text, bool isSpaced) {
 
 }  // namespace
 
-Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants, Graph& graph) {
-    std::vector<Ref> built, operands;
+OperationGraph::NodeIndex buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants,
+                                     OperationGraph& graph) {
+    std::vector<NodeIndex> built, operands;
     built.reserve(tree.nodes.size());
     for (const SyntaxNode& node : tree.nodes) {
         if (node.kind == NodeKind::expression) {
@@ -193,26 +197,26 @@ Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> c
         built.push_back(buildNode(node, operands, constants, graph));
     }
     switch (tree.relation) {
-        case Relation::none:
+        case ComparisonRelation::none:
             return built[tree.left];
-        case Relation::equal:
-        case Relation::less:
-        case Relation::less_equal:
+        case ComparisonRelation::equal:
+        case ComparisonRelation::less:
+        case ComparisonRelation::less_equal:
             return graph.subtract(built[tree.left], built[tree.right]);
-        case Relation::greater:
-        case Relation::greater_equal:
+        case ComparisonRelation::greater:
+        case ComparisonRelation::greater_equal:
             return graph.subtract(built[tree.right], built[tree.left]);
     }
     return built[tree.left];
 }
 
-std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced) {
+std::string formulaText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced) {
     const std::string space(isSpaced ? 1 : 0, ' ');
     FormulaWriter writer(tree, constants);
-    std::string text = withOuterSpaces(writer.side(tree.left), isSpaced);
-    if (tree.relation != Relation::none) {
+    std::string text = withOuterSpaces(writer.sideText(tree.left), isSpaced);
+    if (tree.relation != ComparisonRelation::none) {
         text += space + std::string(symbolOf(tree.relation)) + space;
-        text += withOuterSpaces(writer.side(tree.right), isSpaced);
+        text += withOuterSpaces(writer.sideText(tree.right), isSpaced);
     }
     std::string_view separator = ";";
     const auto define = [&](const std::string& name, const std::string& value) {
@@ -222,7 +226,7 @@ std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> cons
     for (const FormulaConstant& constant : constants.subspan(tree.sharedConstants))
         define(constant.name, text::shortestDecimal(constant.value));
     for (std::size_t i = tree.sharedExpressions; i < tree.expressions.size(); ++i)
-        define(tree.expressions[i].name, withOuterSpaces(writer.side(tree.expressions[i].root), false));
+        define(tree.expressions[i].name, withOuterSpaces(writer.sideText(tree.expressions[i].root), false));
     return text;
 }
 

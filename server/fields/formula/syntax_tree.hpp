@@ -1,5 +1,5 @@
 #pragma once
-// The syntax tree of a formula. The parser returns the tree, toText() writes the tree as text, and buildGraph()
+// The syntax tree of a formula. The parser returns the tree, formulaText() writes the tree as text, and buildGraph()
 // converts the tree to a graph.
 
 #include <cstddef>
@@ -21,7 +21,7 @@ struct FormulaConstant {
 };
 
 /// The comparison of the two sides of a formula; `none` if the formula is not a comparison.
-enum class Relation : std::uint8_t { none, equal, less, less_equal, greater, greater_equal };
+enum class ComparisonRelation : std::uint8_t { none, equal, less, less_equal, greater, greater_equal };
 
 /// A node of a syntax tree: a number, a name, an operation or a call.
 struct SyntaxNode {
@@ -38,7 +38,7 @@ struct SyntaxNode {
         multiply,
         divide,
         power,
-        call,  ///< `index` is an index into functions()
+        call,  ///< `index` is an index into builtinFunctions()
     };
     NodeKind kind = NodeKind::number;
     std::uint32_t index = 0;
@@ -62,7 +62,7 @@ struct SyntaxTree {
     /// The named expressions; an expression uses only earlier expressions. The nodes of all expressions precede those
     /// of the formula itself.
     std::vector<NamedExpression> expressions;
-    Relation relation = Relation::none;
+    ComparisonRelation relation = ComparisonRelation::none;
     std::uint32_t left = 0, right = 0;  ///< the root nodes of the two sides of a comparison; `left` only, without a
                                         ///< comparison
     /// The numbers of constants and of expressions that the shared formula defines (see parseSyntax()). These constants
@@ -77,11 +77,12 @@ struct SyntaxTree {
 /// Adds the tree to the graph, with these values of the constants. Returns the node of the formula's function. This is
 /// `left` without a comparison, right − left if the relation is greater or greater_equal, and left − right for other
 /// comparisons.
-Graph::Ref buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants, Graph& graph);
+OperationGraph::NodeIndex buildGraph(const SyntaxTree& tree, std::span<const FormulaConstant> constants,
+                                     OperationGraph& graph);
 
 /// Returns the tree as text with as few parentheses as possible. If `isSpaced`, writes spaces outside of parentheses.
 /// Parsing this text, with the same `shared` formula (see parseSyntax()), gives the same function. The text never nests
 /// more deeply than the text from which the tree was parsed.
-std::string toText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced);
+std::string formulaText(const SyntaxTree& tree, std::span<const FormulaConstant> constants, bool isSpaced);
 
 }  // namespace oval4d::fields

@@ -6,44 +6,44 @@ namespace oval4d::fields {
 
 namespace {
 
-using Node = Graph::Node;
-using Ref = Graph::Ref;
+using Node = OperationGraph::Node;
+using NodeIndex = OperationGraph::NodeIndex;
 using OperandForm = Instruction::OperandForm;
 
-constexpr Ref kNever = 0xFFFFFFFF;
+constexpr NodeIndex kNever = 0xFFFFFFFF;
 
 bool isLeaf(const Node& node) { return node.operation == Operation::constant || node.operation == Operation::variable; }
 
-class Compiler {
+class TapeCompiler {
   public:
-    Compiler(const Graph& graph, Ref result)
+    TapeCompiler(const OperationGraph& graph, NodeIndex result)
         : nodes_(graph.nodes()),
           result_(result),
           lastUse_(result + 1, kNever),
           registers_(result + 1),
           axes_(result + 1) {
         findLastUses();
-        for (Ref node = 0; node <= result_; ++node) {
+        for (NodeIndex node = 0; node <= result_; ++node) {
             if (nodes_[node].operation == Operation::variable) {
                 registers_[node] = static_cast<std::uint16_t>(nodes_[node].number);
                 axes_[node] = static_cast<Instruction::AxisSet>(1U << registers_[node]);
             } else if (lastUse_[node] != kNever && !isLeaf(nodes_[node])) {
-                emit(node);
+                emitInstruction(node);
             }
         }
         if (isLeaf(nodes_[result_])) emitLeaf(nodes_[result_]);
     }
 
-    Tape take() { return std::move(tape_); }
+    Tape takeTape() { return std::move(tape_); }
 
   private:
     // Sets lastUse_ of each node to the last node that has this node as an operand. lastUse_ remains kNever for a node
     // on which the result does not depend. The last use of the result is the result itself.
     void findLastUses() {
         lastUse_[result_] = result_;
-        for (Ref user = result_ + 1; user-- > 0;) {
+        for (NodeIndex user = result_ + 1; user-- > 0;) {
             if (lastUse_[user] == kNever || isLeaf(nodes_[user])) continue;
-            forEachOperand(nodes_[user], [&](Ref operand) {
+            forEachOperand(nodes_[user], [&](NodeIndex operand) {
                 if (lastUse_[operand] == kNever) lastUse_[operand] = user;
             });
         }
@@ -53,9 +53,9 @@ class Compiler {
         call(node.a);
         if (isBinary(node.operation)) call(node.b);
     }
-    bool isConstant(Ref node) const { return nodes_[node].operation == Operation::constant; }
+    bool isConstant(NodeIndex node) const { return nodes_[node].operation == Operation::constant; }
 
-    void emit(Ref number) {
+    void emitInstruction(NodeIndex number) {
         const Node& node = nodes_[number];
         Instruction instruction{.operation = node.operation};
         instruction.number = node.number;
@@ -71,8 +71,8 @@ class Compiler {
         }
         if (!isPiecewiseConstant(node.operation))
             instruction.axes = static_cast<Instruction::AxisSet>(instruction.axesOfA | instruction.axesOfB);
-        forEachOperand(node, [&](Ref operand) { release(operand, number); });
-        instruction.result = number == result_ ? Tape::kResult : allocate();
+        forEachOperand(node, [&](NodeIndex operand) { releaseRegister(operand, number); });
+        instruction.result = number == result_ ? Tape::kResult : allocateRegister();
         registers_[number] = instruction.result;
         axes_[number] = instruction.axes;
         tape_.instructions.push_back(instruction);
@@ -91,12 +91,12 @@ class Compiler {
     static bool isPiecewiseConstant(Operation operation) {
         return operation == Operation::step || operation == Operation::sign || operation == Operation::floor;
     }
-    void release(Ref operand, Ref user) {
+    void releaseRegister(NodeIndex operand, NodeIndex user) {
         if (lastUse_[operand] != user || isLeaf(nodes_[operand])) return;
         free_.push_back(registers_[operand]);
         lastUse_[operand] = kNever;  // prevents a second release if both operands are the same node
     }
-    std::uint16_t allocate() {
+    std::uint16_t allocateRegister() {
         if (free_.empty()) return static_cast<std::uint16_t>(Tape::kFirstScratch + tape_.scratchRegisters++);
         const std::uint16_t reused = free_.back();
         free_.pop_back();
@@ -104,8 +104,8 @@ class Compiler {
     }
 
     const std::vector<Node>& nodes_;
-    Ref result_;
-    std::vector<Ref> lastUse_;
+    NodeIndex result_;
+    std::vector<NodeIndex> lastUse_;
     std::vector<std::uint16_t> registers_;
     std::vector<Instruction::AxisSet> axes_;
     std::vector<std::uint16_t> free_;
@@ -114,6 +114,8 @@ class Compiler {
 
 }  // namespace
 
-Tape compile(const Graph& graph, Graph::Ref result) { return Compiler(graph, result).take(); }
+Tape compile(const OperationGraph& graph, OperationGraph::NodeIndex result) {
+    return TapeCompiler(graph, result).takeTape();
+}
 
 }  // namespace oval4d::fields

@@ -1,7 +1,7 @@
 #pragma once
-// The loops that evaluate instructions. They are templates, so that each source file that includes this header compiles
-// them for its own instruction set. The compiler vectorizes these plain loops. "omp simd" tells the compiler that an
-// output is the same array as an input, or does not overlap any input.
+// The loops that evaluate instructions. The loops are templates, so that each source file that includes this header
+// compiles them for its own instruction set. The compiler vectorizes these plain loops. "omp simd" tells the compiler
+// that an output is the same array as an input, or does not overlap any input.
 
 #include <cstddef>
 
@@ -16,7 +16,7 @@ namespace oval4d::fields {
 /// files instantiated the same template, the linker would keep one copy (by the one-definition rule), perhaps one with
 /// instructions that this processor lacks. For the same reason, nothing here calls inline functions of other headers.
 template <typename Math>
-class ValueLoops {
+class TapeEvaluator {
   public:
     static void evaluate(const Instruction* instructions, std::size_t count, const PointBlock& block) {
         for (const Instruction* next = instructions; next != instructions + count; ++next)
@@ -124,7 +124,8 @@ class ValueLoops {
     static float step(float x) { return x != x ? x : (x < 0 ? 0.0F : 1.0F); }
     static float sign(float x) { return x != x ? x : (x < 0 ? -1.0F : (x > 0 ? 1.0F : 0.0F)); }
 
-    // Returns whether a power with this exponent, n + 1/2, is computed as aⁿ times the square root of the base a.
+    // Returns whether `exponent` is n + 1/2 with an integer n from 0 to 8. The power is then computed as aⁿ times the
+    // square root of the base a.
     static bool usesHalfIntegerPower(float exponent) {
         return exponent >= 0.5F && exponent <= 8.5F && 2 * exponent == __builtin_floorf(2 * exponent) &&
                exponent != __builtin_floorf(exponent);

@@ -47,10 +47,10 @@ std::vector<std::size_t> dimensionsWithAxes(std::span<const std::size_t> sizes) 
     return kept;
 }
 
-Result<AxisMapping> AxisMapping::of(std::span<const Dimension> dimensions, std::size_t maxSamples) {
+Result<AxisMapping> AxisMapping::fromDimensions(std::span<const ArrayDimension> dimensions, std::size_t maxSamples) {
     AxisMapping mapping;
     std::size_t count = 1;
-    for (const Dimension& each : dimensions) {
+    for (const ArrayDimension& each : dimensions) {
         if (each.size == 0) return Error{ErrorCode::bad_field, "the array is empty"};
         if (each.size > kMaxSamplesPerAxis || each.size > std::min(maxSamples, kMaxSamples) / count) {
             return Error{ErrorCode::too_large, "the array has too many samples: at most " + std::to_string(maxSamples) +
@@ -62,7 +62,7 @@ Result<AxisMapping> AxisMapping::of(std::span<const Dimension> dimensions, std::
     std::array<std::size_t, 4> stride{1};
     for (std::size_t i = 1; i < 4; ++i) stride[i] = stride[i - 1] * mapping.shape_[i - 1];
     for (std::size_t i = 0; i < dimensions.size(); ++i) {
-        const Dimension& each = dimensions[i];
+        const ArrayDimension& each = dimensions[i];
         const std::size_t at = 4 - dimensions.size() + i;
         const auto step = static_cast<std::ptrdiff_t>(stride[each.axis]);
         mapping.layout_.size[at] = each.size;
@@ -72,7 +72,7 @@ Result<AxisMapping> AxisMapping::of(std::span<const Dimension> dimensions, std::
     return mapping;
 }
 
-bool AxisMapping::isInOrder() const {
+bool AxisMapping::isInMemoryOrder() const {
     std::ptrdiff_t expected = 1;
     for (std::size_t i = 4; i-- > 0;) {
         if (layout_.size[i] == 1) continue;
@@ -113,13 +113,13 @@ Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<c
     const bool native = format.bigEndian == (std::endian::native == std::endian::big);
     // Floats in memory must be aligned, but numbers in a file need not be.
     const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;
-    if (format.type == NumberType::f4 && native && aligned && format.isPlain() && isInOrder()) {
+    if (format.type == NumberType::f4 && native && aligned && format.needsNoConversion() && isInMemoryOrder()) {
         if (file.file)
             return SampleStorage(file.file, static_cast<std::size_t>(bytes.data() - file.file->bytes().data()),
                                  count());
         return SampleStorage(file.owner, {reinterpret_cast<const float*>(bytes.data()), count()});
     }
-    auto buffer = SampleBuffer::of(count(), options);
+    auto buffer = SampleBuffer::allocate(count(), options);
     if (!buffer) return buffer.error();
     const std::byte* from = bytes.data();
     for (const Slab& slab : slabs(kSlabSize)) {
@@ -129,7 +129,7 @@ Result<SampleStorage> AxisMapping::samples(const FileContents& file, std::span<c
         file.releasePages();
         buffer->releasePages();
     }
-    return buffer->take();
+    return buffer->takeSamples();
 }
 
 Box defaultBox(const Shape& shape, bool time) {

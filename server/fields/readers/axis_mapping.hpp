@@ -19,12 +19,12 @@ namespace oval4d::fields {
 /// each slab, the readers release the pages of mapped files.
 inline constexpr std::size_t kSlabSize = std::size_t{1} << 24U;
 
-/// The size in bytes of the caches of the libraries for HDF5 and NetCDF. They keep decompressed chunks, because several
-/// slabs may need the same chunk.
+/// The size in bytes of the caches of the libraries for HDF5 and NetCDF. The caches keep decompressed chunks, because
+/// several slabs may need the same chunk.
 inline constexpr std::size_t kChunkCacheSize = std::size_t{192} << 20U;
 
 /// A dimension of an array in a file.
-struct Dimension {
+struct ArrayDimension {
     std::size_t size = 1;
     std::size_t axis = 0;   ///< the axis of the field: 0 … 3 for x, y, z, w
     bool reversed = false;  ///< whether the coordinate decreases along the dimension
@@ -57,7 +57,7 @@ class AxisMapping {
     /// `dimensions` are the dimensions of the array, from the slowest to the fastest; all must have different axes.
     /// Errors: `bad_field` if a dimension has the size 0; `too_large` if an axis has more than kMaxSamplesPerAxis
     /// samples, or if there are more than `maxSamples` samples in all.
-    static Result<AxisMapping> of(std::span<const Dimension> dimensions, std::size_t maxSamples);
+    static Result<AxisMapping> fromDimensions(std::span<const ArrayDimension> dimensions, std::size_t maxSamples);
 
     const Shape& shape() const { return shape_; }
     std::size_t count() const { return sampleCount(shape_); }
@@ -65,12 +65,12 @@ class AxisMapping {
     /// Returns the sizes of the array's dimensions and their strides in the samples. If the array has fewer than 4
     /// dimensions, dimensions of size 1 precede them.
     const StridedLayout& layout() const { return layout_; }
-    /// Returns the index in the samples of the array's first number. It is 0 unless a dimension is reversed.
+    /// Returns the index in the samples of the array's first number. The index is 0 unless a dimension is reversed.
     std::size_t firstSampleIndex() const { return first_; }
 
     /// Returns whether the file stores the numbers in the memory order of the samples: x fastest, w slowest (see
     /// Lattice).
-    bool isInOrder() const;
+    bool isInMemoryOrder() const;
 
     /// Divides the array into slabs of at most `maxCount` numbers, in the order of the file. The slabs are as large as
     /// possible: a part of a compressed file may be decompressed again for each slab that needs it.
@@ -78,8 +78,8 @@ class AxisMapping {
 
     /// Returns the samples of the array. `bytes` is the part of the file that stores the numbers in the format
     /// `format`; it must contain at least count() numbers. Uses the bytes in place if they are aligned, in order (see
-    /// isInOrder()), and plain 32-bit floats (see NumberFormat::isPlain()) in this processor's byte order. Otherwise,
-    /// converts them. Errors: those of SampleBuffer::of().
+    /// isInMemoryOrder()), and plain 32-bit floats (see NumberFormat::needsNoConversion()) in this processor's byte
+    /// order. Otherwise, converts them. Errors: those of SampleBuffer::of().
     Result<SampleStorage> samples(const FileContents& file, std::span<const std::byte> bytes,
                                   const NumberFormat& format, const FieldReadOptions& options) const;
 

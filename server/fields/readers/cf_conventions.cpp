@@ -73,8 +73,8 @@ std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimens
     return axes;
 }
 
-std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
-                                                std::vector<std::string>& warnings) {
+std::optional<FirstAndLastCoordinate> endsOfCoordinates(std::span<const double> at, const std::string& name,
+                                                        std::vector<std::string>& warnings) {
     constexpr double kUnevenness = 1e-3;  // the accepted deviation from even spacing, in mean distances between
                                           // coordinates
     const double step = at.size() > 1 ? (at.back() - at.front()) / static_cast<double>(at.size() - 1) : 1;
@@ -92,11 +92,11 @@ std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, cons
         warnings.push_back("the coordinates of " + text::inQuotes(name) +
                            " are not evenly spaced; the array is shown as if they were");
     }
-    return CoordinateEnds{at.front(), at.back()};
+    return FirstAndLastCoordinate{at.front(), at.back()};
 }
 
-void countFromLeastIfFar(CoordinateEnds& ends, std::size_t count, const std::string& name, std::string& unit,
-                         std::vector<std::string>& warnings) {
+void rebaseToLeastIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name, std::string& unit,
+                        std::vector<std::string>& warnings) {
     constexpr double kClose = 2e-5;  // makeField() rejects boxes whose size is less than this times their distance from
                                      // 0
     if (count < 2) return;

@@ -25,22 +25,22 @@ std::optional<std::size_t> cfAxis(const CfDimension& dimension);
 std::vector<std::size_t> axisOfEachDimension(std::span<const CfDimension> dimensions);
 
 /// The first and the last of the coordinates along a dimension.
-struct CoordinateEnds {
+struct FirstAndLastCoordinate {
     double first, last;
 };
 
 /// Returns the first and the last of the coordinates `at` along the dimension `name`. `at` must not be empty. If the
 /// coordinates are not strictly monotonic, adds a warning and returns an empty optional. If the coordinates are not
 /// evenly spaced, adds a warning.
-std::optional<CoordinateEnds> endsOfCoordinates(std::span<const double> at, const std::string& name,
-                                                std::vector<std::string>& warnings);
+std::optional<FirstAndLastCoordinate> endsOfCoordinates(std::span<const double> at, const std::string& name,
+                                                        std::vector<std::string>& warnings);
 
 /// Shifts coordinates that are too close together for their distance from 0, such as hours since 1900: 32-bit floats,
 /// with which functions are evaluated, hardly distinguish places between them. They are too close if the mean distance
 /// of the `count` coordinates between these ends is less than 2·10⁻⁵ of their distance from 0. In this case, subtracts
 /// the least coordinate from both ends, adds a warning with this coordinate, and removes " since …" from `unit`. `name`
 /// is the name of the dimension.
-void countFromLeastIfFar(CoordinateEnds& ends, std::size_t count, const std::string& name, std::string& unit,
-                         std::vector<std::string>& warnings);
+void rebaseToLeastIfFar(FirstAndLastCoordinate& ends, std::size_t count, const std::string& name, std::string& unit,
+                        std::vector<std::string>& warnings);
 
 }  // namespace oval4d::fields

@@ -24,11 +24,11 @@ const Error kDamaged{ErrorCode::bad_field, "it is damaged, or has another size t
 Result<std::monostate> inflated(GzipReader::StreamFormat format, std::span<const std::byte> chunk,
                                 std::span<std::byte> to) {
     GzipReader reader(chunk, format);
-    if (!reader.fill(to) || !reader.verifyEnd()) return kDamaged;
+    if (!reader.decompressInto(to) || !reader.verifyEnd()) return kDamaged;
     return std::monostate{};
 }
 
-Result<std::monostate> unblosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
+Result<std::monostate> decompressBlosc(std::span<const std::byte> chunk, std::span<std::byte> to) {
     std::size_t size = 0;
     // First check the sizes in the header of the chunk, which blosc_decompress_ctx() trusts.
     if (chunk.size() < BLOSC_MIN_HEADER_LENGTH || blosc_cbuffer_validate(chunk.data(), chunk.size(), &size) < 0 ||
@@ -59,7 +59,7 @@ Result<std::monostate> decompress(ChunkCodec codec, std::span<const std::byte> c
             return std::monostate{};
         }
         case ChunkCodec::blosc:
-            return unblosc(chunk, to);
+            return decompressBlosc(chunk, to);
     }
     return kDamaged;
 }

@@ -47,7 +47,7 @@ struct FieldReadOptions {
     /// parts.
     std::optional<Box> region = {};
     /// The maximum number of samples of the level of a multiscale image that readZarr() chooses. Finer levels of at
-    /// most `maxInMemory` samples count as ImageLevel::finer.
+    /// most `maxInMemory` samples count as MultiscaleImageLevel::finer.
     std::size_t maxInFirstLevel = kMaxSamples;
     std::optional<std::uint32_t> level = {};  ///< the level of a multiscale image that readZarr() reads; if empty,
                                               ///< readZarr() chooses the level
@@ -63,7 +63,7 @@ struct FieldArray {
     AxisUnits units;                    ///< the units of the coordinates in `box`
     Quantity quantity;                  ///< what the samples measure
     bool isPart = false;                ///< whether the file has more samples, of a finer level or beyond the box
-    ImageLevel imageLevel;              ///< the level, if the file is a folder with a multiscale image
+    MultiscaleImageLevel imageLevel;    ///< the level, if the file is a folder with a multiscale image
     std::vector<std::string> warnings;  ///< warnings for the user, as sentences
 
     /// Returns the function that interpolates the samples. Error: `bad_field` if the box is not valid (see Lattice).
@@ -78,10 +78,10 @@ void visitStoredMembers(serialization::ReadOrWritten<FieldArray> auto& array, au
     visit.member(3, units);
     visit.member(4, quantity);
     visit.member(5, isPart);
-    visit.addedMember(6, imageLevel);
+    visit.memberAddedLater(6, imageLevel);
 }
 
 /// Returns the error `bad_field`, for a file that does not follow its format, or whose values cannot become a field.
-inline Error badField(std::string reason) { return {ErrorCode::bad_field, std::move(reason)}; }
+inline Error badFieldError(std::string reason) { return {ErrorCode::bad_field, std::move(reason)}; }
 
 }  // namespace oval4d::fields

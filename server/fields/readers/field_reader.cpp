@@ -29,10 +29,10 @@ namespace {
 
 bool isNiftiOrGzipStart(std::span<const std::byte> start) { return isNiftiStart(start) || isGzipStart(start); }
 
-constexpr std::array<FieldFormat, 4> kFormats{{{"npy", isNpyStart, readNpy},
-                                               {"netcdf", isNetcdfStart, readNetcdf},
-                                               {"hdf5", isHdf5Start, readHdf5},
-                                               {"nifti", isNiftiOrGzipStart, readNifti}}};
+constexpr std::array<FieldFileFormat, 4> kFormats{{{"npy", isNpyStart, readNpy},
+                                                   {"netcdf", isNetcdfStart, readNetcdf},
+                                                   {"hdf5", isHdf5Start, readHdf5},
+                                                   {"nifti", isNiftiOrGzipStart, readNifti}}};
 
 // Removes all digits at the start of `rest`, and returns them without leading zeros.
 std::string_view takeNumber(std::string_view& rest) {
@@ -44,7 +44,7 @@ std::string_view takeNumber(std::string_view& rest) {
     return number;
 }
 
-bool comesBefore(const std::string& a, const std::string& b) {
+bool precedesInNaturalOrder(const std::string& a, const std::string& b) {
     std::string_view restA = a, restB = b;
     while (!restA.empty() && !restB.empty()) {
         if (text::isDigit(restA.front()) && text::isDigit(restB.front())) {
@@ -65,12 +65,12 @@ bool comesBefore(const std::string& a, const std::string& b) {
 void setSeriesBox(FieldArray& series, std::span<const double> times, const FieldReadOptions& options) {
     const bool known =
         series.boxIsKnown && std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-    CoordinateEnds ends{0, static_cast<double>(times.size() - 1)};
+    FirstAndLastCoordinate ends{0, static_cast<double>(times.size() - 1)};
     if (known) {
         static_cast<void>(endsOfCoordinates(times, "w", series.warnings));  // adds a warning if they are not evenly
                                                                             // spaced
         ends = {times.front(), times.back()};
-        if (!options.box) countFromLeastIfFar(ends, times.size(), "w", series.units[3], series.warnings);
+        if (!options.box) rebaseToLeastIfFar(ends, times.size(), "w", series.units[3], series.warnings);
     }
     // Files that state no times all have the same time, which needs no warning.
     const bool differ = std::adjacent_find(times.begin(), times.end(), std::not_equal_to<>()) != times.end();
@@ -89,21 +89,21 @@ void setSeriesBox(FieldArray& series, std::span<const double> times, const Field
 
 }  // namespace
 
-std::span<const FieldFormat> fieldFormats() { return kFormats; }
+std::span<const FieldFileFormat> fieldFormats() { return kFormats; }
 
-const FieldFormat* formatOfFile(std::span<const std::byte> start) {
-    const auto* const format =
-        std::find_if(kFormats.begin(), kFormats.end(), [&](const FieldFormat& each) { return each.isStart(start); });
+const FieldFileFormat* formatOfFile(std::span<const std::byte> start) {
+    const auto* const format = std::find_if(kFormats.begin(), kFormats.end(),
+                                            [&](const FieldFileFormat& each) { return each.isStart(start); });
     return format == kFormats.end() ? nullptr : format;
 }
 
 Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& options) {
     if (options.region)
         return Error{ErrorCode::unsupported_format, "only Zarr folders can be read in part, not other files (region)"};
-    const FieldFormat* const format = formatOfFile(file.bytes.first(std::min(file.bytes.size(), kRecognizedBytes)));
+    const FieldFileFormat* const format = formatOfFile(file.bytes.first(std::min(file.bytes.size(), kRecognizedBytes)));
     if (format == nullptr) {
         std::vector<std::string_view> names;
-        for (const FieldFormat& each : kFormats) names.push_back(each.name);
+        for (const FieldFileFormat& each : kFormats) names.push_back(each.name);
         return Error{ErrorCode::unsupported_format,
                      "the file has none of the formats of fields: " + text::commaSeparated(names)};
     }
@@ -137,7 +137,7 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const FieldRe
             const std::size_t most = std::min(options.maxSamples, kMaxSamples) / samples.size();
             if (files.size() > most || files.size() > kMaxSamplesPerAxis)
                 return Error{ErrorCode::too_large, "the series has too many samples"};
-            auto buffer = SampleBuffer::of(samples.size() * files.size(), options);
+            auto buffer = SampleBuffer::allocate(samples.size() * files.size(), options);
             if (!buffer) return buffer.error();
             all = std::move(*buffer);
             if (options.newFile) ofFile.newFile = reuseFile;
@@ -163,7 +163,7 @@ Result<FieldArray> readSeries(std::span<const FileContents> files, const FieldRe
     }
     if (unitsDiffer) series.quantity.unit.clear();
     series.shape[3] = files.size();
-    series.samples = all->take();
+    series.samples = all->takeSamples();
     setSeriesBox(series, times, options);
     return series;
 }
@@ -183,8 +183,9 @@ Result<std::vector<std::filesystem::path>> seriesFiles(const std::filesystem::pa
         if (formatOfFile(std::as_bytes(std::span(start).first(length))) != nullptr) files.push_back(entry->path());
     }
     if (fault) return Error{ErrorCode::not_found, "the folder cannot be read: " + fault.message()};
-    std::sort(files.begin(), files.end(),
-              [](const auto& a, const auto& b) { return comesBefore(a.filename().string(), b.filename().string()); });
+    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+        return precedesInNaturalOrder(a.filename().string(), b.filename().string());
+    });
     return files;
 }
 

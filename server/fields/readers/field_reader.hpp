@@ -15,7 +15,7 @@ namespace oval4d::fields {
 
 /// A format of files that contain fields. The functions have no side effects, except on the state of the libraries that
 /// they call.
-struct FieldFormat {
+struct FieldFileFormat {
     std::string_view name;                              ///< the name of the format in messages and on the command line
     bool (*isStart)(std::span<const std::byte> start);  ///< returns whether the bytes are the start of a file of this
                                                         ///< format
@@ -26,15 +26,15 @@ struct FieldFormat {
 inline constexpr std::size_t kRecognizedBytes = 352;
 
 /// Returns the formats: "npy", "netcdf", "hdf5", "nifti".
-std::span<const FieldFormat> fieldFormats();
+std::span<const FieldFileFormat> fieldFormats();
 
 /// Returns the format of a file, or null if the file has none of the formats. `start` must be the first
 /// kRecognizedBytes bytes of the file, or the whole file if it is shorter. A gzip file counts as NIfTI, the only format
 /// whose files may be compressed as a whole.
-const FieldFormat* formatOfFile(std::span<const std::byte> start);
+const FieldFileFormat* formatOfFile(std::span<const std::byte> start);
 
-/// Reads a file in the format that its first bytes show. Errors: those of FieldFormat::read; `unsupported_format` if
-/// the file has none of the formats, or if the options have a region.
+/// Reads a file in the format that its first bytes show. Errors: those of FieldFileFormat::read; `unsupported_format`
+/// if the file has none of the formats, or if the options have a region.
 Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& options);
 
 /// Reads a series of files, each with one time step, as one field. All files must have the same shape, with one sample
@@ -44,7 +44,7 @@ Result<FieldArray> readField(const FileContents& file, const FieldReadOptions& o
 /// - defaultBox(), if the files do not state their boxes.
 /// - Otherwise, the box of the files in x, y and z. Let the time of a file be the w at which its box begins. If the
 ///   times increase from file to file, w extends from the first to the last time, as if they were evenly spaced, or
-///   from 0 on if they are far from 0 (see countFromLeastIfFar()). If they do not increase, w is the number of the
+///   from 0 on if they are far from 0 (see rebaseToLeastIfFar()). If they do not increase, w is the number of the
 ///   file, from 0 on; unless all times are equal, there is a warning.
 ///
 /// Errors: those of readField(), with the number of the file; `bad_field` if there are no files, or if their shapes or

@@ -10,7 +10,7 @@
 
 namespace oval4d::fields {
 
-FileContents FileContents::cutTo(const FilePart& part) const {
+FileContents FileContents::partialContents(const FilePart& part) const {
     const std::uint64_t whole = bytes.size();
     const std::uint64_t first = part.fromEnd ? whole - std::min(whole, part.size) : std::min(whole, part.offset);
     return {owner, bytes.subspan(first, std::min(whole - first, part.size)), file};
@@ -18,10 +18,10 @@ FileContents FileContents::cutTo(const FilePart& part) const {
 
 FileContents FileContents::copyOf(std::string_view bytes) {
     const auto view = std::as_bytes(std::span(bytes));
-    return of({view.begin(), view.end()});
+    return ofBytes({view.begin(), view.end()});
 }
 
-FileContents FileContents::of(std::vector<std::byte> bytes) {
+FileContents FileContents::ofBytes(std::vector<std::byte> bytes) {
     auto owned = std::make_shared<const std::vector<std::byte>>(std::move(bytes));
     const std::span<const std::byte> view = *owned;
     return {std::move(owned), view};
@@ -33,7 +33,7 @@ FileContents FileContents::ofString(std::string bytes) {
     return {std::move(owned), view};
 }
 
-FileContents FileContents::of(MappedFilePtr file) {
+FileContents FileContents::ofMappedFile(MappedFilePtr file) {
     const std::span<const std::byte> bytes = file->bytes();
     return {file, bytes, file};
 }
@@ -41,7 +41,7 @@ FileContents FileContents::of(MappedFilePtr file) {
 Result<FileContents> FileContents::map(int file) {
     auto mapped = MappedFile::map(file);
     if (!mapped) return mapped.error();
-    return of(std::move(*mapped));
+    return ofMappedFile(std::move(*mapped));
 }
 
 Result<FileContents> FileContents::map(const std::filesystem::path& path) {

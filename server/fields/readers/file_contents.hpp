@@ -39,16 +39,16 @@ struct FileContents {
     }
 
     /// Returns the bytes of a part, without those beyond the end of the file.
-    FileContents cutTo(const FilePart& part) const;
+    FileContents partialContents(const FilePart& part) const;
 
     /// Returns contents that own a copy of `bytes`.
     static FileContents copyOf(std::string_view bytes);
     /// Returns contents that own `bytes`.
-    static FileContents of(std::vector<std::byte> bytes);
+    static FileContents ofBytes(std::vector<std::byte> bytes);
     /// Returns contents that own `bytes`.
     static FileContents ofString(std::string bytes);
     /// Returns the bytes of a mapped file.
-    static FileContents of(MappedFilePtr file);
+    static FileContents ofMappedFile(MappedFilePtr file);
     /// Maps the open file with the descriptor `file`, which the caller may close afterward. Errors: those of
     /// MappedFile::map().
     static Result<FileContents> map(int file);

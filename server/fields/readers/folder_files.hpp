@@ -28,9 +28,9 @@ struct FoundFile {
 
 /// A folder from which the server takes files for another process. That process parses the files, and may not open
 /// files itself. Thread-safe.
-class FolderFiles {
+class FolderFileProvider {
   public:
-    virtual ~FolderFiles() = default;
+    virtual ~FolderFileProvider() = default;
 
     /// Finds a file by its path relative to the folder. Opens the file, or gets the bytes of `part` if the file cannot
     /// be opened. Returns an empty optional if there is no such file, or if a name in the path is empty, "." or "..".

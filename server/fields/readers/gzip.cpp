@@ -29,7 +29,7 @@ struct GzipReader::State {
 
     // Prepares the library for its next call. If a member of a gzip file (RFC 1952, section 2.2) has ended, begins the
     // next member. Calls refill(). Returns false if the member or zlib stream has ended and no member follows.
-    bool proceed() {
+    bool prepareNextInflate() {
         if (inflate.block_state == ISAL_BLOCK_FINISH) {
             // The bytes of `rest` directly follow the bytes that the library has not used yet.
             const std::span left(reinterpret_cast<const std::byte*>(inflate.next_in), inflate.avail_in + rest.size());
@@ -57,15 +57,15 @@ Result<std::monostate> GzipReader::extendTo(std::size_t size, std::vector<std::b
     while (to.size() < size) {
         const std::size_t before = to.size();
         to.resize(std::min(size, before + kStep));
-        if (auto filled = fill(std::span(to).subspan(before)); !filled) return filled;
+        if (auto filled = decompressInto(std::span(to).subspan(before)); !filled) return filled;
     }
     return std::monostate{};
 }
 
-Result<std::monostate> GzipReader::fill(std::span<std::byte> to) {
+Result<std::monostate> GzipReader::decompressInto(std::span<std::byte> to) {
     inflate_state& inflate = state_->inflate;
     while (!to.empty()) {
-        if (!state_->proceed()) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
+        if (!state_->prepareNextInflate()) return Error{ErrorCode::bad_field, "the compressed file is incomplete"};
         const auto room = static_cast<std::uint32_t>(std::min(to.size(), kStep));
         inflate.next_out = reinterpret_cast<std::uint8_t*>(to.data());
         inflate.avail_out = room;
@@ -81,7 +81,7 @@ Result<std::monostate> GzipReader::fill(std::span<std::byte> to) {
 bool GzipReader::verifyEnd() {
     inflate_state& inflate = state_->inflate;
     std::uint8_t more = 0;
-    while (state_->proceed()) {  // the checksum or an empty member may follow the last decompressed byte
+    while (state_->prepareNextInflate()) {  // the checksum or an empty member may follow the last decompressed byte
         inflate.next_out = &more;
         inflate.avail_out = 1;
         if (isal_inflate(&inflate) != ISAL_DECOMP_OK || inflate.avail_out == 0) return false;

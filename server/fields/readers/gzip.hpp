@@ -32,7 +32,7 @@ class GzipReader {
     Result<std::monostate> extendTo(std::size_t size, std::vector<std::byte>& to);
 
     /// Fills `to` with the next decompressed bytes. Errors: those of extendTo().
-    Result<std::monostate> fill(std::span<std::byte> to);
+    Result<std::monostate> decompressInto(std::span<std::byte> to);
 
     /// Returns whether the caller has read all decompressed bytes and the checksum of the bytes is correct. Do not read
     /// from this object after the call, because the call skips a byte if bytes were left.

@@ -29,9 +29,9 @@ namespace {
 constexpr std::size_t kMaxNetcdfText = 64;  // the maximum number of bytes that are kept of a message of the library
 
 // A file that the NetCDF library has opened. The destructor closes the file.
-class OpenFile {
+class OpenNetcdfFile {
   public:
-    explicit OpenFile(const FileContents& file) {
+    explicit OpenNetcdfFile(const FileContents& file) {
         // The library does not change the bytes, although their type is not const.
         auto* const bytes = const_cast<std::byte*>(file.bytes.data());
         const std::size_t size = file.bytes.size();
@@ -46,11 +46,11 @@ class OpenFile {
             status_ = nc_open_mem("field", NC_NOWRITE, padded_.size(), padded_.data(), &id_);
         }
     }
-    ~OpenFile() {
+    ~OpenNetcdfFile() {
         if (status_ == NC_NOERR) nc_close(id_);
     }
-    OpenFile(const OpenFile&) = delete;
-    OpenFile& operator=(const OpenFile&) = delete;
+    OpenNetcdfFile(const OpenNetcdfFile&) = delete;
+    OpenNetcdfFile& operator=(const OpenNetcdfFile&) = delete;
 
     int status() const { return status_; }
     int id() const { return id_; }
@@ -60,15 +60,15 @@ class OpenFile {
     int id_ = -1, status_;
 };
 
-struct Variable {
+struct NetcdfVariable {
     int group = -1, id = -1;
     std::string name;
     nc_type type = NC_NAT;
     std::vector<int> dimensions;
 };
 
-std::optional<Variable> variableAt(int group, int id) {
-    Variable variable{group, id, {}, NC_NAT, {}};
+std::optional<NetcdfVariable> variableAt(int group, int id) {
+    NetcdfVariable variable{group, id, {}, NC_NAT, {}};
     std::array<char, NC_MAX_NAME + 1> name{};
     int count = 0;
     if (nc_inq_var(group, id, name.data(), &variable.type, &count, nullptr, nullptr) != NC_NOERR) return {};
@@ -78,7 +78,7 @@ std::optional<Variable> variableAt(int group, int id) {
     return variable;
 }
 
-std::optional<Variable> variableNamed(int group, const std::string& name) {
+std::optional<NetcdfVariable> variableNamed(int group, const std::string& name) {
     int id = -1;
     if (nc_inq_varid(group, name.c_str(), &id) != NC_NOERR) return {};
     return variableAt(group, id);
@@ -90,23 +90,23 @@ std::string dimensionName(int group, int dimension) {
 }
 
 // Returns the first kMaxQuantityText bytes of an attribute that is a text.
-std::string textOf(const Variable& variable, const char* attribute) {
+std::string attributeText(const NetcdfVariable& variable, const char* attribute) {
     nc_type type = NC_NAT;
     std::size_t length = 0;
     if (nc_inq_att(variable.group, variable.id, attribute, &type, &length) != NC_NOERR || length == 0) return {};
     if (type == NC_STRING) {
         std::vector<char*> strings(length);
         if (nc_get_att_string(variable.group, variable.id, attribute, strings.data()) != NC_NOERR) return {};
-        std::string text = strings[0] != nullptr ? quantityText(strings[0]) : "";
+        std::string text = strings[0] != nullptr ? sanitizeQuantityText(strings[0]) : "";
         nc_free_string(length, strings.data());
         return text;
     }
     std::string text(length, '\0');
     if (type != NC_CHAR || nc_get_att_text(variable.group, variable.id, attribute, text.data()) != NC_NOERR) return {};
-    return quantityText(text.substr(0, text.find('\0')));
+    return sanitizeQuantityText(text.substr(0, text.find('\0')));
 }
 
-std::vector<double> numbersOf(const Variable& variable, const char* attribute) {
+std::vector<double> attributeNumbers(const NetcdfVariable& variable, const char* attribute) {
     constexpr std::size_t kMaxNumbers = 100;
     nc_type type = NC_NAT;
     std::size_t length = 0;
@@ -119,45 +119,45 @@ std::vector<double> numbersOf(const Variable& variable, const char* attribute) {
     return numbers;
 }
 
-struct TypeRow {
+struct NetcdfTypeRow {
     nc_type type;
     NumberType number;
     double fill;  // the default value of numbers that were never written; kNoFill if the type has no default
 };
 constexpr double kNoFill = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array<TypeRow, 10> kNetcdfTypes{{{NC_BYTE, NumberType::i1, kNoFill},
-                                                {NC_UBYTE, NumberType::u1, kNoFill},
-                                                {NC_SHORT, NumberType::i2, NC_FILL_SHORT},
-                                                {NC_USHORT, NumberType::u2, NC_FILL_USHORT},
-                                                {NC_INT, NumberType::i4, NC_FILL_INT},
-                                                {NC_UINT, NumberType::u4, NC_FILL_UINT},
-                                                {NC_INT64, NumberType::i8, static_cast<double>(NC_FILL_INT64)},
-                                                {NC_UINT64, NumberType::u8, static_cast<double>(NC_FILL_UINT64)},
-                                                {NC_FLOAT, NumberType::f4, double{NC_FILL_FLOAT}},
-                                                {NC_DOUBLE, NumberType::f8, NC_FILL_DOUBLE}}};
+constexpr std::array<NetcdfTypeRow, 10> kNetcdfTypes{{{NC_BYTE, NumberType::i1, kNoFill},
+                                                      {NC_UBYTE, NumberType::u1, kNoFill},
+                                                      {NC_SHORT, NumberType::i2, NC_FILL_SHORT},
+                                                      {NC_USHORT, NumberType::u2, NC_FILL_USHORT},
+                                                      {NC_INT, NumberType::i4, NC_FILL_INT},
+                                                      {NC_UINT, NumberType::u4, NC_FILL_UINT},
+                                                      {NC_INT64, NumberType::i8, static_cast<double>(NC_FILL_INT64)},
+                                                      {NC_UINT64, NumberType::u8, static_cast<double>(NC_FILL_UINT64)},
+                                                      {NC_FLOAT, NumberType::f4, double{NC_FILL_FLOAT}},
+                                                      {NC_DOUBLE, NumberType::f8, NC_FILL_DOUBLE}}};
 
-const TypeRow* rowOf(nc_type type) {
-    const auto* const row =
-        std::find_if(kNetcdfTypes.begin(), kNetcdfTypes.end(), [&](const TypeRow& each) { return each.type == type; });
+const NetcdfTypeRow* typeRowOf(nc_type type) {
+    const auto* const row = std::find_if(kNetcdfTypes.begin(), kNetcdfTypes.end(),
+                                         [&](const NetcdfTypeRow& each) { return each.type == type; });
     return row == kNetcdfTypes.end() ? nullptr : row;
 }
 
-NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
+NumberFormat netcdfNumberFormatOf(const NetcdfVariable& variable, const NetcdfTypeRow& row) {
     NumberFormat format;
     format.type = row.number;
     format.bigEndian = std::endian::native == std::endian::big;  // the library converts numbers to this processor's
                                                                  // byte order
-    format.missing = numbersOf(variable, "_FillValue");
+    format.missing = attributeNumbers(variable, "_FillValue");
     if (format.missing.empty() && !std::isnan(row.fill)) format.missing = {row.fill};
-    for (const double number : numbersOf(variable, "missing_value")) format.missing.push_back(number);
+    for (const double number : attributeNumbers(variable, "missing_value")) format.missing.push_back(number);
     std::erase_if(format.missing, [](double number) { return std::isnan(number); });  // NaN is always a missing sample
     const auto first = [&](const char* attribute, double otherwise) {
-        const auto numbers = numbersOf(variable, attribute);
+        const auto numbers = attributeNumbers(variable, attribute);
         return numbers.size() == 1 ? numbers[0] : otherwise;
     };
     format.min = first("valid_min", format.min);
     format.max = first("valid_max", format.max);
-    if (const auto range = numbersOf(variable, "valid_range"); range.size() == 2) {
+    if (const auto range = attributeNumbers(variable, "valid_range"); range.size() == 2) {
         format.min = range[0];
         format.max = range[1];
     }
@@ -171,7 +171,7 @@ NumberFormat formatOf(const Variable& variable, const TypeRow& row) {
 // has only this dimension. The coordinate variable may be in the group of `variable` or in an outer group. The name
 // alone does not identify it: a variable may be named like a dimension that it does not have, and a dimension of a
 // group may be named like a dimension of an outer group.
-std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
+std::optional<NetcdfVariable> coordinateVariableOf(const NetcdfVariable& variable, int dimension) {
     const std::string name = dimensionName(variable.group, dimension);
     int group = variable.group;
     do {
@@ -182,13 +182,13 @@ std::optional<Variable> coordinateOf(const Variable& variable, int dimension) {
 }
 
 // Returns the name and the attributes of a dimension of `variable` that the file states.
-CfDimension describe(const Variable& variable, int dimension) {
+CfDimension describeDimension(const NetcdfVariable& variable, int dimension) {
     CfDimension stated{dimensionName(variable.group, dimension), {}, {}, {}, {}};
-    if (const auto coordinate = coordinateOf(variable, dimension)) {
-        stated.axis = textOf(*coordinate, "axis");
-        stated.standardName = textOf(*coordinate, "standard_name");
-        stated.units = textOf(*coordinate, "units");
-        stated.positive = textOf(*coordinate, "positive");
+    if (const auto coordinate = coordinateVariableOf(variable, dimension)) {
+        stated.axis = attributeText(*coordinate, "axis");
+        stated.standardName = attributeText(*coordinate, "standard_name");
+        stated.units = attributeText(*coordinate, "units");
+        stated.positive = attributeText(*coordinate, "positive");
     }
     return stated;
 }
@@ -196,7 +196,7 @@ CfDimension describe(const Variable& variable, int dimension) {
 // Returns the indices of the dimensions of a variable that become axes. If there are more than four dimensions, leaves
 // out dimensions of size 1 until four remain. First leaves out those that are no axes of space or time, such as the
 // only member of an ensemble.
-std::vector<std::size_t> keptDimensions(const Variable& variable) {
+std::vector<std::size_t> dimensionsAfterSqueeze(const NetcdfVariable& variable) {
     std::vector<std::size_t> kept(variable.dimensions.size());
     std::iota(kept.begin(), kept.end(), std::size_t{0});
     for (const bool axesToo : {false, true}) {
@@ -204,7 +204,7 @@ std::vector<std::size_t> keptDimensions(const Variable& variable) {
             const int dimension = variable.dimensions[kept[i]];
             std::size_t size = 0;
             const bool isSingle = nc_inq_dimlen(variable.group, dimension, &size) == NC_NOERR && size == 1;
-            if (isSingle && (axesToo || !cfAxis(describe(variable, dimension)))) {
+            if (isSingle && (axesToo || !cfAxis(describeDimension(variable, dimension)))) {
                 kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(i));
             } else {
                 ++i;
@@ -216,13 +216,13 @@ std::vector<std::size_t> keptDimensions(const Variable& variable) {
 
 // Returns whether a variable is read only if the options name it: a variable without dimensions, a coordinate variable
 // (named like its only dimension), or the bounds of a coordinate variable.
-bool isAuxiliary(const Variable& variable) {
+bool isAuxiliary(const NetcdfVariable& variable) {
     if (variable.dimensions.empty()) return true;
     const int dimension = variable.dimensions.front();
     if (variable.dimensions.size() == 1) return variable.name == dimensionName(variable.group, dimension);
-    const auto coordinate = coordinateOf(variable, dimension);
-    return coordinate &&
-           (textOf(*coordinate, "bounds") == variable.name || textOf(*coordinate, "climatology") == variable.name);
+    const auto coordinate = coordinateVariableOf(variable, dimension);
+    return coordinate && (attributeText(*coordinate, "bounds") == variable.name ||
+                          attributeText(*coordinate, "climatology") == variable.name);
 }
 
 // Returns the file's groups: the root group, then the groups within it.
@@ -240,7 +240,7 @@ std::vector<int> groupsOf(int file) {
 }
 
 // Returns the path of a variable, in the form that variableAtPath() accepts.
-std::string pathOf(const Variable& variable, int file) {
+std::string pathOfVariable(const NetcdfVariable& variable, int file) {
     std::size_t length = 0;
     if (variable.group == file || nc_inq_grpname_full(variable.group, &length, nullptr) != NC_NOERR)
         return variable.name;
@@ -249,16 +249,16 @@ std::string pathOf(const Variable& variable, int file) {
     return path.substr(path.starts_with('/') ? 1 : 0) + '/' + variable.name;
 }
 
-Result<Variable> defaultVariable(int file, FieldArray& field) {
-    Variable chosen;
+Result<NetcdfVariable> defaultVariable(int file, FieldArray& field) {
+    NetcdfVariable chosen;
     std::size_t candidates = 0, most = 0;
     for (const int group : groupsOf(file)) {
         int count = 0;
-        if (nc_inq_nvars(group, &count) != NC_NOERR) return badField("the file's variables cannot be read");
+        if (nc_inq_nvars(group, &count) != NC_NOERR) return badFieldError("the file's variables cannot be read");
         for (int id = 0; id < count; ++id) {
             const auto variable = variableAt(group, id);
-            if (!variable || rowOf(variable->type) == nullptr || isAuxiliary(*variable)) continue;
-            const std::size_t dimensions = keptDimensions(*variable).size();
+            if (!variable || typeRowOf(variable->type) == nullptr || isAuxiliary(*variable)) continue;
+            const std::size_t dimensions = dimensionsAfterSqueeze(*variable).size();
             if (dimensions > 4) continue;
             ++candidates;
             if (dimensions <= most) continue;
@@ -266,15 +266,15 @@ Result<Variable> defaultVariable(int file, FieldArray& field) {
             chosen = *variable;
         }
     }
-    if (candidates == 0) return badField("the file has no variable of real numbers with 1 to 4 dimensions");
+    if (candidates == 0) return badFieldError("the file has no variable of real numbers with 1 to 4 dimensions");
     if (candidates > 1) {
         field.warnings.push_back("of " + std::to_string(candidates) + " variables, " +
-                                 text::inQuotes(pathOf(chosen, file)) + " is shown");
+                                 text::inQuotes(pathOfVariable(chosen, file)) + " is shown");
     }
     return chosen;
 }
 
-Result<Variable> variableAtPath(int file, const std::string& path) {
+Result<NetcdfVariable> variableAtPath(int file, const std::string& path) {
     const std::size_t slash = path.rfind('/');
     int group = file;
     const std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
@@ -284,36 +284,36 @@ Result<Variable> variableAtPath(int file, const std::string& path) {
     }
     auto variable = group < 0 ? std::nullopt : variableNamed(group, name);
     if (!variable) return Error{ErrorCode::not_found, "the file has no variable " + text::inQuotes(path)};
-    if (rowOf(variable->type) == nullptr)
-        return badField("the variable " + text::inQuotes(path) + " does not consist of numbers");
+    if (typeRowOf(variable->type) == nullptr)
+        return badFieldError("the variable " + text::inQuotes(path) + " does not consist of numbers");
     return *variable;
 }
 
-std::optional<CoordinateEnds> endsOf(const Variable& coordinate, std::size_t size, const std::string& name,
-                                     FieldArray& field) {
-    const TypeRow* const row = rowOf(coordinate.type);
+std::optional<FirstAndLastCoordinate> coordinateEndsOf(const NetcdfVariable& coordinate, std::size_t size,
+                                                       const std::string& name, FieldArray& field) {
+    const NetcdfTypeRow* const row = typeRowOf(coordinate.type);
     if (row == nullptr) return {};
     const std::size_t start = 0;
     std::vector<double> at(size);
     if (nc_get_vara_double(coordinate.group, coordinate.id, &start, &size, at.data()) != NC_NOERR) return {};
-    const NumberFormat format = formatOf(coordinate, *row);
+    const NumberFormat format = netcdfNumberFormatOf(coordinate, *row);
     for (double& each : at) each = each * format.scale + format.offset;  // unpacks: CF conventions, section 8.1
     return endsOfCoordinates(at, name, field.warnings);
 }
 
-// Returns the dimensions in `kept` (see keptDimensions()) with their axes. Sets the box and the units of `field`, and
-// adds warnings to `field`.
-Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std::vector<std::size_t>& kept,
-                                             const FieldReadOptions& options, FieldArray& field) {
+// Returns the dimensions in `kept` (see dimensionsAfterSqueeze()) with their axes. Sets the box and the units of
+// `field`, and adds warnings to `field`.
+Result<std::vector<ArrayDimension>> mapDimensions(const NetcdfVariable& variable, const std::vector<std::size_t>& kept,
+                                                  const FieldReadOptions& options, FieldArray& field) {
     std::vector<CfDimension> stated;
-    std::vector<std::optional<Variable>> coordinates;
-    std::vector<Dimension> dimensions;
+    std::vector<std::optional<NetcdfVariable>> coordinates;
+    std::vector<ArrayDimension> dimensions;
     for (const std::size_t index : kept) {
         const int id = variable.dimensions[index];
-        stated.push_back(describe(variable, id));
-        coordinates.push_back(coordinateOf(variable, id));
+        stated.push_back(describeDimension(variable, id));
+        coordinates.push_back(coordinateVariableOf(variable, id));
         std::size_t size = 0;
-        if (nc_inq_dimlen(variable.group, id, &size) != NC_NOERR) return badField("a dimension cannot be read");
+        if (nc_inq_dimlen(variable.group, id, &size) != NC_NOERR) return badFieldError("a dimension cannot be read");
         if (size > kMaxSamplesPerAxis) return Error{ErrorCode::too_large, "a dimension has more than 2^24 samples"};
         dimensions.push_back({size});
     }
@@ -322,15 +322,15 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std
     if (options.axes.empty()) *axes = axisOfEachDimension(stated);
     field.box = {glm::dvec4(0), glm::dvec4(0)};
     for (std::size_t i = 0; i < dimensions.size(); ++i) {
-        Dimension& each = dimensions[i];
+        ArrayDimension& each = dimensions[i];
         each.axis = (*axes)[i];
-        if (each.size == 0) return badField("the array is empty");
-        auto ends = coordinates[i] ? endsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
-        if (ends && !options.box)
-            countFromLeastIfFar(*ends, each.size, stated[i].name, stated[i].units, field.warnings);
+        if (each.size == 0) return badFieldError("the array is empty");
+        auto ends = coordinates[i] ? coordinateEndsOf(*coordinates[i], each.size, stated[i].name, field) : std::nullopt;
+        if (ends && !options.box) rebaseToLeastIfFar(*ends, each.size, stated[i].name, stated[i].units, field.warnings);
         field.boxIsKnown = field.boxIsKnown || ends;
         if (ends) field.units.at(each.axis) = stated[i].units;
-        const CoordinateEnds found = ends.value_or(CoordinateEnds{0, static_cast<double>(each.size - 1)});
+        const FirstAndLastCoordinate found =
+            ends.value_or(FirstAndLastCoordinate{0, static_cast<double>(each.size - 1)});
         each.reversed = found.last < found.first;
         const auto axis = static_cast<glm::length_t>(each.axis);
         field.box.min[axis] = std::min(found.first, found.last);
@@ -339,12 +339,13 @@ Result<std::vector<Dimension>> mapDimensions(const Variable& variable, const std
     return dimensions;
 }
 
-Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options, const Variable& variable,
-                                const std::vector<std::size_t>& kept, const AxisMapping& mapping) {
-    const NumberFormat format = formatOf(variable, *rowOf(variable.type));
+Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions& options,
+                                const NetcdfVariable& variable, const std::vector<std::size_t>& kept,
+                                const AxisMapping& mapping) {
+    const NumberFormat format = netcdfNumberFormatOf(variable, *typeRowOf(variable.type));
     const std::size_t skipped = 4 - kept.size();
     std::vector<std::size_t> start(variable.dimensions.size(), 0), count(variable.dimensions.size(), 1);
-    auto buffer = SampleBuffer::of(mapping.count(), options);
+    auto buffer = SampleBuffer::allocate(mapping.count(), options);
     if (!buffer) return buffer.error();
     // The cache keeps decompressed chunks, because the next slab often needs the same chunks. The result of the call is
     // ignored: the call fails for files without chunks, which need no cache.
@@ -360,12 +361,13 @@ Result<SampleStorage> readSlabs(const FileContents& file, const FieldReadOptions
         }
         const int status = nc_get_vara(variable.group, variable.id, start.data(), count.data(), numbers.data());
         if (status != NC_NOERR)
-            return badField("the variable cannot be read: " + text::printable(nc_strerror(status), kMaxNetcdfText));
+            return badFieldError("the variable cannot be read: " +
+                                 text::printable(nc_strerror(status), kMaxNetcdfText));
         convertToFloats(format, numbers.data(), slab.layout, buffer->values().data() + slab.first);
         file.releasePages();
         buffer->releasePages();
     }
-    return buffer->take();
+    return buffer->takeSamples();
 }
 
 }  // namespace
@@ -376,18 +378,18 @@ bool isNetcdfStart(std::span<const std::byte> start) {
 }
 
 Result<FieldArray> readNetcdf(const FileContents& file, const FieldReadOptions& options) {
-    const OpenFile open(file);
+    const OpenNetcdfFile open(file);
     if (open.status() != NC_NOERR)
-        return badField("the file is not a valid NetCDF file: " +
-                        text::printable(nc_strerror(open.status()), kMaxNetcdfText));
+        return badFieldError("the file is not a valid NetCDF file: " +
+                             text::printable(nc_strerror(open.status()), kMaxNetcdfText));
     FieldArray field;
     const auto variable =
         options.variable.empty() ? defaultVariable(open.id(), field) : variableAtPath(open.id(), options.variable);
     if (!variable) return variable.error();
-    const std::vector<std::size_t> kept = keptDimensions(*variable);
+    const std::vector<std::size_t> kept = dimensionsAfterSqueeze(*variable);
     const auto dimensions = mapDimensions(*variable, kept, options, field);
     if (!dimensions) return dimensions.error();
-    const auto mapping = AxisMapping::of(*dimensions, options.maxSamples);
+    const auto mapping = AxisMapping::fromDimensions(*dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
     field.shape = mapping->shape();
     if (!field.boxIsKnown) field.box = defaultBox(field.shape, true);
@@ -397,10 +399,10 @@ Result<FieldArray> readNetcdf(const FileContents& file, const FieldReadOptions& 
     if (!samples) return samples.error();
     field.samples = *samples;
     std::string& quantity = field.quantity.name;
-    quantity = textOf(*variable, "long_name");
-    if (quantity.empty()) quantity = textOf(*variable, "standard_name");
-    if (quantity.empty()) quantity = quantityText(variable->name);
-    field.quantity.unit = textOf(*variable, "units");
+    quantity = attributeText(*variable, "long_name");
+    if (quantity.empty()) quantity = attributeText(*variable, "standard_name");
+    if (quantity.empty()) quantity = sanitizeQuantityText(variable->name);
+    field.quantity.unit = attributeText(*variable, "units");
     return field;
 }
 

@@ -24,12 +24,12 @@ constexpr double kMaxDataAt = 1 << 24;  // the maximum number of bytes of header
 constexpr std::size_t kDimensions = 7;
 
 // Reads numbers of a NIfTI header by their offsets (see nifti1.h and nifti2.h of the NIfTI reference library).
-class HeaderReader {
+class NiftiHeaderReader {
   public:
-    HeaderReader(std::span<const std::byte> bytes, bool bigEndian) : bytes_(bytes), bigEndian_(bigEndian) {}
+    NiftiHeaderReader(std::span<const std::byte> bytes, bool bigEndian) : bytes_(bytes), bigEndian_(bigEndian) {}
 
     template <typename Number>
-    Number at(std::size_t offset) const {
+    Number readAt(std::size_t offset) const {
         std::array<std::byte, sizeof(Number)> number;
         std::memcpy(number.data(), &bytes_[offset], sizeof(Number));
         if (bigEndian_ != (std::endian::native == std::endian::big)) std::reverse(number.begin(), number.end());
@@ -37,7 +37,7 @@ class HeaderReader {
     }
     std::string textAt(std::size_t offset, std::size_t length) const {
         const std::string_view text(reinterpret_cast<const char*>(&bytes_[offset]), length);
-        return quantityText(text.substr(0, text.find('\0')));
+        return sanitizeQuantityText(text.substr(0, text.find('\0')));
     }
 
   private:
@@ -64,83 +64,83 @@ struct NiftiHeader {
 std::optional<bool> isBigEndian(std::span<const std::byte> start, std::size_t headerLength) {
     if (start.size() < 4) return {};
     for (const bool bigEndian : {false, true}) {
-        if (HeaderReader(start, bigEndian).at<std::uint32_t>(0) == headerLength) return bigEndian;
+        if (NiftiHeaderReader(start, bigEndian).readAt<std::uint32_t>(0) == headerLength) return bigEndian;
     }
     return {};
 }
 
-NiftiHeader parseNifti1(const HeaderReader& bytes) {
+NiftiHeader parseNifti1(const NiftiHeaderReader& bytes) {
     NiftiHeader header;
-    header.dimensions = bytes.at<std::int16_t>(40);
-    for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.at<std::int16_t>(42 + 2 * i);
-    header.type = bytes.at<std::int16_t>(70);
-    for (std::size_t i = 0; i < 5; ++i) header.spacing[i] = bytes.at<float>(76 + 4 * i);
-    header.dataAt = bytes.at<float>(108);
-    header.slope = bytes.at<float>(112);
-    header.intercept = bytes.at<float>(116);
-    header.units = bytes.at<std::uint8_t>(123);
-    header.firstTime = bytes.at<float>(136);
-    header.qform = bytes.at<std::int16_t>(252);
-    header.sform = bytes.at<std::int16_t>(254);
+    header.dimensions = bytes.readAt<std::int16_t>(40);
+    for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.readAt<std::int16_t>(42 + 2 * i);
+    header.type = bytes.readAt<std::int16_t>(70);
+    for (std::size_t i = 0; i < 5; ++i) header.spacing[i] = bytes.readAt<float>(76 + 4 * i);
+    header.dataAt = bytes.readAt<float>(108);
+    header.slope = bytes.readAt<float>(112);
+    header.intercept = bytes.readAt<float>(116);
+    header.units = bytes.readAt<std::uint8_t>(123);
+    header.firstTime = bytes.readAt<float>(136);
+    header.qform = bytes.readAt<std::int16_t>(252);
+    header.sform = bytes.readAt<std::int16_t>(254);
     for (std::size_t i = 0; i < 3; ++i) {
-        header.quaternion[i] = bytes.at<float>(256 + 4 * i);
-        header.offset[i] = bytes.at<float>(268 + 4 * i);
-        for (std::size_t j = 0; j < 4; ++j) header.rows[i][j] = bytes.at<float>(280 + 16 * i + 4 * j);
+        header.quaternion[i] = bytes.readAt<float>(256 + 4 * i);
+        header.offset[i] = bytes.readAt<float>(268 + 4 * i);
+        for (std::size_t j = 0; j < 4; ++j) header.rows[i][j] = bytes.readAt<float>(280 + 16 * i + 4 * j);
     }
     header.quantity = bytes.textAt(328, 16);
     return header;
 }
 
-NiftiHeader parseNifti2(const HeaderReader& bytes) {
+NiftiHeader parseNifti2(const NiftiHeaderReader& bytes) {
     NiftiHeader header;
-    header.type = bytes.at<std::int16_t>(12);
-    header.dimensions = bytes.at<std::int64_t>(16);
-    for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.at<std::int64_t>(24 + 8 * i);
-    for (std::size_t i = 0; i < 5; ++i) header.spacing[i] = bytes.at<double>(104 + 8 * i);
-    header.dataAt = static_cast<double>(bytes.at<std::int64_t>(168));
-    header.slope = bytes.at<double>(176);
-    header.intercept = bytes.at<double>(184);
-    header.firstTime = bytes.at<double>(216);
-    header.qform = bytes.at<std::int32_t>(344);
-    header.sform = bytes.at<std::int32_t>(348);
+    header.type = bytes.readAt<std::int16_t>(12);
+    header.dimensions = bytes.readAt<std::int64_t>(16);
+    for (std::size_t i = 0; i < kDimensions; ++i) header.size[i] = bytes.readAt<std::int64_t>(24 + 8 * i);
+    for (std::size_t i = 0; i < 5; ++i) header.spacing[i] = bytes.readAt<double>(104 + 8 * i);
+    header.dataAt = static_cast<double>(bytes.readAt<std::int64_t>(168));
+    header.slope = bytes.readAt<double>(176);
+    header.intercept = bytes.readAt<double>(184);
+    header.firstTime = bytes.readAt<double>(216);
+    header.qform = bytes.readAt<std::int32_t>(344);
+    header.sform = bytes.readAt<std::int32_t>(348);
     for (std::size_t i = 0; i < 3; ++i) {
-        header.quaternion[i] = bytes.at<double>(352 + 8 * i);
-        header.offset[i] = bytes.at<double>(376 + 8 * i);
-        for (std::size_t j = 0; j < 4; ++j) header.rows[i][j] = bytes.at<double>(400 + 32 * i + 8 * j);
+        header.quaternion[i] = bytes.readAt<double>(352 + 8 * i);
+        header.offset[i] = bytes.readAt<double>(376 + 8 * i);
+        for (std::size_t j = 0; j < 4; ++j) header.rows[i][j] = bytes.readAt<double>(400 + 32 * i + 8 * j);
     }
-    header.units = bytes.at<std::int32_t>(500);
+    header.units = bytes.readAt<std::int32_t>(500);
     header.quantity = bytes.textAt(508, 16);
     return header;
 }
 
 std::size_t headerSize(std::span<const std::byte> start) { return isBigEndian(start, kHeader1) ? kHeader1 : kHeader2; }
 
-Result<NiftiHeader> parse(std::span<const std::byte> start) {
+Result<NiftiHeader> parseHeader(std::span<const std::byte> start) {
     const std::size_t size = headerSize(start);
     const auto bigEndian = isBigEndian(start, size);
-    if (!bigEndian) return badField("the file is not in the format NIfTI");
-    if (start.size() < size) return badField("the header of the file is incomplete");
-    const HeaderReader bytes(start, *bigEndian);
+    if (!bigEndian) return badFieldError("the file is not in the format NIfTI");
+    if (start.size() < size) return badFieldError("the header of the file is incomplete");
+    const NiftiHeaderReader bytes(start, *bigEndian);
     const std::string magic = bytes.textAt(size == kHeader1 ? 344 : 4, 3);
     if (magic == "ni1" || magic == "ni2")
-        return badField("the header and the data are in two files; join them into one file .nii");
-    if (magic != (size == kHeader1 ? "n+1" : "n+2")) return badField("the file is not in the format NIfTI");
+        return badFieldError("the header and the data are in two files; join them into one file .nii");
+    if (magic != (size == kHeader1 ? "n+1" : "n+2")) return badFieldError("the file is not in the format NIfTI");
     NiftiHeader header = size == kHeader1 ? parseNifti1(bytes) : parseNifti2(bytes);
     header.bigEndian = *bigEndian;
     if (header.dimensions < 1 || header.dimensions > static_cast<std::int64_t>(kDimensions))
-        return badField("the array must have 1 to 4 dimensions");
+        return badFieldError("the array must have 1 to 4 dimensions");
     for (std::size_t i = 0; i < static_cast<std::size_t>(header.dimensions); ++i) {
-        if (header.size[i] < 1) return badField("the array is empty");
+        if (header.size[i] < 1) return badFieldError("the array is empty");
         if (i >= 4 && header.size[i] > 1)
-            return badField("the array has several numbers at each point, or more than 4 dimensions");
+            return badFieldError("the array has several numbers at each point, or more than 4 dimensions");
     }
     header.dimensions = std::min<std::int64_t>(header.dimensions, 4);
     if (!(header.dataAt >= static_cast<double>(size) && header.dataAt <= kMaxDataAt))
-        return badField("the header states an impossible position of the data");
+        return badFieldError("the header states an impossible position of the data");
     return header;
 }
 
-std::optional<NumberFormat> formatOf(const NiftiHeader& header) {
+std::optional<NumberFormat> niftiNumberFormatOf(const NiftiHeader& header) {
     static constexpr std::array<std::pair<int, NumberType>, 10> kNiftiTypes{{{2, NumberType::u1},
                                                                              {4, NumberType::i2},
                                                                              {8, NumberType::i4},
@@ -173,7 +173,7 @@ using IndexToSpaceMatrix = std::array<std::array<double, 4>, 3>;  // maps the in
 
 // Returns the orientation of the image by method 3 of nifti1.h (sform) if the file has it, otherwise by method 2
 // (qform). Returns an empty optional if the file has neither.
-std::optional<IndexToSpaceMatrix> orientation(const NiftiHeader& header) {
+std::optional<IndexToSpaceMatrix> imageOrientation(const NiftiHeader& header) {
     if (header.sform > 0) return header.rows;
     if (header.qform <= 0) return {};
     const auto& [b, c, d] = header.quaternion;
@@ -226,10 +226,10 @@ AxisUnits statedUnits(const NiftiHeader& header) {
 // Sets the box and the units of `field`, and the axes and directions of `dimensions`. The order of `dimensions` must be
 // from the fastest to the slowest.
 std::optional<Error> mapDimensions(const NiftiHeader& header, const FieldReadOptions& options,
-                                   std::vector<Dimension>& dimensions, FieldArray& field) {
+                                   std::vector<ArrayDimension>& dimensions, FieldArray& field) {
     const AxisUnits units = statedUnits(header);
     field.units = units;
-    const auto matrix = orientation(header);
+    const auto matrix = imageOrientation(header);
     auto parallel = matrix ? parallelAxes(*matrix) : std::nullopt;
     if (!options.axes.empty()) {
         auto axes = parseAxes(options.axes, dimensions.size());
@@ -269,37 +269,38 @@ std::optional<Error> mapDimensions(const NiftiHeader& header, const FieldReadOpt
 // contain the bytes that `gzip` has already returned. The result is in memory if it has at most 4 ·
 // `options.maxInMemory` bytes, or if `options.newFile` is null. Otherwise, it is in a file that `options.newFile`
 // makes.
-Result<FileContents> unzip(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
-                           std::size_t size, const FieldReadOptions& options) {
+Result<FileContents> gunzipFirst(const FileContents& file, GzipReader& gzip, std::vector<std::byte>& unzipped,
+                                 std::size_t size, const FieldReadOptions& options) {
     constexpr std::size_t kPiece = std::size_t{64} << 20U;
     if (size / sizeof(float) <= options.maxInMemory || !options.newFile) {
         if (const auto read = gzip.extendTo(size, unzipped); !read) return read.error();
-        return FileContents::of(std::move(unzipped));
+        return FileContents::ofBytes(std::move(unzipped));
     }
     auto to = options.newFile(size);
     if (!to) return to.error();
     const std::span<std::byte> bytes = (*to)->writableBytes();
     std::copy(unzipped.begin(), unzipped.end(), bytes.begin());
     for (std::size_t done = unzipped.size(); done < size; done += kPiece) {
-        if (const auto read = gzip.fill(bytes.subspan(done, std::min(kPiece, size - done))); !read) return read.error();
+        if (const auto read = gzip.decompressInto(bytes.subspan(done, std::min(kPiece, size - done))); !read)
+            return read.error();
         file.releasePages();
         (*to)->releasePages();
     }
-    return FileContents::of(MappedFilePtr(std::move(*to)));
+    return FileContents::ofMappedFile(MappedFilePtr(std::move(*to)));
 }
 
 // Returns the stored numbers, which take `size` bytes from the byte `begin` on. They are bytes of `file` if `gzip` is
-// null, otherwise of the decompressed contents of `file`. For `gzip` and `unzipped`, see unzip().
-Result<FileContents> dataOf(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
-                            std::size_t begin, std::size_t size, const FieldReadOptions& options) {
+// null, otherwise of the decompressed contents of `file`. For `gzip` and `unzipped`, see gunzipFirst().
+Result<FileContents> sampleBytesIn(const FileContents& file, GzipReader* gzip, std::vector<std::byte>& unzipped,
+                                   std::size_t begin, std::size_t size, const FieldReadOptions& options) {
     if (gzip != nullptr) {
-        auto contents = unzip(file, *gzip, unzipped, begin + size, options);
+        auto contents = gunzipFirst(file, *gzip, unzipped, begin + size, options);
         if (contents) contents->bytes = contents->bytes.subspan(begin);
         return contents;
     }
     if (file.bytes.size() < begin || file.bytes.size() - begin < size) {
-        return badField("the array should take " + std::to_string(size) + " bytes from byte " + std::to_string(begin) +
-                        " on, but the file has only " + std::to_string(file.bytes.size()));
+        return badFieldError("the array should take " + std::to_string(size) + " bytes from byte " +
+                             std::to_string(begin) + " on, but the file has only " + std::to_string(file.bytes.size()));
     }
     FileContents contents = file;
     contents.bytes = file.bytes.subspan(begin, size);
@@ -312,7 +313,7 @@ bool isNiftiStart(std::span<const std::byte> start) {
     const std::size_t size = headerSize(start);
     const auto bigEndian = isBigEndian(start, size);
     if (!bigEndian || start.size() < kHeader1) return false;
-    const std::string magic = HeaderReader(start, *bigEndian).textAt(size == kHeader1 ? 344 : 4, 3);
+    const std::string magic = NiftiHeaderReader(start, *bigEndian).textAt(size == kHeader1 ? 344 : 4, 3);
     return magic == "n+1" || magic == "n+2" || magic == "ni1" || magic == "ni2";
 }
 
@@ -327,27 +328,28 @@ Result<FieldArray> readNifti(const FileContents& file, const FieldReadOptions& o
         };
         const bool isNifti = isBigEndian(unzipped, kHeader1) || isBigEndian(unzipped, kHeader2);
         if (!isNifti && (begun || !isEmpty()))
-            return badField("the file is compressed with gzip and contains no NIfTI image; unpack it first");
+            return badFieldError("the file is compressed with gzip and contains no NIfTI image; unpack it first");
         if (!begun) return begun.error();
         if (headerSize(unzipped) == kHeader2) {
             if (const auto read = gzip->extendTo(kHeader2, unzipped); !read) return read.error();
         }
     }
-    const auto header = parse(gzip ? std::span<const std::byte>(unzipped) : file.bytes);
+    const auto header = parseHeader(gzip ? std::span<const std::byte>(unzipped) : file.bytes);
     if (!header) return header.error();
-    const auto format = formatOf(*header);
+    const auto format = niftiNumberFormatOf(*header);
     if (!format)
-        return badField("the numbers are of the type " + std::to_string(header->type) + " of NIfTI; they must be real");
+        return badFieldError("the numbers are of the type " + std::to_string(header->type) +
+                             " of NIfTI; they must be real");
 
     FieldArray field;
-    std::vector<Dimension> dimensions(static_cast<std::size_t>(header->dimensions));
+    std::vector<ArrayDimension> dimensions(static_cast<std::size_t>(header->dimensions));
     for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i].size = static_cast<std::size_t>(header->size[i]);
     if (auto error = mapDimensions(*header, options, dimensions, field)) return *error;
     std::reverse(dimensions.begin(), dimensions.end());
-    const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
+    const auto mapping = AxisMapping::fromDimensions(dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
-    const auto data = dataOf(file, gzip ? &*gzip : nullptr, unzipped, static_cast<std::size_t>(header->dataAt),
-                             mapping->count() * sizeOf(format->type), options);
+    const auto data = sampleBytesIn(file, gzip ? &*gzip : nullptr, unzipped, static_cast<std::size_t>(header->dataAt),
+                                    mapping->count() * sizeOf(format->type), options);
     if (!data) return data.error();
     field.shape = mapping->shape();
     auto samples = mapping->samples(*data, data->bytes, *format, options);

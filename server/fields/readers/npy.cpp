@@ -28,9 +28,9 @@ struct NpyHeader {
 
 // Parses the header of a .npy file, a Python dictionary: {'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }.
 // Accepts only these three members, in any order.
-class HeaderParser {
+class NpyHeaderParser {
   public:
-    explicit HeaderParser(std::string_view text) : text_(text) {}
+    explicit NpyHeaderParser(std::string_view text) : text_(text) {}
 
     std::optional<NpyHeader> parse() {
         NpyHeader header;
@@ -47,7 +47,7 @@ class HeaderParser {
                                 : bit == 2 ? takeBoolean(header.fortranOrder)
                                            : takeTuple(header.shape);
             if (!parsed) return {};
-            if (!take(',') && !next('}')) return {};
+            if (!take(',') && !nextIs('}')) return {};
         }
         skipBlanks();
         if (!text_.empty() || seen != 7) return {};
@@ -58,12 +58,12 @@ class HeaderParser {
     static constexpr std::array<std::string_view, 3> kMembers{"descr", "fortran_order", "shape"};
 
     void skipBlanks() { text_.remove_prefix(std::min(text_.find_first_not_of(" \t\r\n"), text_.size())); }
-    bool next(char c) {
+    bool nextIs(char c) {
         skipBlanks();
         return text_.starts_with(c);
     }
     bool take(char c) {
-        if (!next(c)) return false;
+        if (!nextIs(c)) return false;
         text_.remove_prefix(1);
         return true;
     }
@@ -102,7 +102,7 @@ class HeaderParser {
         if (!take('(')) return false;
         while (!take(')')) {
             if (numbers.size() == kMaxNumpyDimensions || !takeNumber(numbers.emplace_back())) return false;
-            if (!take(',') && (numbers.size() == 1 || !next(')'))) return false;  // (3) is a number, not a tuple
+            if (!take(',') && (numbers.size() == 1 || !nextIs(')'))) return false;  // (3) is a number, not a tuple
         }
         return true;
     }
@@ -118,28 +118,28 @@ bool isNpyStart(std::span<const std::byte> start) {
 
 Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& options) {
     const std::string_view bytes(reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size());
-    if (!isNpyStart(file.bytes)) return badField("the file is not in NumPy's format .npy");
+    if (!isNpyStart(file.bytes)) return badFieldError("the file is not in NumPy's format .npy");
     const auto byteAt = [&](std::size_t i) { return std::size_t{static_cast<unsigned char>(bytes[i])}; };
-    if (bytes.size() < kMagic.size() + 2) return badField("the header of the file is incomplete");
+    if (bytes.size() < kMagic.size() + 2) return badFieldError("the header of the file is incomplete");
     const std::size_t version = byteAt(6), lengthSize = version == 1 ? 2 : 4, headerAt = 8 + lengthSize;
     if (version < 1 || version > 3)
-        return badField("version " + std::to_string(version) + " of the format is not known");
-    if (bytes.size() < headerAt) return badField("the header of the file is incomplete");
+        return badFieldError("version " + std::to_string(version) + " of the format is not known");
+    if (bytes.size() < headerAt) return badFieldError("the header of the file is incomplete");
     std::size_t length = 0;
     for (std::size_t i = headerAt; i-- > 8;) length = length << 8U | byteAt(i);
-    if (length > kMaxHeader) return badField("the header of the file is too long");
-    if (bytes.size() - headerAt < length) return badField("the header of the file is incomplete");
+    if (length > kMaxHeader) return badFieldError("the header of the file is too long");
+    if (bytes.size() - headerAt < length) return badFieldError("the header of the file is incomplete");
 
-    const auto header = HeaderParser(bytes.substr(headerAt, length)).parse();
+    const auto header = NpyHeaderParser(bytes.substr(headerAt, length)).parse();
     if (!header) {
-        return badField(
+        return badFieldError(
             "the header of the file cannot be read; it must be {'descr': …, 'fortran_order': …, 'shape': …}, as of "
             "an array of numbers");
     }
     const auto format = numberFormatOf(header->descr);
     if (!format) {
-        return badField("the type of the numbers is " + text::inQuotes(header->descr) +
-                        "; it must be Boolean, integer or real");
+        return badFieldError("the type of the numbers is " + text::inQuotes(header->descr) +
+                             "; it must be Boolean, integer or real");
     }
     auto shape = header->shape;
     if (header->fortranOrder) std::reverse(shape.begin(), shape.end());  // from the slowest dimension to the fastest
@@ -148,15 +148,15 @@ Result<FieldArray> readNpy(const FileContents& file, const FieldReadOptions& opt
     if (!axes) return axes.error();
     // `options.axes` has the order of the shape in the header, so its axes are reversed like the shape.
     if (header->fortranOrder) std::reverse(axes->begin(), axes->end());
-    std::vector<Dimension> dimensions;
+    std::vector<ArrayDimension> dimensions;
     for (std::size_t i = 0; i < kept.size(); ++i) dimensions.push_back({shape[kept[i]], (*axes)[i]});
-    const auto mapping = AxisMapping::of(dimensions, options.maxSamples);
+    const auto mapping = AxisMapping::fromDimensions(dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
     const auto data = file.bytes.subspan(headerAt + length);
     const std::size_t size = mapping->count() * sizeOf(format->type);
     if (data.size() < size) {
-        return badField("the array should take " + std::to_string(size) +
-                        " bytes after the header, but the file has only " + std::to_string(data.size()));
+        return badFieldError("the array should take " + std::to_string(size) +
+                             " bytes after the header, but the file has only " + std::to_string(data.size()));
     }
     FieldArray field;
     if (data.size() > size) field.warnings.emplace_back("the file is longer than its array; the rest is ignored");

@@ -13,18 +13,18 @@ namespace oval4d::fields {
 
 namespace {
 
-struct Boolean {
+struct BooleanByte {
     std::uint8_t byte;
 };
 
-struct Half {
+struct HalfFloat {
     std::uint16_t bits;
 };
 
-float valueOf(Boolean stored) { return stored.byte != 0 ? 1.F : 0.F; }
+float decodedNumber(BooleanByte stored) { return stored.byte != 0 ? 1.F : 0.F; }
 
 // Converts an IEEE 754 binary16, which has 5 bits of exponent and 10 of fraction.
-float valueOf(Half stored) {
+float decodedNumber(HalfFloat stored) {
     const int exponent = stored.bits >> 10U & 0x1f, fraction = stored.bits & 0x3ff;
     float magnitude = std::ldexp(static_cast<float>(fraction + (exponent > 0 ? 1024 : 0)), std::max(exponent, 1) - 25);
     if (exponent == 0x1f)
@@ -33,20 +33,20 @@ float valueOf(Half stored) {
 }
 
 template <typename Number>
-Number valueOf(Number stored) {
+Number decodedNumber(Number stored) {
     return stored;
 }
 
 template <typename Number, bool kSwap>
-auto load(const std::byte* from) {
+auto loadValue(const std::byte* from) {
     std::array<std::byte, sizeof(Number)> bytes;
     std::memcpy(bytes.data(), from, sizeof(Number));
     if constexpr (kSwap) std::reverse(bytes.begin(), bytes.end());
-    return valueOf(std::bit_cast<Number>(bytes));
+    return decodedNumber(std::bit_cast<Number>(bytes));
 }
 
 template <typename Value>
-float rounded(Value value) {
+float roundedToFloat(Value value) {
     if constexpr (std::is_same_v<Value, double>) {
         if (!(std::abs(value) <= double{std::numeric_limits<float>::max()}))
             return std::numeric_limits<float>::quiet_NaN();
@@ -54,10 +54,10 @@ float rounded(Value value) {
     return static_cast<float>(value);
 }
 
-float rescaled(const NumberFormat& format, double stored) {
+float rescaledSample(const NumberFormat& format, double stored) {
     const bool missing = !(format.min <= stored && stored <= format.max) ||
                          std::find(format.missing.begin(), format.missing.end(), stored) != format.missing.end();
-    return missing ? std::numeric_limits<float>::quiet_NaN() : rounded(stored * format.scale + format.offset);
+    return missing ? std::numeric_limits<float>::quiet_NaN() : roundedToFloat(stored * format.scale + format.offset);
 }
 
 template <typename Visit>
@@ -76,16 +76,16 @@ void visitRows(const StridedLayout& layout, float* to, const Visit& visit) {
 
 template <typename Number, bool kSwap>
 void convertNumbers(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
-    const bool plain = format.isPlain();
+    const bool plain = format.needsNoConversion();
     visitRows(layout, to, [&](float* row) {
         const std::ptrdiff_t stride = layout.stride[3];
         const auto count = static_cast<std::ptrdiff_t>(layout.size[3]);
         if (plain) {
             for (std::ptrdiff_t i = 0; i < count; ++i, from += sizeof(Number))
-                row[i * stride] = rounded(load<Number, kSwap>(from));
+                row[i * stride] = roundedToFloat(loadValue<Number, kSwap>(from));
         } else {
             for (std::ptrdiff_t i = 0; i < count; ++i, from += sizeof(Number))
-                row[i * stride] = rescaled(format, static_cast<double>(load<Number, kSwap>(from)));
+                row[i * stride] = rescaledSample(format, static_cast<double>(loadValue<Number, kSwap>(from)));
         }
     });
 }
@@ -130,7 +130,7 @@ std::optional<NumberFormat> numberFormatOf(std::string_view descr) {
     return format;
 }
 
-bool NumberFormat::isPlain() const {
+bool NumberFormat::needsNoConversion() const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return scale == 1 && offset == 0 && missing.empty() && min == -kInfinity && max == kInfinity;
 }
@@ -152,7 +152,7 @@ void NumberFormat::roundLimitsToType() {
 void convertToFloats(const NumberFormat& format, const std::byte* from, const StridedLayout& layout, float* to) {
     switch (format.type) {
         case NumberType::boolean:
-            return convertInFileByteOrder<Boolean>(format, from, layout, to);
+            return convertInFileByteOrder<BooleanByte>(format, from, layout, to);
         case NumberType::i1:
             return convertInFileByteOrder<std::int8_t>(format, from, layout, to);
         case NumberType::u1:
@@ -170,7 +170,7 @@ void convertToFloats(const NumberFormat& format, const std::byte* from, const St
         case NumberType::u8:
             return convertInFileByteOrder<std::uint64_t>(format, from, layout, to);
         case NumberType::f2:
-            return convertInFileByteOrder<Half>(format, from, layout, to);
+            return convertInFileByteOrder<HalfFloat>(format, from, layout, to);
         case NumberType::f4:
             return convertInFileByteOrder<float>(format, from, layout, to);
         case NumberType::f8:

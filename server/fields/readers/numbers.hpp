@@ -28,7 +28,7 @@ struct NumberFormat {
     double max = std::numeric_limits<double>::infinity();
 
     /// Returns whether all stored numbers stand for themselves: there is no scale, offset, missing number or limit.
-    bool isPlain() const;
+    bool needsNoConversion() const;
 
     /// Returns the number of the type `type` that is closest to `number`. For types other than f4, returns `number`. A
     /// file of 32-bit floats may state a missing value or a limit as a double or in decimal notation, such as 0.1,

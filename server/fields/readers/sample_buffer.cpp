@@ -4,7 +4,7 @@
 
 namespace oval4d::fields {
 
-Result<SampleBuffer> SampleBuffer::of(std::size_t count, const FieldReadOptions& options) {
+Result<SampleBuffer> SampleBuffer::allocate(std::size_t count, const FieldReadOptions& options) {
     SampleBuffer buffer;
     if (options.into.size() == count) {
         buffer.values_ = options.into;
@@ -24,7 +24,7 @@ void SampleBuffer::releasePages() const {
     if (file_) file_->releasePages();
 }
 
-SampleStorage SampleBuffer::take() {
+SampleStorage SampleBuffer::takeSamples() {
     if (file_) return {std::move(file_), 0, values_.size()};
     if (!memory_.empty()) return SampleStorage(std::move(memory_));
     return {nullptr, values_};

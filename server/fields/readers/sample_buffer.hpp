@@ -12,20 +12,20 @@
 
 namespace oval4d::fields {
 
-/// Memory for samples that a reader converts. It is FieldReadOptions::into if that has the right size. Otherwise, it is
-/// a new file if FieldReadOptions::newFile is set and there are more samples than FieldReadOptions::maxInMemory.
-/// Otherwise, it is a vector.
+/// Memory for samples that a reader converts. The memory is FieldReadOptions::into if that has the right size.
+/// Otherwise, it is a new file if FieldReadOptions::newFile is set and there are more samples than
+/// FieldReadOptions::maxInMemory. Otherwise, it is a vector.
 class SampleBuffer {
   public:
     /// Makes a buffer for `count` samples. Errors: those of FieldReadOptions::newFile.
-    static Result<SampleBuffer> of(std::size_t count, const FieldReadOptions& options);
+    static Result<SampleBuffer> allocate(std::size_t count, const FieldReadOptions& options);
 
     std::span<float> values() { return values_; }
     /// Releases the resident pages of the new file, if the samples are in one.
     void releasePages() const;
     /// Returns the samples, which own their memory unless it is FieldReadOptions::into. After the call, this object
     /// must not be used.
-    SampleStorage take();
+    SampleStorage takeSamples();
 
   private:
     std::span<float> values_;

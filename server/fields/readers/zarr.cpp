@@ -24,7 +24,7 @@ constexpr std::size_t kMaxMetadata = std::size_t{64} << 20U;  // the maximum siz
 
 // Returns a function that reads metadata files. The function keeps their texts, because readZarr() needs the same file
 // several times, and reading a file may be a request to a remote store.
-FolderTextReader textsOf(const FolderFileReader& folder) {
+FolderTextReader cachingTextReader(const FolderFileReader& folder) {
     using Texts = std::map<std::string, std::optional<std::string>>;
     return [&folder, known = Texts()](const std::string& path) mutable -> Result<std::optional<std::string>> {
         if (const auto found = known.find(path); found != known.end()) return found->second;
@@ -45,23 +45,23 @@ FolderTextReader textsOf(const FolderFileReader& folder) {
 // Reads the coordinates of a dimension from the array at `path`, which is next to the array of samples and has the
 // dimension's name. Sets `units` and `stated` from the attributes of the array at `path`. Returns an empty optional if
 // there is no such array, if it cannot be read, or if the dimension is empty.
-std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, const ZarrFolder& zarr,
-                                               const std::string& path, std::size_t size, std::string& units,
-                                               CfDimension& stated) {
+std::optional<std::vector<double>> readCoordinates(const FolderFileReader& folder, const ZarrFolder& zarr,
+                                                   const std::string& path, std::size_t size, std::string& units,
+                                                   CfDimension& stated) {
     const auto found = zarr.array(path);
     if (!found || !*found) return {};
     ZarrArrayMetadata array = **found;
     if (array.shape != std::vector{size} || size == 0 || size > kMaxSamplesPerAxis) return {};
-    units = quantityText(array.text("units"));
-    stated = {stated.name, array.text("axis"), array.text("standard_name"), array.text("units"),
-              array.text("positive")};
+    units = sanitizeQuantityText(array.stringAttribute("units"));
+    stated = {stated.name, array.stringAttribute("axis"), array.stringAttribute("standard_name"),
+              array.stringAttribute("units"), array.stringAttribute("positive")};
     array.format.missing.clear();  // coordinates are never missing, even if they equal the fill value
     // Times are often large numbers with small differences, which 32-bit floats could not represent. Therefore the
     // coordinates are read as differences from the first coordinate.
     std::vector<float> values(size);
     const double offset = array.format.offset;
     const auto read = [&] {
-        return ChunkReader(folder, array, {{0}, {size}}).read({1}, 0, values.data(), [] {}).operator bool();
+        return ZarrChunkReader(folder, array, {{0}, {size}}).read({1}, 0, values.data(), [] {}).operator bool();
     };
     if (!read()) return {};
     const double first = double{values.front()} - offset;
@@ -76,9 +76,9 @@ std::optional<std::vector<double>> coordinates(const FolderFileReader& folder, c
 
 // Returns the dimensions in `kept` with their axes. Sets the box and the units of `field`, and adds warnings to
 // `field`.
-Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, const ZarrFolder& zarr,
-                                             const ZarrArrayMetadata& array, const std::vector<std::size_t>& kept,
-                                             const FieldReadOptions& options, FieldArray& field) {
+Result<std::vector<ArrayDimension>> mapDimensions(const FolderFileReader& folder, const ZarrFolder& zarr,
+                                                  const ZarrArrayMetadata& array, const std::vector<std::size_t>& kept,
+                                                  const FieldReadOptions& options, FieldArray& field) {
     auto axes = parseAxes(options.axes, kept.size());  // parseAxes() also checks the number of dimensions
     if (!axes) return axes.error();
     const auto ofImage = zarr.coordinatesOf(array.path);
@@ -102,16 +102,16 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
         if (imageStatesCoordinates) {
             const auto& [name, statedUnit, origin, spacing] = ofImage->dimensions[i];
             each.name = name;
-            unit = quantityText(statedUnit);
+            unit = sanitizeQuantityText(statedUnit);
             range = {origin, origin + spacing * last, true};
         } else if (!array.dimensionNames.empty()) {
             each.name = array.dimensionNames[i];
         }
         named = named || !each.name.empty();
         if (!imageStatesCoordinates && !each.name.empty() && !array.path.empty()) {
-            if (const auto at = coordinates(folder, zarr, group + each.name, size, unit, each)) {
+            if (const auto at = readCoordinates(folder, zarr, group + each.name, size, unit, each)) {
                 auto ends = endsOfCoordinates(*at, each.name, field.warnings);
-                if (ends && !options.box) countFromLeastIfFar(*ends, size, each.name, unit, field.warnings);
+                if (ends && !options.box) rebaseToLeastIfFar(*ends, size, each.name, unit, field.warnings);
                 if (ends) range = {ends->first, ends->last, true};
             }
         }
@@ -120,7 +120,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
         units.push_back(std::move(unit));
     }
     if (options.axes.empty() && named) *axes = axisOfEachDimension(stated);
-    std::vector<Dimension> dimensions;
+    std::vector<ArrayDimension> dimensions;
     field.box = {glm::dvec4(0), glm::dvec4(0)};
     for (std::size_t i = 0; i < kept.size(); ++i) {
         const auto& [first, last, known] = ranges[i];
@@ -135,7 +135,7 @@ Result<std::vector<Dimension>> mapDimensions(const FolderFileReader& folder, con
 }
 
 // Returns the error `not_found` for an array that does not exist, with the path of the array.
-Error missingArray(const ZarrFolder& zarr, const std::string& path) {
+Error missingArrayError(const ZarrFolder& zarr, const std::string& path) {
     std::vector<std::string_view> names;
     const auto chosen = zarr.chooseArray();
     if (chosen) names.assign(chosen->all.begin(), chosen->all.end());
@@ -144,14 +144,14 @@ Error missingArray(const ZarrFolder& zarr, const std::string& path) {
 }
 
 // A range of samples of an axis: `count` samples, from the index `first` on.
-struct AxisPart {
+struct AxisSampleRange {
     std::size_t first, count;
 };
 
 // Returns the samples of an axis that cover the interval from `from` to `to` as far as possible. If the interval has no
 // length, returns the nearest sample. The coordinates of the first and the last sample are `min` and `max`. Returns all
 // samples if `min` and `max` are not valid.
-AxisPart samplesCovering(double from, double to, double min, double max, std::size_t samples) {
+AxisSampleRange samplesCovering(double from, double to, double min, double max, std::size_t samples) {
     constexpr double kTolerance = 1e-6;  // in distances between samples; allows for the rounding of coordinates
     if (samples <= 1 || !(min < max) || !std::isfinite(max - min)) return {0, samples};
     const double last = static_cast<double>(samples) - 1;
@@ -163,21 +163,21 @@ AxisPart samplesCovering(double from, double to, double min, double max, std::si
 }
 
 // The part of an array that is read.
-struct ArrayPart {
+struct ZarrArrayPart {
     ZarrArrayMetadata array;
     IndexBox indices;
-    std::vector<std::size_t> kept;      // the dimensions that become axes (see dimensionsWithAxes())
-    std::vector<Dimension> dimensions;  // the dimensions in `kept`, with the sizes of the part
-    FieldArray field;                   // the array, without its shape and its samples
-    std::uint32_t finer = 0;            // see ImageLevel::finer
+    std::vector<std::size_t> kept;           // the dimensions that become axes (see dimensionsWithAxes())
+    std::vector<ArrayDimension> dimensions;  // the dimensions in `kept`, with the sizes of the part
+    FieldArray field;                        // the array, without its shape and its samples
+    std::uint32_t finer = 0;                 // see MultiscaleImageLevel::finer
 };
 
 // Restricts a part, which must be the whole array, to the samples that cover `region`. Error: `out_of_range` if the
 // region lies beyond the box of the array, unless `mayLieBeyond` is true.
-std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart& part) {
+std::optional<Error> restrictPartToRegion(const Box& region, bool mayLieBeyond, ZarrArrayPart& part) {
     Box& box = part.field.box;
     for (std::size_t i = 0; i < part.kept.size(); ++i) {
-        Dimension& dimension = part.dimensions[i];
+        ArrayDimension& dimension = part.dimensions[i];
         const auto axis = static_cast<glm::length_t>(dimension.axis);
         const double min = box.min[axis], max = box.max[axis];
         const std::size_t samples = dimension.size;
@@ -202,9 +202,9 @@ std::optional<Error> restrictTo(const Box& region, bool mayLieBeyond, ArrayPart&
 // Returns the part of an array that the options select. `isCoarser` says whether the array is a level of an image, but
 // not the finest level. Its samples may then lie between those of the finest level, and not reach the ends of the box
 // of the finest level.
-Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
-                         const FieldReadOptions& options, bool isCoarser = false) {
-    ArrayPart part{std::move(array), {}, {}, {}, {}};
+Result<ZarrArrayPart> selectedPart(const FolderFileReader& folder, const ZarrFolder& zarr, ZarrArrayMetadata array,
+                                   const FieldReadOptions& options, bool isCoarser = false) {
+    ZarrArrayPart part{std::move(array), {}, {}, {}, {}};
     part.kept = dimensionsWithAxes(part.array.shape);
     part.indices = {std::vector<std::size_t>(part.array.shape.size(), 0), part.array.shape};
     auto dimensions = mapDimensions(folder, zarr, part.array, part.kept, options, part.field);
@@ -212,26 +212,27 @@ Result<ArrayPart> partOf(const FolderFileReader& folder, const ZarrFolder& zarr,
     part.dimensions = std::move(*dimensions);
     FieldArray& field = part.field;
     Shape shape{1, 1, 1, 1};  // the shape of the whole array
-    for (const Dimension& each : part.dimensions) shape.at(each.axis) = each.size;
+    for (const ArrayDimension& each : part.dimensions) shape.at(each.axis) = each.size;
     const bool time = options.axes.empty() || options.axes.find('t') != std::string::npos;
     if (!field.boxIsKnown) field.box = defaultBox(shape, time);
     if (options.box) field.box = *options.box;
     field.boxIsKnown = field.boxIsKnown || options.box;
     if (options.region) {
-        if (auto error = restrictTo(*options.region, isCoarser, part)) return std::move(*error);
+        if (auto error = restrictPartToRegion(*options.region, isCoarser, part)) return std::move(*error);
     }
     return part;
 }
 
 // Returns the selected part of an array. The options select the array by name, and the part by a region. Without a
 // name, chooses the array as readZarr() describes.
-Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& zarr, const FieldReadOptions& options) {
+Result<ZarrArrayPart> chosenArrayPart(const FolderFileReader& folder, const ZarrFolder& zarr,
+                                      const FieldReadOptions& options) {
     std::string path = options.variable;
     while (path.starts_with('/')) path.erase(0, 1);
     auto named = zarr.array(path);
     if (!named) return named.error();
-    if (*named) return partOf(folder, zarr, std::move(**named), options);
-    if (!path.empty()) return missingArray(zarr, path);
+    if (*named) return selectedPart(folder, zarr, std::move(**named), options);
+    if (!path.empty()) return missingArrayError(zarr, path);
     const auto chosen = zarr.chooseArray();
     if (!chosen) return chosen.error();
     const std::vector<std::string> candidates = chosen->areLevels ? chosen->all : std::vector{chosen->path};
@@ -242,11 +243,11 @@ Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& z
     for (std::size_t i = 0;; ++i) {
         auto array = zarr.array(candidates[i]);
         if (!array) return array.error();
-        if (!*array) return missingArray(zarr, candidates[i]);
-        auto part = partOf(folder, zarr, std::move(**array), options, i > 0);
+        if (!*array) return missingArrayError(zarr, candidates[i]);
+        auto part = selectedPart(folder, zarr, std::move(**array), options, i > 0);
         if (!part) return part.error();
         const auto fitsInto = [&](std::size_t maxSamples) -> std::optional<Error> {
-            const auto mapping = AxisMapping::of(part->dimensions, maxSamples);
+            const auto mapping = AxisMapping::fromDimensions(part->dimensions, maxSamples);
             return mapping ? std::nullopt : std::optional(mapping.error());
         };
         const auto isTooLargeFor = [&](std::size_t maxSamples) {
@@ -276,7 +277,7 @@ Result<ArrayPart> chosenPart(const FolderFileReader& folder, const ZarrFolder& z
 }
 
 // Returns the level of a multiscale image that the array at `path` is.
-ImageLevel levelOf(const ZarrFolder& zarr, const std::string& path) {
+MultiscaleImageLevel imageLevelOf(const ZarrFolder& zarr, const std::string& path) {
     const auto chosen = zarr.chooseArray();
     if (!chosen || !chosen->areLevels) return {};
     const auto found = std::ranges::find(chosen->all, path);
@@ -287,29 +288,30 @@ ImageLevel levelOf(const ZarrFolder& zarr, const std::string& path) {
 }  // namespace
 
 Result<FieldArray> readZarr(const FolderFileReader& folder, const FieldReadOptions& options) {
-    const ZarrFolder zarr(textsOf(folder));
-    auto part = chosenPart(folder, zarr, options);
+    const ZarrFolder zarr(cachingTextReader(folder));
+    auto part = chosenArrayPart(folder, zarr, options);
     if (!part) return part.error();
     const ZarrArrayMetadata& array = part->array;
     const std::vector<std::size_t>& kept = part->kept;
     FieldArray& field = part->field;
-    const auto mapping = AxisMapping::of(part->dimensions, options.maxSamples);
+    const auto mapping = AxisMapping::fromDimensions(part->dimensions, options.maxSamples);
     if (!mapping) return mapping.error();
     field.shape = mapping->shape();
-    auto buffer = SampleBuffer::of(mapping->count(), options);
+    auto buffer = SampleBuffer::allocate(mapping->count(), options);
     if (!buffer) return buffer.error();
     std::vector<std::ptrdiff_t> stride(array.shape.size(), 0);  // 0 for dimensions that are not in `kept`
     for (std::size_t i = 0; i < kept.size(); ++i) stride[kept[i]] = mapping->layout().stride.at(4 - kept.size() + i);
     const auto read =
-        ChunkReader(folder, array, part->indices)
+        ZarrChunkReader(folder, array, part->indices)
             .read(stride, mapping->firstSampleIndex(), buffer->values().data(), [&] { buffer->releasePages(); });
     if (!read) return read.error();
-    field.samples = buffer->take();
-    field.quantity = {quantityText(array.text("long_name")), quantityText(array.text("units"))};
+    field.samples = buffer->takeSamples();
+    field.quantity = {sanitizeQuantityText(array.stringAttribute("long_name")),
+                      sanitizeQuantityText(array.stringAttribute("units"))};
     // The path of a level of a multiscale image is a number, which is no name of a quantity.
     if (field.quantity.name.empty() && !zarr.coordinatesOf(array.path))
-        field.quantity.name = quantityText(array.path.substr(array.path.rfind('/') + 1));
-    field.imageLevel = levelOf(zarr, array.path);
+        field.quantity.name = sanitizeQuantityText(array.path.substr(array.path.rfind('/') + 1));
+    field.imageLevel = imageLevelOf(zarr, array.path);
     field.imageLevel.finer = std::min(part->finer, field.imageLevel.level);
     return std::move(field);
 }

@@ -10,7 +10,7 @@
 
 namespace oval4d::fields {
 
-/// The names of the files by which a Zarr folder is recognized: it contains at least one of them.
+/// The names of files by which a Zarr folder is recognized. Each Zarr folder contains at least one of these files.
 inline constexpr std::array<std::string_view, 3> kZarrFiles{"zarr.json", ".zarray", ".zgroup"};
 
 /// Reads an array from a Zarr folder, or the part of the array in `options.region`. Reads only the chunks that have

@@ -8,13 +8,13 @@ namespace oval4d::fields {
 
 namespace {
 
-Error inShard(const std::string& path, const Error& error) {
-    return badField("the shard " + text::inQuotes(path) + " is damaged: " + error.message);
+Error damagedShardError(const std::string& path, const Error& error) {
+    return badFieldError("the shard " + text::inQuotes(path) + " is damaged: " + error.message);
 }
 
 }  // namespace
 
-ZarrChunkFiles::ChunkPlace ZarrChunkFiles::placeOf(std::vector<std::size_t> index) const {
+ZarrChunkFiles::ChunkLocation ZarrChunkFiles::chunkPlaceOf(std::vector<std::size_t> index) const {
     std::size_t number = 0;
     if (array_.shards) {
         for (std::size_t i = 0; i < index.size(); ++i) {
@@ -26,17 +26,17 @@ ZarrChunkFiles::ChunkPlace ZarrChunkFiles::placeOf(std::vector<std::size_t> inde
     return {array_.chunkPath(index), number};
 }
 
-std::string ZarrChunkFiles::nameOf(const std::vector<std::size_t>& index) const {
-    const ChunkPlace place = placeOf(index);
+std::string ZarrChunkFiles::chunkNameForErrors(const std::vector<std::size_t>& index) const {
+    const ChunkLocation place = chunkPlaceOf(index);
     const std::string file = text::inQuotes(place.path);
     return array_.shards ? "the chunk " + std::to_string(place.number) + " in the shard " + file : "the chunk " + file;
 }
 
 Result<std::optional<FileContents>> ZarrChunkFiles::contentsOf(const std::vector<std::size_t>& index) {
-    ChunkPlace place = placeOf(index);
+    ChunkLocation place = chunkPlaceOf(index);
     if (!array_.shards) return folder_(place.path, {});
     if (place.path != shardPath_) {
-        if (auto error = readIndexOf(std::move(place.path))) return std::move(*error);
+        if (auto error = readShardIndex(std::move(place.path))) return std::move(*error);
     }
     if (!storedIndex_) return std::optional<FileContents>();
     const std::optional<FilePart> part = chunkInShard(shardIndex_, *array_.shards, place.number);
@@ -44,20 +44,20 @@ Result<std::optional<FileContents>> ZarrChunkFiles::contentsOf(const std::vector
     auto chunk = folder_(shardPath_, *part);
     if (!chunk) return chunk.error();
     if (!*chunk || (*chunk)->bytes.size() < part->size)
-        return inShard(shardPath_, badField("its index states a place beyond its end"));
+        return damagedShardError(shardPath_, badFieldError("its index states a place beyond its end"));
     return chunk;
 }
 
 // Reads the index of a shard. The shard may be missing. Errors: `bad_field` if the shard is damaged; those of the
 // folder.
-std::optional<Error> ZarrChunkFiles::readIndexOf(std::string shard) {
-    auto stored = folder_(shard, partOfShardIndex(*array_.shards));
+std::optional<Error> ZarrChunkFiles::readShardIndex(std::string shard) {
+    auto stored = folder_(shard, filePartOfShardIndex(*array_.shards));
     if (!stored) return stored.error();
     storedIndex_ = std::move(*stored);
     shardPath_ = std::move(shard);
     if (!storedIndex_) return {};
     const auto index = checkedShardIndex(storedIndex_->bytes, *array_.shards);
-    if (!index) return inShard(shardPath_, index.error());
+    if (!index) return damagedShardError(shardPath_, index.error());
     shardIndex_ = *index;
     return {};
 }

@@ -26,15 +26,15 @@ class ZarrChunkFiles {
     Result<std::optional<FileContents>> contentsOf(const std::vector<std::size_t>& index);
 
     /// Returns the name of the chunk in error messages, such as "the chunk 'c/0/0'".
-    std::string nameOf(const std::vector<std::size_t>& index) const;
+    std::string chunkNameForErrors(const std::vector<std::size_t>& index) const;
 
   private:
-    struct ChunkPlace {
+    struct ChunkLocation {
         std::string path;    // the path of the chunk's file or shard
         std::size_t number;  // the number of the chunk among the chunks of its shard
     };
-    ChunkPlace placeOf(std::vector<std::size_t> index) const;
-    std::optional<Error> readIndexOf(std::string shard);
+    ChunkLocation chunkPlaceOf(std::vector<std::size_t> index) const;
+    std::optional<Error> readShardIndex(std::string shard);
 
     const FolderFileReader& folder_;
     const ZarrArrayMetadata& array_;

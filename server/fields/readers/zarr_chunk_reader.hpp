@@ -27,9 +27,9 @@ struct IndexBox {
 };
 
 /// Reads the chunks of an array that contain numbers of a part of the array.
-class ChunkReader {
+class ZarrChunkReader {
   public:
-    ChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array, IndexBox part)
+    ZarrChunkReader(const FolderFileReader& folder, const ZarrArrayMetadata& array, IndexBox part)
         : chunks_(folder, array), array_(array), part_(std::move(part)) {}
 
     /// Reads and converts the numbers of the part. `stride` has, for each dimension, the distance in `to` between
@@ -66,8 +66,8 @@ class ChunkReader {
                     afterward();
                     numbers = 0;
                 }
-            } while (advance(index, from, until));
-        } while (advance(shard, beginShard, endShard));
+            } while (nextIndexInRange(index, from, until));
+        } while (nextIndexInRange(shard, beginShard, endShard));
         return std::monostate{};
     }
 
@@ -76,7 +76,7 @@ class ChunkReader {
 
     // Moves `index` to the next place in C order. Along each dimension, the places are from `begin` to `end` − 1.
     // Returns false after the last place.
-    static bool advance(Indices& index, const Indices& begin, const Indices& end) {
+    static bool nextIndexInRange(Indices& index, const Indices& begin, const Indices& end) {
         for (std::size_t i = index.size(); i-- > 0;) {
             if (++index[i] < end[i]) return true;
             index[i] = begin[i];
@@ -89,21 +89,22 @@ class ChunkReader {
         auto file = chunks_.contentsOf(index);
         if (!file) return file.error();
         if (!*file) {
-            fill(index, stride, to);
+            fillMissingChunk(index, stride, to);
             return std::monostate{};
         }
         std::span<const std::byte> bytes = (*file)->bytes;
         if (array_.codec) {
             chunk_.resize(array_.decompressedChunkBytes());
             if (const auto done = decompress(*array_.codec, bytes, chunk_); !done)
-                return badField(chunks_.nameOf(index) + " cannot be read: " + done.error().message);
+                return badFieldError(chunks_.chunkNameForErrors(index) + " cannot be read: " + done.error().message);
             bytes = chunk_;
         } else if (bytes.size() != array_.decompressedChunkBytes()) {
-            return badField(chunks_.nameOf(index) + " has " + std::to_string(bytes.size()) + " bytes; it must have " +
-                            std::to_string(array_.decompressedChunkBytes()));
+            return badFieldError(chunks_.chunkNameForErrors(index) + " has " + std::to_string(bytes.size()) +
+                                 " bytes; it must have " + std::to_string(array_.decompressedChunkBytes()));
         }
-        copy(index, stride, bytes.data(), to);
-        if ((*file)->file && (*file)->file->isLost()) return badField(chunks_.nameOf(index) + " was shortened");
+        convertChunk(index, stride, bytes.data(), to);
+        if ((*file)->file && (*file)->file->isLost())
+            return badFieldError(chunks_.chunkNameForErrors(index) + " was shortened");
         return std::monostate{};
     }
 
@@ -120,15 +121,16 @@ class ChunkReader {
     }
 
     // Converts, row by row, the numbers of the chunk `index` that are in the part. `from` is the decompressed chunk.
-    void copy(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, const std::byte* from,
-              float* to) const {
+    void convertChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
+                      const std::byte* from, float* to) const {
         const std::size_t size = sizeOf(array_.format.type);
         visitRows(index, stride, [&](std::size_t number, std::ptrdiff_t at, std::size_t count, std::ptrdiff_t step) {
             convertToFloats(array_.format, from + number * size, {{1, 1, 1, count}, {0, 0, 0, step}}, to + at);
         });
     }
 
-    void fill(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride, float* to) const {
+    void fillMissingChunk(const std::vector<std::size_t>& index, const std::vector<std::ptrdiff_t>& stride,
+                          float* to) const {
         // The fill value is a stored number, so it is converted like all others.
         NumberFormat format = array_.format;
         format.type = NumberType::f8;

@@ -15,7 +15,7 @@ namespace oval4d::fields {
 
 using nlohmann::json;
 
-Error badMetadata(std::string reason) {
+Error badMetadataError(std::string reason) {
     return {ErrorCode::bad_field, "the Zarr metadata are not valid: " + std::move(reason)};
 }
 
@@ -23,7 +23,7 @@ std::string quoted(const json& value) {
     return text::inQuotes(value.is_string() ? value.get<std::string>() : value.dump(-1, ' ', true).substr(0, 60));
 }
 
-std::string withoutNan(std::string text) {
+std::string replaceNanByNull(std::string text) {
     bool inString = false;
     for (std::size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\\' && inString) {
@@ -40,14 +40,14 @@ std::string withoutNan(std::string text) {
     return text;
 }
 
-const json* member(const json& object, std::string_view name) {
+const json* findMember(const json& object, std::string_view name) {
     if (!object.is_object()) return nullptr;
     const auto found = object.find(name);
     return found == object.end() || found->is_null() ? nullptr : &*found;
 }
 
-std::string textIn(const json& object, std::string_view name) {
-    const json* const value = member(object, name);
+std::string stringMember(const json& object, std::string_view name) {
+    const json* const value = findMember(object, name);
     return value != nullptr && value->is_string() ? value->get<std::string>() : std::string();
 }
 

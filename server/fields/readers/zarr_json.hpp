@@ -12,21 +12,21 @@
 namespace oval4d::fields {
 
 /// Returns the error `bad_field` for metadata that are not valid, with the reason.
-Error badMetadata(std::string reason);
+Error badMetadataError(std::string reason);
 
 /// Returns a value in quotes, for error messages. Returns a string in full, and the first 60 characters of the JSON
 /// text of any other value.
 std::string quoted(const nlohmann::json& value);
 
 /// Returns the text of a JSON file, with NaN and Infinity, which Python writes into such files, replaced by null.
-std::string withoutNan(std::string text);
+std::string replaceNanByNull(std::string text);
 
 /// Returns a member of an object. Returns null if `object` is not an object, or if the member does not exist or is
 /// null.
-const nlohmann::json* member(const nlohmann::json& object, std::string_view name);
+const nlohmann::json* findMember(const nlohmann::json& object, std::string_view name);
 
 /// Returns a member that is a string. Returns an empty string if there is no such member, or if it is not a string.
-std::string textIn(const nlohmann::json& object, std::string_view name);
+std::string stringMember(const nlohmann::json& object, std::string_view name);
 
 /// Returns the number that a value stands for: a number itself; 1 or 0 for true or false; NaN or an infinity for the
 /// strings "NaN", "Infinity" and "-Infinity". Returns an empty optional for other values.

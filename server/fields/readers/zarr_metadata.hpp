@@ -41,7 +41,7 @@ struct ZarrArrayMetadata {
     nlohmann::json attributes;
 
     /// Returns the value of an attribute that is a string; an empty string if there is none.
-    std::string text(std::string_view attribute) const;
+    std::string stringAttribute(std::string_view attribute) const;
     /// Returns the path, relative to the Zarr folder, of the chunk or shard with these indices.
     std::string chunkPath(const std::vector<std::size_t>& indices) const;
     /// Returns the size of a decompressed chunk in bytes.

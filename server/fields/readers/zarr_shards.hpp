@@ -30,14 +30,14 @@ Result<ShardLayout> shardLayoutIn(const nlohmann::json& configuration, const std
                                   const std::vector<std::size_t>& chunk);
 
 /// Returns the part of a shard that contains its index and the checksum of the index.
-FilePart partOfShardIndex(const ShardLayout& layout);
+FilePart filePartOfShardIndex(const ShardLayout& layout);
 
-/// Returns the index of a shard without its checksum. `stored` are the bytes of partOfShardIndex(). Error: `bad_field`
-/// if there are fewer bytes, or if the checksum is wrong.
+/// Returns the index of a shard without its checksum. `stored` are the bytes of filePartOfShardIndex(). Error:
+/// `bad_field` if there are fewer bytes, or if the checksum is wrong.
 Result<std::span<const std::byte>> checkedShardIndex(std::span<const std::byte> stored, const ShardLayout& layout);
 
-/// Returns the part of a shard that contains a chunk, as stated in the index; it may lie beyond the end of the file.
-/// Returns an empty optional if the shard does not have the chunk. `index` is the result of checkedShardIndex().
+/// Returns the part of a shard that contains a chunk, as stated in the index. The part may lie beyond the end of the
+/// file. Returns an empty optional if the shard does not have the chunk. `index` is the result of checkedShardIndex().
 /// `number` is the place of the chunk among the chunks of the shard, in C order.
 std::optional<FilePart> chunkInShard(std::span<const std::byte> index, const ShardLayout& layout, std::size_t number);
 

@@ -15,7 +15,7 @@ namespace http = beast::http;
 namespace {
 
 // Returns the parts of a request that the access rules check.
-AccessCheckInput accessFieldsOf(const HttpRequest& request, const RequestTarget& target) {
+AccessCheckInput accessCheckInputOf(const HttpRequest& request, const RequestTarget& target) {
     const session::QueryParameters& query = target.query;
     const auto token = std::ranges::find(query, "token", &session::QueryParameters::value_type::first);
     const auto field = [&](std::string_view name) {
@@ -52,7 +52,7 @@ std::optional<RequestTarget> targetOf(const HttpRequest& request) {
     return parseRequestTarget({request.target().data(), request.target().size()});
 }
 
-std::optional<std::string> sessionIn(const std::string& path) {
+std::optional<std::string> sessionIdInPath(const std::string& path) {
     if (path == "/ws" || path == "/ws/") return "";
     if (path.starts_with("/ws/")) return path.substr(4);
     return {};
@@ -62,9 +62,10 @@ bool isCrossSiteRestricted(const RequestTarget& target) {
     return target.path.starts_with("/api/") || target.path.starts_with("/ws");
 }
 
-std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
-                                 AddressAccount& client, AddressAccount::Clock::time_point now, std::string& cookie) {
-    AccessCheckInput fields = accessFieldsOf(request, target);
+std::optional<HttpReply> checkAccess(const HttpRequest& request, const RequestTarget& target,
+                                     const AccessControl& access, ClientAccount& client,
+                                     ClientAccount::Clock::time_point now, std::string& cookie) {
+    AccessCheckInput fields = accessCheckInputOf(request, target);
     // Everybody may load the page's own files. Such a request may have any Origin, because a proxy that changes Host
     // would make it differ from the Origin.
     if (!isCrossSiteRestricted(target)) fields.origin = {};
@@ -79,11 +80,11 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
                                          "; a proxy must pass the header Host on, or allow the origin with "
                                          "--allow-origin\n");
         case AccessControl::Verdict::bad_token: {
-            if (!client.mayTryToken(now)) return tooManyReply("too many wrong tokens; try again in a minute\n");
+            if (!client.mayTryToken(now)) return tooManyRequestsReply("too many wrong tokens; try again in a minute\n");
             if (AccessControl::presentsToken(fields)) client.countWrongToken(now);
-            Reply reply = errorReply({ErrorCode::bad_token,
-                                      "this server requires a token: open the address that it "
-                                      "printed at startup, or send Authorization: Bearer …"});
+            HttpReply reply = errorReply({ErrorCode::bad_token,
+                                          "this server requires a token: open the address that it "
+                                          "printed at startup, or send Authorization: Bearer …"});
             reply.headers.emplace_back("WWW-Authenticate", "Bearer");
             return reply;
         }
@@ -93,17 +94,18 @@ std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget
     // After too many wrong tokens, even correct tokens are refused, so that a client that guesses tokens learns
     // nothing.
     if (access.requiresToken() && !client.mayTryToken(now))
-        return tooManyReply("too many wrong tokens; try again in a minute\n");
+        return tooManyRequestsReply("too many wrong tokens; try again in a minute\n");
     if (isCrossSiteRestricted(target) && access.isUnwantedCrossSite(fields))
         return refusalReply(403, "pages of other sites may not request this (--allow-origin)\n");
-    cookie = access.cookieFor(fields);
+    cookie = access.tokenCookieFor(fields);
     return {};
 }
 
-std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
-                                    AddressAccount::Clock::time_point now, bool hasFurtherBytes, std::string& session) {
+std::optional<HttpReply> checkHandshake(const HttpRequest& request, const AccessControl& access, ClientAccount& client,
+                                        ClientAccount::Clock::time_point now, bool hasFurtherBytes,
+                                        std::string& session) {
     const auto target = targetOf(request);
-    const auto wanted = target ? sessionIn(target->path) : std::nullopt;
+    const auto wanted = target ? sessionIdInPath(target->path) : std::nullopt;
     if (!wanted) return errorReply({ErrorCode::not_found, "WebSockets are served at /ws and /ws/{session}"});
     std::string cookie;
     if (auto refusal = checkAccess(request, *target, access, client, now, cookie)) return refusal;

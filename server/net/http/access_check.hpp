@@ -27,17 +27,19 @@ bool isCrossSiteRestricted(const RequestTarget& target);
 /// Checks a request by the rules of `access`. `now` is the present time; a wrong token counts against the client's rate
 /// limit. If the request is refused, returns the reply. If it is allowed, returns an empty optional. Then sets `cookie`
 /// to the value of the reply's Set-Cookie; to an empty string if the reply needs no cookie.
-std::optional<Reply> checkAccess(const HttpRequest& request, const RequestTarget& target, const AccessControl& access,
-                                 AddressAccount& client, AddressAccount::Clock::time_point now, std::string& cookie);
+std::optional<HttpReply> checkAccess(const HttpRequest& request, const RequestTarget& target,
+                                     const AccessControl& access, ClientAccount& client,
+                                     ClientAccount::Clock::time_point now, std::string& cookie);
 
 /// Returns the session id in a WebSocket path: "" for "/ws", "abc" for "/ws/abc". Returns an empty optional for other
 /// paths.
-std::optional<std::string> sessionIn(const std::string& path);
+std::optional<std::string> sessionIdInPath(const std::string& path);
 
 /// Checks a WebSocket handshake. `now` is the present time. `hasFurtherBytes` tells whether the client has already sent
 /// bytes after the handshake. If the handshake is refused, returns the reply. If it is allowed, returns an empty
 /// optional, and sets `session` to the session id in the path.
-std::optional<Reply> checkHandshake(const HttpRequest& request, const AccessControl& access, AddressAccount& client,
-                                    AddressAccount::Clock::time_point now, bool hasFurtherBytes, std::string& session);
+std::optional<HttpReply> checkHandshake(const HttpRequest& request, const AccessControl& access, ClientAccount& client,
+                                        ClientAccount::Clock::time_point now, bool hasFurtherBytes,
+                                        std::string& session);
 
 }  // namespace oval4d::net

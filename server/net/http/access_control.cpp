@@ -23,7 +23,7 @@ bool isHostNameCharacter(char c) { return text::isDigit(c) || text::isLetter(c) 
 
 /// Returns the port of an authority. If it has none, returns `defaultPort`, because browsers omit the default port of a
 /// scheme.
-std::string_view portOrDefault(const Authority& authority, std::string_view defaultPort) {
+std::string_view portOrDefault(const UrlAuthority& authority, std::string_view defaultPort) {
     return authority.port.empty() ? defaultPort : authority.port;
 }
 
@@ -32,13 +32,13 @@ std::string_view withoutFinalDot(std::string_view host) {
     return host.size() > 1 && host.ends_with('.') ? host.substr(0, host.size() - 1) : host;
 }
 
-bool listed(const std::vector<std::string>& list, std::string_view text) {
+bool isListed(const std::vector<std::string>& list, std::string_view text) {
     return std::ranges::any_of(
         list, [text](const std::string& entry) { return entry == "*" || equalsIgnoringCase(entry, text); });
 }
 
 /// Returns the value of the token cookie in the header field Cookie; an empty string if it has no such cookie.
-std::string_view cookieIn(std::string_view header) {
+std::string_view tokenCookieIn(std::string_view header) {
     while (!header.empty()) {
         const std::size_t end = std::min(header.find(';'), header.size());
         std::string_view pair = header.substr(0, end);
@@ -52,7 +52,7 @@ std::string_view cookieIn(std::string_view header) {
 }
 
 /// Returns the token after "Bearer " in the header field Authorization; the whole field if it does not begin so.
-std::string_view bearerIn(std::string_view authorization) {
+std::string_view bearerTokenIn(std::string_view authorization) {
     constexpr std::string_view kBearer = "Bearer ";
     if (equalsIgnoringCase(authorization.substr(0, kBearer.size()), kBearer))
         authorization.remove_prefix(kBearer.size());
@@ -61,8 +61,8 @@ std::string_view bearerIn(std::string_view authorization) {
 
 }  // namespace
 
-std::optional<Authority> parseAuthority(std::string_view text) {
-    Authority authority;
+std::optional<UrlAuthority> parseAuthority(std::string_view text) {
+    UrlAuthority authority;
     if (text.starts_with('[')) {
         const std::size_t bracket = text.find(']');
         if (bracket == std::string_view::npos) return {};
@@ -100,7 +100,7 @@ AccessControl::Verdict AccessControl::check(const AccessCheckInput& fields) cons
     return Verdict::allowed;
 }
 
-std::string AccessControl::cookieFor(const AccessCheckInput& fields) const {
+std::string AccessControl::tokenCookieFor(const AccessCheckInput& fields) const {
     if (token_.empty() || !store::equalInConstantTime(fields.token, token_)) return {};
     // A cookie without the attribute Path applies to the page's own folder, whatever path prefix a proxy adds.
     return std::string(kCookie) + "=" + token_ + "; HttpOnly; SameSite=Strict";
@@ -108,12 +108,12 @@ std::string AccessControl::cookieFor(const AccessCheckInput& fields) const {
 
 bool AccessControl::isAllowedHost(std::string_view host) const {
     const auto authority = parseAuthority(host);
-    return authority ? listed(hosts_, host) || listed(hosts_, withoutFinalDot(authority->host))
-                     : host.empty() && listed(hosts_, "*");
+    return authority ? isListed(hosts_, host) || isListed(hosts_, withoutFinalDot(authority->host))
+                     : host.empty() && isListed(hosts_, "*");
 }
 
 bool AccessControl::isListedOrigin(std::string_view origin) const {
-    return !origin.empty() && listed(origins_, origin);
+    return !origin.empty() && isListed(origins_, origin);
 }
 
 /// Returns whether a request to `host` with this Origin is allowed. A request without Origin is allowed, because the
@@ -138,14 +138,14 @@ bool AccessControl::isUnwantedCrossSite(const AccessCheckInput& fields) const {
 }
 
 bool AccessControl::presentsToken(const AccessCheckInput& fields) {
-    return !fields.token.empty() || !fields.authorization.empty() || !cookieIn(fields.cookie).empty();
+    return !fields.token.empty() || !fields.authorization.empty() || !tokenCookieIn(fields.cookie).empty();
 }
 
 bool AccessControl::hasCorrectToken(const AccessCheckInput& fields) const {
     if (token_.empty()) return true;
     return store::equalInConstantTime(fields.token, token_) ||
-           store::equalInConstantTime(bearerIn(fields.authorization), token_) ||
-           store::equalInConstantTime(cookieIn(fields.cookie), token_);
+           store::equalInConstantTime(bearerTokenIn(fields.authorization), token_) ||
+           store::equalInConstantTime(tokenCookieIn(fields.cookie), token_);
 }
 
 }  // namespace oval4d::net

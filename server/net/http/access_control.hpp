@@ -19,14 +19,14 @@ struct AccessCheckInput {
 };
 
 /// The host and port in a URL, such as "localhost:8080" or "[::1]".
-struct Authority {
+struct UrlAuthority {
     std::string_view host;  ///< an IPv6 address keeps its brackets
     std::string_view port;  ///< digits, 0 to 65535; empty if none is given
 };
 
 /// Parses the host and port in a URL (RFC 3986, section 3.2). Returns an empty optional if the text is malformed, or
 /// has user information, a space or a port that is not a number.
-std::optional<Authority> parseAuthority(std::string_view text);
+std::optional<UrlAuthority> parseAuthority(std::string_view text);
 
 /// Decides whether requests are allowed. The server checks all requests except health probes. The check of Origin keeps
 /// out pages of other sites. The check of Host prevents DNS rebinding. The token keeps out everybody on the network who
@@ -62,7 +62,7 @@ class AccessControl {
 
     /// Returns the value of a Set-Cookie field that stores the token in a cookie. Later requests of the page then need
     /// no token in the query. Returns an empty string unless the query contains the correct token.
-    std::string cookieFor(const AccessCheckInput& fields) const;
+    std::string tokenCookieFor(const AccessCheckInput& fields) const;
 
   private:
     bool isAllowedHost(std::string_view host) const;

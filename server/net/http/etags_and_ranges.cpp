@@ -11,7 +11,7 @@ namespace {
 
 /// Parses a decimal number of bytes. Returns the maximum of std::size_t for larger numbers, and an empty optional
 /// unless the text consists of digits.
-std::optional<std::size_t> bytesIn(std::string_view digits) {
+std::optional<std::size_t> parseByteCount(std::string_view digits) {
     std::size_t value = 0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (fault == std::errc::result_out_of_range && end == digits.data() + digits.size())
@@ -42,13 +42,13 @@ std::optional<ByteRange> parseRange(std::string_view range, std::size_t size) {
     if (dash == std::string_view::npos || spec.find(',') != std::string_view::npos) return {};
     const std::string_view from = spec.substr(0, dash), to = spec.substr(dash + 1);
     if (from.empty()) {
-        const auto suffix = bytesIn(to);
+        const auto suffix = parseByteCount(to);
         if (!suffix) return {};
         const std::size_t length = std::min(*suffix, size);
         return ByteRange{size - length, length, length > 0};
     }
-    const auto first = bytesIn(from);
-    const auto last = to.empty() ? std::optional(static_cast<std::size_t>(-1)) : bytesIn(to);
+    const auto first = parseByteCount(from);
+    const auto last = to.empty() ? std::optional(static_cast<std::size_t>(-1)) : parseByteCount(to);
     if (!first || !last || *last < *first) return {};
     if (*first >= size) return ByteRange{0, 0, false};
     return ByteRange{*first, std::min(*last, size - 1) - *first + 1, true};

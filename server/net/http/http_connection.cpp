@@ -48,7 +48,7 @@ constexpr int kNotSentLowat = 256 << 10;  // roughly the most unsent bytes in th
 /// Serves the HTTP requests of one connection, one after another.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   public:
-    HttpConnection(asio::ip::tcp::socket socket, ServerContext context, AddressAccountPtr client,
+    HttpConnection(asio::ip::tcp::socket socket, ServerContext context, ClientAccountPtr client,
                    ConnectionRegistry::AdmissionDecision admission)
         : stream_(std::move(socket)),
           context_(std::move(context)),
@@ -60,20 +60,20 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     asio::awaitable<void> run();
 
   private:
-    asio::awaitable<std::optional<HttpRequest>> read();
-    asio::awaitable<bool> serve(HttpRequest request);
-    asio::awaitable<Reply> answer(const HttpRequest& request);
-    std::optional<Reply> refuseConnection() const;
+    asio::awaitable<std::optional<HttpRequest>> readRequest();
+    asio::awaitable<bool> serveRequest(HttpRequest request);
+    asio::awaitable<HttpReply> answer(const HttpRequest& request);
+    std::optional<HttpReply> refuseConnection() const;
     asio::awaitable<bool> serveUpload(HttpRequest request);
     asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> restoreState(
         std::shared_ptr<LiveSession> session, std::shared_ptr<const fields::FileHandle> file);
-    std::optional<Reply> checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const;
+    std::optional<HttpReply> checkUpload(const HttpRequest& request, UploadRequest& upload, std::string& token) const;
     asio::awaitable<SessionManager::JoinResult> joinSession(std::string session, std::string token);
     std::function<void(SessionManager::JoinHandler)> sessionJoiner(std::string session, std::string token) const;
-    Reply replyTo(const Result<LiveSession::CommandResult>& applied);
-    asio::awaitable<std::optional<Reply>> receiveBody(const HttpRequest& request, UploadedBody& body);
-    asio::awaitable<bool> write(const HttpRequest& request, Reply reply);
-    asio::awaitable<void> refuse(const HttpRequest& request, Reply reply);
+    HttpReply replyTo(const Result<LiveSession::CommandResult>& applied);
+    asio::awaitable<std::optional<HttpReply>> receiveBody(const HttpRequest& request, UploadedBody& body);
+    asio::awaitable<bool> write(const HttpRequest& request, HttpReply reply);
+    asio::awaitable<void> refuse(const HttpRequest& request, HttpReply reply);
     asio::awaitable<void> linger();
     void identifyClient(const HttpRequest& request);
     std::string resourcePolicy(const RequestTarget& target) const;
@@ -88,7 +88,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
     beast::tcp_stream stream_;
     const ServerContext context_;
-    AddressAccountPtr client_;
+    ClientAccountPtr client_;
     ConnectionRegistry::Registration registration_;
     ConnectionRegistry::AdmissionDecision admission_;
     std::string resourcePolicy_;  // the Cross-Origin-Resource-Policy of the reply
@@ -101,7 +101,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
 /// Returns the reply to a request that could not be parsed. Returns an empty optional if no reply is possible: the
 /// client has disconnected, or has not sent a whole header in time.
-std::optional<Reply> parseErrorReply(boost::system::error_code fault) {
+std::optional<HttpReply> parseErrorReply(boost::system::error_code fault) {
     if (fault == http::error::header_limit || fault == http::error::buffer_overflow)
         return refusalReply(431, "the header is too long; at most 16 KiB are allowed\n");
     if (fault == http::error::end_of_stream || fault == http::error::partial_message) return {};
@@ -116,10 +116,10 @@ asio::awaitable<void> HttpConnection::run() {
             asio::post(self->stream_.get_executor(), [self, reason] { self->end(reason); });
     });
     for (bool open = true; open && !stopping_;) {
-        auto request = co_await read();
+        auto request = co_await readRequest();
         if (!request) break;
         registration_.setInUse(true);
-        open = co_await serve(std::move(*request));
+        open = co_await serveRequest(std::move(*request));
         registration_.setInUse(false);
         first_ = false;
     }
@@ -129,10 +129,10 @@ asio::awaitable<void> HttpConnection::run() {
 }
 
 /// Serves one request. Resolves to whether another request may follow on this connection.
-asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
+asio::awaitable<bool> HttpConnection::serveRequest(HttpRequest request) {
     const auto uploadTarget = targetOf(request);
     const bool uploads = uploadTarget && isUpload(std::string_view(request.method_string()), uploadTarget->path);
-    if (auto fault = validateHeader(request, uploads ? BodyRule::required : BodyRule::none)) {
+    if (auto fault = validateHeader(request, uploads ? RequestBodyRule::required : RequestBodyRule::none)) {
         co_await refuse(request, refusalReply(*fault));
         co_return false;
     }
@@ -141,7 +141,7 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
     co_await pauseFor(clock(), stream_.get_executor(), wait);
     if (uploads) co_return co_await serveUpload(std::move(request));
     if (!isWebSocketUpgrade(request) || admission_ != ConnectionRegistry::AdmissionDecision::admitted) {
-        Reply reply = co_await answer(request);
+        HttpReply reply = co_await answer(request);
         co_return co_await write(request, std::move(reply));
     }
     std::string session;
@@ -153,7 +153,7 @@ asio::awaitable<bool> HttpConnection::serve(HttpRequest request) {
     co_return false;
 }
 
-asio::awaitable<std::optional<HttpRequest>> HttpConnection::read() {
+asio::awaitable<std::optional<HttpRequest>> HttpConnection::readRequest() {
     http::request_parser<http::empty_body> parser;
     parser.header_limit(kMaxHeaderBytes);
     parser.body_limit(boost::none);  // not needed: the parser never reads a body
@@ -176,7 +176,7 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
     if (fault || !context_.services.clients.isTrustedProxy(peer.address())) return;
     const auto origin =
         context_.services.clients.clientAddress(combinedFieldValue(request, "X-Forwarded-For"), peer.address());
-    const AddressAccountPtr client = context_.services.clients.findOrCreate(origin, clock().now());
+    const ClientAccountPtr client = context_.services.clients.findOrCreate(origin, clock().now());
     if (client == client_) return;
     registration_.setClient(client);
     client_ = client;
@@ -185,15 +185,15 @@ void HttpConnection::identifyClient(const HttpRequest& request) {
 
 /// Returns the refusal with which every request on this connection is answered; an empty optional unless the connection
 /// exceeds a limit.
-std::optional<Reply> HttpConnection::refuseConnection() const {
+std::optional<HttpReply> HttpConnection::refuseConnection() const {
     if (admission_ == ConnectionRegistry::AdmissionDecision::server_full)
         return refusalReply(503, "the server has too many connections; try again later\n");
     if (admission_ == ConnectionRegistry::AdmissionDecision::client_full)
-        return tooManyReply("this address has too many connections; close some or try again later\n");
+        return tooManyRequestsReply("this address has too many connections; close some or try again later\n");
     return {};
 }
 
-asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
+asio::awaitable<HttpReply> HttpConnection::answer(const HttpRequest& request) {
     if (auto refusal = refuseConnection()) co_return std::move(*refusal);
     auto target = targetOf(request);
     if (!target) {
@@ -212,7 +212,7 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
     }
     resourcePolicy_ = resourcePolicy(*target);
     const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
-    if (reads && sessionIn(target->path))
+    if (reads && sessionIdInPath(target->path))
         co_return refusalReply(HttpError{kUpgradeRequired, "this path serves WebSockets: request an upgrade"});
     Routes::ParsedRequest parsed{std::string(request.method_string()),
                                  std::move(*target),
@@ -221,7 +221,7 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
                                  std::string(headerField(request, http::field::range)),
                                  std::string(headerField(request, http::field::if_range)),
                                  client_};
-    Reply reply = co_await context_.routes.answer(std::move(parsed));
+    HttpReply reply = co_await context_.routes.answer(std::move(parsed));
     if (!cookie.empty()) reply.headers.emplace_back("Set-Cookie", std::move(cookie));
     co_return reply;
 }
@@ -230,7 +230,7 @@ asio::awaitable<Reply> HttpConnection::answer(const HttpRequest& request) {
 /// body, it checks the header and joins the session. Closes the connection if it refuses the upload before the whole
 /// body is read. Resolves to whether another request may follow on this connection.
 asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
-    Upload upload;
+    UploadRequest upload;
     std::string token;
     if (auto refusal = checkUpload(request, upload, token)) {
         co_await refuse(request, std::move(*refusal));
@@ -238,15 +238,15 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     }
     const auto joined = co_await joinSession(upload.session, std::move(token));
     if (!joined) {
-        Reply refusal = uploadErrorReply(joined.error());
+        HttpReply refusal = uploadErrorReply(joined.error());
         co_await refuse(request, std::move(refusal));
         co_return false;
     }
     const std::shared_ptr<LiveSession>& session = *joined;
-    const struct Leaving {
+    const struct SessionLeaveGuard {
         SessionManager& sessions;
         const std::shared_ptr<LiveSession>& session;
-        ~Leaving() { sessions.leave(session, nullptr); }
+        ~SessionLeaveGuard() { sessions.leave(session, nullptr); }
     } leaving{*context_.sessions, session};
     UploadedBody body(client_);
     if (auto refusal = co_await receiveBody(request, body)) {
@@ -262,7 +262,7 @@ asio::awaitable<bool> HttpConnection::serveUpload(HttpRequest request) {
     } else {
         applied = co_await restoreState(session, file);
     }
-    Reply reply = replyTo(*applied);
+    HttpReply reply = replyTo(*applied);
     co_return co_await write(request, std::move(reply));
 }
 
@@ -281,7 +281,7 @@ asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> HttpConnectio
     }
 }
 
-Reply HttpConnection::replyTo(const Result<LiveSession::CommandResult>& applied) {
+HttpReply HttpConnection::replyTo(const Result<LiveSession::CommandResult>& applied) {
     if (applied) return jsonReply(wire::answerMessage(wire::Done{applied->revision, applied->warnings}, {}));
     context_.services.metrics.countError(applied.error().code);
     return uploadErrorReply(applied.error());
@@ -289,7 +289,8 @@ Reply HttpConnection::replyTo(const Result<LiveSession::CommandResult>& applied)
 
 /// Checks the header of an upload. If the upload is refused, returns the reply. Otherwise returns an empty optional,
 /// and sets `upload` and `token`. `token` is the session token in the request, which may be wrong.
-std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upload& upload, std::string& token) const {
+std::optional<HttpReply> HttpConnection::checkUpload(const HttpRequest& request, UploadRequest& upload,
+                                                     std::string& token) const {
     if (auto refusal = refuseConnection()) return refusal;
     const auto target = targetOf(request);
     std::string cookie;
@@ -308,7 +309,7 @@ std::optional<Reply> HttpConnection::checkUpload(const HttpRequest& request, Upl
             {ErrorCode::bad_token, "an upload needs the session's token in the header field Session-Token"});
     }
     if (!client_->mayTryToken(clock().now()))
-        return tooManyReply("this address has sent too many wrong tokens; try again in a minute\n");
+        return tooManyRequestsReply("this address has sent too many wrong tokens; try again in a minute\n");
     token = {given->value().data(), given->value().size()};
     upload = std::move(*parsed);
     return {};
@@ -330,7 +331,7 @@ std::function<void(SessionManager::JoinHandler)> HttpConnection::sessionJoiner(s
 
 /// Reads the body of a request with a valid header. If the body is refused, returns the reply. Otherwise returns an
 /// empty optional: the body is complete, or the stream is closed because the client has left or sends too slowly.
-asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
+asio::awaitable<std::optional<HttpReply>> HttpConnection::receiveBody(const HttpRequest& request, UploadedBody& body) {
     std::size_t left = bodyLength(request);
     TransferDeadline deadline(options(), context_.services.clock);
     if (left > 0 && buffer_.size() == 0 && request.count(http::field::expect) > 0) {
@@ -350,7 +351,7 @@ asio::awaitable<std::optional<Reply>> HttpConnection::receiveBody(const HttpRequ
             if (timedOut_) context_.services.metrics.droppedSlowClients.Increment();
             if (fault) stream_.close();
             buffer_.commit(size);
-            deadline.count(size);
+            deadline.countBytes(size);
         }
         const std::size_t taken = std::min(left, buffer_.size());
         if (auto error = body.append({static_cast<const char*>(buffer_.cdata().data()), taken})) {
@@ -372,7 +373,7 @@ std::string HttpConnection::resourcePolicy(const RequestTarget& target) const {
 }
 
 /// Sends a refusal and closes the connection, because it is uncertain at which byte the next request would begin.
-asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, Reply reply) {
+asio::awaitable<void> HttpConnection::refuse(const HttpRequest& request, HttpReply reply) {
     resourcePolicy_ = "same-origin";
     HttpRequest last(request);
     last.keep_alive(false);
@@ -396,7 +397,7 @@ asio::awaitable<void> HttpConnection::linger() {
 }
 
 /// Writes a reply. Resolves to whether the connection stays open.
-asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply reply) {
+asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, HttpReply reply) {
     http::response<http::span_body<const char>> response{static_cast<http::status>(reply.status), 11};
     const std::string_view body = request.method() == http::verb::head ? std::string_view() : reply.body.view();
     response.set(http::field::server, "oval4d");
@@ -429,7 +430,7 @@ asio::awaitable<bool> HttpConnection::write(const HttpRequest& request, Reply re
             if (timedOut_) context_.services.metrics.droppedSlowClients.Increment();
             co_return false;
         }
-        deadline.count(size);
+        deadline.countBytes(size);
     }
     co_return response.keep_alive();
 }
@@ -452,7 +453,7 @@ asio::awaitable<void> HttpConnection::upgrade(HttpRequest request, std::string s
     // their combined values, so they are replaced by single fields with the values that Beast requires.
     request.set(http::field::connection, "upgrade");
     request.set(http::field::upgrade, "websocket");
-    co_await connection->run(std::move(request));
+    co_await connection->serveClient(std::move(request));
 }
 
 /// Closes the stream after `timeout`, unless the deadline is started again or ended before. The operation that waits
@@ -489,7 +490,7 @@ asio::awaitable<void> serveHttp(asio::ip::tcp::socket socket, ServerContext cont
     context.services.metrics.connections.Increment();
     auto& connections = context.services.metrics.connections;
     try {
-        AddressAccountPtr client = context.services.clients.findOrCreate(peer.address(), context.services.clock.now());
+        ClientAccountPtr client = context.services.clients.findOrCreate(peer.address(), context.services.clock.now());
         // The limit of connections per client does not apply to a trusted proxy, because its connections serve many
         // clients. Each request names its client in X-Forwarded-For.
         const bool isProxy = context.services.clients.isTrustedProxy(peer.address());

@@ -28,32 +28,32 @@ unsigned statusFor(ErrorCode code) {
 
 }  // namespace
 
-Reply noCacheReply(std::string type, SharedBytes body, unsigned status) {
+HttpReply noCacheReply(std::string type, SharedBytes body, unsigned status) {
     return {status, std::move(type), std::move(body), {{"Cache-Control", "no-cache"}, {"Accept-Ranges", "none"}}};
 }
 
-Reply noCacheTextReply(std::string type, std::string body, unsigned status) {
+HttpReply noCacheTextReply(std::string type, std::string body, unsigned status) {
     return noCacheReply(std::move(type), SharedBytes(std::move(body)), status);
 }
 
-Reply jsonReply(std::string message) { return noCacheTextReply(kJson, std::move(message)); }
+HttpReply jsonReply(std::string message) { return noCacheTextReply(kJson, std::move(message)); }
 
-Reply errorReply(const Error& error, unsigned status) {
+HttpReply errorReply(const Error& error, unsigned status) {
     return noCacheTextReply(kJson, wire::errorMessage(error, {}), status != 0 ? status : statusFor(error.code));
 }
 
-Reply refusalReply(unsigned status, std::string text) {
+HttpReply refusalReply(unsigned status, std::string text) {
     return {status, "text/plain; charset=utf-8", SharedBytes(std::move(text)), {}};
 }
 
-Reply refusalReply(const HttpError& fault) {
-    Reply reply = refusalReply(fault.status, fault.reason + "\n");
+HttpReply refusalReply(const HttpError& fault) {
+    HttpReply reply = refusalReply(fault.status, fault.reason + "\n");
     if (fault.status == kUpgradeRequired) reply.headers = {{"Upgrade", "websocket"}, {"Sec-WebSocket-Version", "13"}};
     return reply;
 }
 
-Reply tooManyReply(std::string text) {
-    Reply reply = refusalReply(429, std::move(text));
+HttpReply tooManyRequestsReply(std::string text) {
+    HttpReply reply = refusalReply(429, std::move(text));
     reply.headers.emplace_back("Retry-After", "10");
     return reply;
 }

@@ -12,7 +12,7 @@
 namespace oval4d::net {
 
 /// An HTTP response, independent of the HTTP library.
-struct Reply {
+struct HttpReply {
     unsigned status = 200;
     std::string type;  ///< the Content-Type; if empty, the field is omitted
     SharedBytes body;
@@ -21,26 +21,26 @@ struct Reply {
 
 /// Returns a reply with the header field Cache-Control: no-cache. Caches must then ask the server before they use the
 /// reply again.
-Reply noCacheReply(std::string type, SharedBytes body, unsigned status = 200);
+HttpReply noCacheReply(std::string type, SharedBytes body, unsigned status = 200);
 
 /// Returns a reply with a text as the body, and with Cache-Control: no-cache. `type` is the media type of the text.
-Reply noCacheTextReply(std::string type, std::string body, unsigned status = 200);
+HttpReply noCacheTextReply(std::string type, std::string body, unsigned status = 200);
 
 /// Returns a reply with a JSON message of the oval4d protocol as the body, and with Cache-Control: no-cache.
-Reply jsonReply(std::string message);
+HttpReply jsonReply(std::string message);
 
 /// Returns a reply with the body `{"type":"error", …}`, and with Cache-Control: no-cache. `status` is the HTTP status;
 /// 0 derives the status from the error code.
-Reply errorReply(const Error& error, unsigned status = 0);
+HttpReply errorReply(const Error& error, unsigned status = 0);
 
 /// Returns a plain-text reply without further header fields, for requests that are refused before a route answers them.
-Reply refusalReply(unsigned status, std::string text);
+HttpReply refusalReply(unsigned status, std::string text);
 
 /// Returns the plain-text reply to a request with this fault in its header. If the status is kUpgradeRequired, the
 /// reply's header fields name the WebSocket protocol.
-Reply refusalReply(const HttpError& fault);
+HttpReply refusalReply(const HttpError& fault);
 
 /// Returns a plain-text reply with status 429. Its header field Retry-After tells the client to wait for ten seconds.
-Reply tooManyReply(std::string text);
+HttpReply tooManyRequestsReply(std::string text);
 
 }  // namespace oval4d::net

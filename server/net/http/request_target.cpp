@@ -12,7 +12,7 @@ namespace {
 
 /// Returns the length of "http://" or "https://" at the beginning of the text, in any case; 0 if the text begins with
 /// neither.
-std::size_t schemeLength(std::string_view text) {
+std::size_t urlSchemeLength(std::string_view text) {
     for (const std::string_view scheme : {"http://", "https://"}) {
         const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 'a' - 'A') : c; };
         if (std::ranges::equal(text.substr(0, scheme.size()), scheme, {}, lower)) return scheme.size();
@@ -33,7 +33,7 @@ std::string_view takeUntil(std::string_view& text, char separator) {
 
 std::optional<RequestTarget> parseRequestTarget(std::string_view text) {
     RequestTarget target;
-    if (const std::size_t scheme = schemeLength(text); scheme > 0) {
+    if (const std::size_t scheme = urlSchemeLength(text); scheme > 0) {
         text.remove_prefix(scheme);
         const std::size_t end = std::min(text.find_first_of("/?"), text.size());
         if (!parseAuthority(text.substr(0, end))) return {};

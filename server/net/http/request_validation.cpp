@@ -30,11 +30,11 @@ bool isWebSocketKey(std::string_view key) {
 
 bool isControl(char c) { return (static_cast<unsigned char>(c) < 0x20 && c != '\t') || c == 0x7F; }
 
-std::string_view text(beast::string_view view) { return {view.data(), view.size()}; }
+std::string_view toStringView(beast::string_view view) { return {view.data(), view.size()}; }
 
 }  // namespace
 
-std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule body) {
+std::optional<HttpError> validateHeader(const HttpRequest& request, RequestBodyRule body) {
     constexpr unsigned kBad = 400, kExpectationFailed = 417;
     for (const field once : {field::host, field::origin, field::content_length, field::transfer_encoding,
                              field::sec_websocket_key, field::sec_websocket_version, field::authorization}) {
@@ -43,30 +43,30 @@ std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule bod
                 kBad, "the header field " + std::string(http::to_string(once)) + " is repeated; it may occur once"};
     }
     for (const auto& each : request) {
-        if (std::ranges::any_of(text(each.value()), isControl))
+        if (std::ranges::any_of(toStringView(each.value()), isControl))
             return HttpError{kBad, "a header field value contains a control character; only tabs are allowed"};
     }
     if (request.version() >= 11 && request.count(field::host) == 0)
         return HttpError{kBad, "an HTTP/1.1 request must have a Host header field"};
     if (const auto host = request.find(field::host);
-        host != request.end() && !host->value().empty() && !parseAuthority(text(host->value()))) {
+        host != request.end() && !host->value().empty() && !parseAuthority(toStringView(host->value()))) {
         return HttpError{kBad, "the Host header field must be a host name with an optional port"};
     }
     if (const auto coding = request.find(field::transfer_encoding); coding != request.end()) {
         if (request.version() < 11) return HttpError{kBad, "Transfer-Encoding is not allowed in HTTP/1.0"};
         if (!beast::iequals(coding->value(), "chunked"))
             return HttpError{kBad, "the only supported Transfer-Encoding is chunked"};
-        return body == BodyRule::none
+        return body == RequestBodyRule::none
                    ? HttpError{413, "request bodies are not accepted"}
                    : HttpError{411, "the length of the body must be given as Content-Length, not in chunks"};
     }
     if (const auto length = request.find(field::content_length); length != request.end()) {
-        const std::string_view digits = text(length->value());
+        const std::string_view digits = toStringView(length->value());
         if (digits.empty() || !std::ranges::all_of(digits, text::isDigit))
             return HttpError{kBad, "Content-Length must be a decimal number"};
-        if (body == BodyRule::none && digits.find_first_not_of('0') != std::string_view::npos)
+        if (body == RequestBodyRule::none && digits.find_first_not_of('0') != std::string_view::npos)
             return HttpError{413, "request bodies are not accepted"};
-    } else if (body == BodyRule::required) {
+    } else if (body == RequestBodyRule::required) {
         return HttpError{411, "an upload must have a Content-Length"};
     }
     if (const auto expected = request.find(field::expect);
@@ -79,7 +79,7 @@ std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule bod
 std::size_t bodyLength(const HttpRequest& request) {
     const auto field = request.find(http::field::content_length);
     if (field == request.end()) return 0;
-    const std::string_view digits = text(field->value());
+    const std::string_view digits = toStringView(field->value());
     std::size_t length = 0;
     const auto [end, fault] = std::from_chars(digits.data(), digits.data() + digits.size(), length);
     return fault == std::errc::result_out_of_range ? std::numeric_limits<std::size_t>::max() : length;
@@ -99,7 +99,7 @@ std::optional<HttpError> validateHandshake(const HttpRequest& request) {
         version == request.end() || version->value() != "13") {
         return HttpError{kUpgradeRequired, "the only supported WebSocket version is 13"};
     }
-    if (!isWebSocketKey(text(request[field::sec_websocket_key])))
+    if (!isWebSocketKey(toStringView(request[field::sec_websocket_key])))
         return HttpError{kBad, "Sec-WebSocket-Key must be 16 bytes in base64"};
     return {};
 }
@@ -109,7 +109,7 @@ std::string combinedFieldValue(const HttpRequest& request, std::string_view name
     for (const auto& each : request) {
         if (!beast::iequals(each.name_string(), {name.data(), name.size()})) continue;
         if (!list.empty()) list += ", ";
-        list += text(each.value());
+        list += toStringView(each.value());
     }
     return list;
 }

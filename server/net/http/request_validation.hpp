@@ -21,7 +21,7 @@ struct HttpError {
 inline constexpr unsigned kUpgradeRequired = 426;  ///< HTTP status: the client must switch to another protocol
 
 /// What a request's header must say about a body.
-enum class BodyRule : bool {
+enum class RequestBodyRule : bool {
     none,      ///< no body may be announced; the next request follows the header
     required,  ///< the header must state the length of the body
 };
@@ -29,7 +29,7 @@ enum class BodyRule : bool {
 /// Validates a request header. Returns an empty optional if the header is valid. It then has at most one of each of the
 /// fields Host, Origin and Content-Length, and announces no chunked body. After a refusal, the caller must close the
 /// connection, because a proxy may disagree about where the request ends (request smuggling).
-std::optional<HttpError> validateHeader(const HttpRequest& request, BodyRule body);
+std::optional<HttpError> validateHeader(const HttpRequest& request, RequestBodyRule body);
 
 /// Returns the length of the body in bytes, as a valid header announces it; 0 if there is no body. Lengths above the
 /// maximum of std::size_t give this maximum.

@@ -32,7 +32,7 @@ namespace {
 const Error kMethodNotAllowed{ErrorCode::bad_message, "only the methods GET and HEAD are allowed"};
 const Error kMakingFailed{ErrorCode::internal, "the server failed to make this picture or file"};
 
-Error notFound(const std::string& path) {
+Error pathNotFoundError(const std::string& path) {
     return {ErrorCode::not_found, "there is nothing at the path " + text::inQuotes(path)};
 }
 
@@ -57,7 +57,7 @@ double residentBytes() {
 /// Removes `width` and `height` from a query. Returns the picture size that they describe, after checking it against
 /// the limits.
 Result<scene::Viewport> takeViewport(session::QueryParameters& query, const pipeline::FrameLimits& limits) {
-    scene::Viewport viewport = pipeline::usualViewport(limits);
+    scene::Viewport viewport = pipeline::defaultViewport(limits);
     session::QueryParameters rest;
     for (auto& [name, value] : query) {
         if (name == "width" || name == "height") {
@@ -84,7 +84,7 @@ std::string warningsField(const std::vector<std::string>& warnings) {
 }
 
 /// Returns the export format that a path requests, such as stl for "/api/v1/file.stl"; null for other paths.
-const exports::Format* formatIn(std::string_view path) {
+const exports::Format* formatInPath(std::string_view path) {
     constexpr std::string_view kFile = "/api/v1/file.";
     return path.starts_with(kFile) ? exports::formatNamed(path.substr(kFile.size())) : nullptr;
 }
@@ -93,14 +93,14 @@ const exports::Format* formatIn(std::string_view path) {
 /// bytes held for the client (ByteBudget::Account).
 std::function<std::optional<SharedBytes>(pipeline::Pipeline&)> frameJob(const session::State& state,
                                                                         scene::Viewport viewport,
-                                                                        const AddressAccountPtr& client,
+                                                                        const ClientAccountPtr& client,
                                                                         Metrics& metrics) {
     return [state, viewport, client, &metrics](pipeline::Pipeline& pipeline) -> std::optional<SharedBytes> {
         // Reserves the bytes of the pixels until the size of the file is known. A PNG file is rarely larger.
         auto held = client->byteAccount().reserve(image::byteCount(viewport.width, viewport.height));
         if (!held) return std::nullopt;
         std::vector<std::uint8_t> png;
-        const scene::PictureRequest picture = session::pictureOf(state, viewport);
+        const scene::PictureRequest picture = session::pictureRequestOf(state, viewport);
         pipeline.drawPng(picture, wire::stateMessageOutsideSessions(state, pipeline.nameFocusSection(picture).names),
                          png);
         metrics.observe(pipeline.times());
@@ -117,16 +117,16 @@ constexpr const char* kContentSecurityPolicy =
 
 /// Returns the reply to a request for a file of the web client. Supports compressed representations (Accept-Encoding),
 /// If-None-Match and byte ranges.
-Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
-    const Representation& representation = file.negotiate(request.acceptEncoding);
-    Reply reply{200,
-                file.type,
-                representation.bytes,
-                {{"ETag", representation.etag},
-                 {"Cache-Control", "no-cache"},
-                 {"Vary", "Accept-Encoding"},
-                 {"Accept-Ranges", "bytes"},
-                 {"Content-Security-Policy", kContentSecurityPolicy}}};
+HttpReply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
+    const HttpRepresentation& representation = file.negotiate(request.acceptEncoding);
+    HttpReply reply{200,
+                    file.type,
+                    representation.bytes,
+                    {{"ETag", representation.etag},
+                     {"Cache-Control", "no-cache"},
+                     {"Vary", "Accept-Encoding"},
+                     {"Accept-Ranges", "bytes"},
+                     {"Content-Security-Policy", kContentSecurityPolicy}}};
     if (matchesEntityTag(request.ifNoneMatch, representation.etag)) return {304, "", {}, reply.headers};
     if (representation.coding != "identity") reply.headers.emplace_back("Content-Encoding", representation.coding);
     const bool unchanged = request.ifRange.empty() || request.ifRange == representation.etag;
@@ -135,7 +135,7 @@ Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
     if (!range) return reply;
     const std::string size = std::to_string(representation.bytes.size());
     if (!range->satisfiable) {
-        Reply refused = noCacheTextReply("text/plain", "the file has " + size + " bytes\n", 416);
+        HttpReply refused = noCacheTextReply("text/plain", "the file has " + size + " bytes\n", 416);
         refused.headers.emplace_back("Content-Range", "bytes */" + size);
         return refused;
     }
@@ -148,9 +148,9 @@ Reply fileReply(const WebFile& file, const Routes::ParsedRequest& request) {
 
 }  // namespace
 
-asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
+asio::awaitable<HttpReply> Routes::answer(ParsedRequest request) {
     if (request.method != "GET" && request.method != "HEAD") {
-        Reply refused = errorReply(kMethodNotAllowed, 405);
+        HttpReply refused = errorReply(kMethodNotAllowed, 405);
         refused.headers.emplace_back("Allow", "GET, HEAD");
         co_return refused;
     }
@@ -161,17 +161,17 @@ asio::awaitable<Reply> Routes::answer(ParsedRequest request) {
     if (path == "/api/v1/catalogue") co_return co_await catalogue(request.client);
     if (path == "/api/v1/keymap") co_return jsonReply(wire::keymapMessage({}));
     if (path == "/api/v1/frame.png") co_return co_await frame(std::move(request.target.query), request.client);
-    if (const auto format = formatIn(path))
+    if (const auto format = formatInPath(path))
         co_return co_await file(std::move(request.target.query), *format, request.client);
     if (const WebFile* file = files_.find(path)) co_return fileReply(*file, request);
-    co_return errorReply(notFound(path));
+    co_return errorReply(pathNotFoundError(path));
 }
 
 /// Returns the state that a query describes. `others` are the names of further parameters that the query may have. If
 /// the polytope of the state must be built, a worker builds it. Throws what runOnPool() throws.
 asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters query,
                                                       std::span<const std::string_view> others,
-                                                      AddressAccountPtr client) {
+                                                      ClientAccountPtr client) {
     std::erase_if(query, [](const auto& entry) { return entry.first == "token"; });
     const session::Limits& limits = services_.options.session;
     const auto loader = std::make_shared<session::ObjectLoader>(
@@ -186,70 +186,70 @@ asio::awaitable<Result<session::State>> Routes::state(session::QueryParameters q
     }
 }
 
-asio::awaitable<Reply> Routes::catalogue(AddressAccountPtr client) {
+asio::awaitable<HttpReply> Routes::catalogue(ClientAccountPtr client) {
     try {
-        const std::vector<std::string> names = co_await dataNames(services_, std::move(client));
+        const std::vector<std::string> names = co_await dataFolderNames(services_, std::move(client));
         co_return jsonReply(wire::catalogueMessage({}, {}, names));
     } catch (const parallel::QueueFull&) {
-        co_return countedError(kTooManyJobs);
+        co_return countedErrorReply(kTooManyJobs);
     }
 }
 
-Reply Routes::countedError(const Error& error) {
+HttpReply Routes::countedErrorReply(const Error& error) {
     services_.metrics.countError(error.code);
     return errorReply(error);
 }
 
-asio::awaitable<Reply> Routes::frame(session::QueryParameters query, AddressAccountPtr client) {
+asio::awaitable<HttpReply> Routes::frame(session::QueryParameters query, ClientAccountPtr client) {
     try {
         const auto viewport = takeViewport(query, services_.options.frame);
-        if (!viewport) co_return countedError(viewport.error());
+        if (!viewport) co_return countedErrorReply(viewport.error());
         const auto requested = co_await state(std::move(query), session::kPictureParameters, client);
-        if (!requested) co_return countedError(requested.error());
-        const auto cost = pipeline::frameCost(session::pictureOf(*requested, *viewport));
+        if (!requested) co_return countedErrorReply(requested.error());
+        const auto cost = pipeline::frameCost(session::pictureRequestOf(*requested, *viewport));
         auto png = co_await runOnPool<std::optional<SharedBytes>>(
             services_.pictureWorkers, frameJob(*requested, *viewport, client, services_.metrics),
             client->pictureJobQueue(), cost);
-        if (!png) co_return countedError(kTooManyBytes);
+        if (!png) co_return countedErrorReply(kTooManyBytes);
         co_return noCacheReply("image/png", std::move(*png));
     } catch (const parallel::QueueFull&) {
-        co_return countedError(kTooManyJobs);
+        co_return countedErrorReply(kTooManyJobs);
     } catch (const slicing::TooManySliceEdges& fault) {
-        co_return countedError({ErrorCode::too_large, fault.what()});
+        co_return countedErrorReply({ErrorCode::too_large, fault.what()});
     } catch (const std::exception& fault) {
         spdlog::error("picture failed fault=\"{}\"", fault.what());
         co_return errorReply(kMakingFailed);
     }
 }
 
-asio::awaitable<Reply> Routes::file(session::QueryParameters query, const exports::Format& format,
-                                    AddressAccountPtr client) {
+asio::awaitable<HttpReply> Routes::file(session::QueryParameters query, const exports::Format& format,
+                                        ClientAccountPtr client) {
     try {
         const auto exported = wire::extractExportRequest(query, format, services_.options.session.maxSlices);
-        if (!exported) co_return countedError(exported.error());
+        if (!exported) co_return countedErrorReply(exported.error());
         const auto requested = co_await state(std::move(query), session::kFileParameters, client);
-        if (!requested) co_return countedError(requested.error());
-        const scene::PictureRequest picture = session::pictureOf(*requested);
+        if (!requested) co_return countedErrorReply(requested.error());
+        const scene::PictureRequest picture = session::pictureRequestOf(*requested);
         const ExportResult made =
             co_await runOnPool<ExportResult>(services_.exportWorkers, exportJob(services_, picture, *exported, client),
                                              client->exportJobQueue(), pipeline::exportCost(picture, *exported));
-        if (!*made) co_return countedError(made->error());
-        const FinishedFile& finished = **made;
-        Reply answer = noCacheReply(format.mediaType, finished.bytes);
+        if (!*made) co_return countedErrorReply(made->error());
+        const FinishedExport& finished = **made;
+        HttpReply answer = noCacheReply(format.mediaType, finished.bytes);
         if (!finished.warnings.empty())
             answer.headers.emplace_back("Export-Warnings", warningsField(finished.warnings));
         answer.headers.emplace_back(
             "Content-Disposition", "attachment; filename=\"" + pipeline::fileName(requested->object, *exported) + "\"");
         co_return answer;
     } catch (const parallel::QueueFull&) {
-        co_return countedError(kTooManyJobs);
+        co_return countedErrorReply(kTooManyJobs);
     } catch (const std::exception& fault) {
         spdlog::error("file failed fault=\"{}\"", fault.what());
         co_return errorReply(kMakingFailed);
     }
 }
 
-Reply Routes::readiness() const {
+HttpReply Routes::readiness() const {
     if (readiness_.stopping()) return noCacheTextReply("text/plain", "stopping\n", 503);
     if (readiness_.ready()) {
         // The server stays ready while the store of sessions is unavailable. Other servers that share the store could
@@ -261,21 +261,21 @@ Reply Routes::readiness() const {
                                                 "for now: " +
                                                     error + "\n");
     }
-    const bool broken = readiness_.broken();
+    const bool broken = readiness_.isBroken();
     return noCacheTextReply(
         "text/plain", broken ? "not ready: frames cannot be drawn; see the log\n" : "not ready: warming up\n", 503);
 }
 
-Reply Routes::metrics() {
+HttpReply Routes::metrics() {
     Metrics& shown = services_.metrics;
     shown.sessions.Set(static_cast<double>(sessions_.writeBehind().sessionCount()));
-    shown.openSessions.Set(static_cast<double>(sessions_.openCount()));
+    shown.openSessions.Set(static_cast<double>(sessions_.openSessionCount()));
     shown.unsaved.Set(static_cast<double>(sessions_.writeBehind().unsaved()));
     shown.storeUp.Set(sessions_.writeBehind().lastError().empty() ? 1 : 0);
     shown.workers.Set(static_cast<double>(services_.pictureWorkers.workers().size()));
     shown.workerSeconds.Increment(
         std::max(0.0, Seconds(services_.pictureWorkers.workers().busyTime()).count() - shown.workerSeconds.Value()));
-    shown.jobsWaiting.Set(static_cast<double>(services_.pictureWorkers.workers().waiting()));
+    shown.jobsWaiting.Set(static_cast<double>(services_.pictureWorkers.workers().waitingJobCount()));
     shown.memory.Set(residentBytes());
     shown.bytesHeld.Set(static_cast<double>(services_.clients.bytesHeld()));
     shown.clients.Set(static_cast<double>(services_.clients.size()));
@@ -283,7 +283,7 @@ Reply Routes::metrics() {
     shown.dataFields.Set(static_cast<double>(services_.data.bytesInMemory()));
     shown.fieldFiles.Set(static_cast<double>(services_.fieldCacheFiles.diskBytes()));
     shown.critical.Set(static_cast<double>(services_.critical.bytes()));
-    return noCacheTextReply("text/plain; version=0.0.4; charset=utf-8", shown.text());
+    return noCacheTextReply("text/plain; version=0.0.4; charset=utf-8", shown.expositionText());
 }
 
 }  // namespace oval4d::net

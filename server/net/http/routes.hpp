@@ -29,23 +29,23 @@ class Routes {
         std::string method;
         RequestTarget target;
         std::string ifNoneMatch, acceptEncoding, range, ifRange;
-        AddressAccountPtr client;
+        ClientAccountPtr client;
     };
     /// Returns the reply to a request. The status is 405 for methods other than GET and HEAD, and 404 for unknown
     /// paths.
-    boost::asio::awaitable<Reply> answer(ParsedRequest request);
+    boost::asio::awaitable<HttpReply> answer(ParsedRequest request);
 
   private:
-    boost::asio::awaitable<Reply> catalogue(AddressAccountPtr client);
-    boost::asio::awaitable<Reply> frame(session::QueryParameters query, AddressAccountPtr client);
-    boost::asio::awaitable<Reply> file(session::QueryParameters query, const exports::Format& format,
-                                       AddressAccountPtr client);
+    boost::asio::awaitable<HttpReply> catalogue(ClientAccountPtr client);
+    boost::asio::awaitable<HttpReply> frame(session::QueryParameters query, ClientAccountPtr client);
+    boost::asio::awaitable<HttpReply> file(session::QueryParameters query, const exports::Format& format,
+                                           ClientAccountPtr client);
     boost::asio::awaitable<Result<session::State>> state(session::QueryParameters query,
                                                          std::span<const std::string_view> others,
-                                                         AddressAccountPtr client);
-    Reply countedError(const Error& error);
-    Reply readiness() const;
-    Reply metrics();
+                                                         ClientAccountPtr client);
+    HttpReply countedErrorReply(const Error& error);
+    HttpReply readiness() const;
+    HttpReply metrics();
 
     const Services services_;
     const WebFiles& files_;

@@ -34,8 +34,8 @@ const Error kNoUpload{ErrorCode::not_found,
 
 /// Sets the member of `load` that a query parameter names. Returns an error if the parameter is unknown or its value is
 /// invalid; otherwise an empty optional.
-std::optional<Error> setMember(session::LoadObject& load, const std::string& name, const std::string& value) {
-    const auto found = std::ranges::find(session::kLoadTexts, name, &session::LoadText::name);
+std::optional<Error> setLoadMember(session::LoadObject& load, const std::string& name, const std::string& value) {
+    const auto found = std::ranges::find(session::kLoadTexts, name, &session::LoadTextMember::name);
     if (found != session::kLoadTexts.end()) {
         load.*(found->member) = value;
     } else if (name == "box") {
@@ -44,7 +44,7 @@ std::optional<Error> setMember(session::LoadObject& load, const std::string& nam
         load.box = *box;
     } else {
         std::vector<std::string_view> names{"box"};
-        for (const session::LoadText& each : session::kLoadTexts) names.push_back(each.name);
+        for (const session::LoadTextMember& each : session::kLoadTexts) names.push_back(each.name);
         return Error{ErrorCode::bad_message, "an upload has no " + text::inQuotes(name) +
                                                  text::didYouMean(name, names) + "; its query may have " +
                                                  text::commaSeparated(names)};
@@ -59,7 +59,7 @@ std::optional<Error> setMembers(session::LoadObject& load, const session::QueryP
         if (std::ranges::find(entry + 1, query.end(), name, &session::QueryParameters::value_type::first) !=
             query.end())
             return Error{ErrorCode::bad_message, text::inQuotes(name) + " is repeated in the query"};
-        if (auto error = setMember(load, name, value)) return error;
+        if (auto error = setLoadMember(load, name, value)) return error;
     }
     return {};
 }
@@ -70,10 +70,10 @@ bool isUpload(std::string_view method, std::string_view path) {
     return (method == "PUT" || method == "POST") && path.starts_with(kSessions);
 }
 
-Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits) {
+Result<UploadRequest> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits) {
     std::string_view rest = std::string_view(target.path).substr(kSessions.size());
     const std::size_t at = std::min(rest.find('/'), rest.size());
-    Upload upload{std::string(rest.substr(0, at)), {}};
+    UploadRequest upload{std::string(rest.substr(0, at)), {}};
     rest.remove_prefix(at);
     if (rest == kState && method == "PUT") {
         for (const auto& [name, value] : target.query) {
@@ -97,7 +97,7 @@ Result<Upload> parseUpload(std::string_view method, const RequestTarget& target,
     const bool array = load.format.empty() || session::isArrayFormat(load.format);
     if (!array)
         return Error{ErrorCode::unsupported_format,
-                     "an uploaded file must be an array: " + text::alternatives(session::arrayFormatNames()) +
+                     "an uploaded file must be an array: " + text::joinedWithOr(session::arrayFormatNames()) +
                          ", not " + text::inQuotes(load.format)};
     session::LoadObject checked = load;
     if (checked.format.empty()) checked.format = "npy";
@@ -116,18 +116,18 @@ std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared
     };
 }
 
-Reply uploadErrorReply(const Error& error) {
+HttpReply uploadErrorReply(const Error& error) {
     if (error.code == ErrorCode::unsupported_format) return errorReply(error, 415);
     if (error.code != ErrorCode::too_many) return errorReply(error);
-    Reply reply = errorReply(error, 429);
+    HttpReply reply = errorReply(error, 429);
     reply.headers.emplace_back("Retry-After", "10");
     return reply;
 }
 
-UploadedBody::UploadedBody(const AddressAccountPtr& client) {
+UploadedBody::UploadedBody(const ClientAccountPtr& client) {
     const int file = memfd_create("oval4d-upload", MFD_CLOEXEC | MFD_ALLOW_SEALING);
     if (file < 0) throw std::system_error(errno, std::generic_category(), "an upload cannot be received");
-    reservedFile_ = std::make_shared<ReservedFile>(client->byteAccount().forceReserve(0), file);
+    reservedFile_ = std::make_shared<FileWithReservation>(client->byteAccount().forceReserve(0), file);
 }
 
 std::optional<Error> UploadedBody::append(std::string_view bytes) {

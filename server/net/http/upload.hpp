@@ -20,7 +20,7 @@
 namespace oval4d::net {
 
 /// The parsed header of an upload, without the uploaded file.
-struct Upload {
+struct UploadRequest {
     std::string session;                      ///< id of the session
     std::optional<session::LoadObject> load;  ///< how to load the uploaded field; empty if the file contains a state
 };
@@ -38,14 +38,14 @@ bool isUpload(std::string_view method, std::string_view path);
 /// of the third must be empty. The server's `token` in a query is ignored. Errors: `not_found` for any other path;
 /// `unsupported_format` if the format is not an array format; `bad_message` for an unknown or repeated name in the
 /// query; those of session::parseBox() and session::checkLoad().
-Result<Upload> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
+Result<UploadRequest> parseUpload(std::string_view method, const RequestTarget& target, const session::Limits& limits);
 
 /// The maximum size of an uploaded picture or `state` message, in bytes. The largest picture that oval4d makes is
 /// smaller.
 inline constexpr std::size_t kMaxStateFile = std::size_t{64} << 20U;
 
 /// The result of parsing an uploaded state: the command that restores it, or an error. Empty before the file is parsed.
-using ParsedStateFile = std::optional<Result<session::Set>>;
+using ParsedStateFile = std::optional<Result<session::ChangeSettings>>;
 /// Returns a job for a worker pool that parses an uploaded file with a state. `maxMessage` is the maximum size of the
 /// `state` message in the file, in bytes. Errors: those of wire::setCommandFromFile(); `bad_field` if the file is
 /// empty.
@@ -54,14 +54,14 @@ std::function<ParsedStateFile(std::size_t worker)> parseStateFileJob(std::shared
 
 /// Returns the reply to a failed upload. Like errorReply(), but `unsupported_format` has status 415, and `too_many` has
 /// status 429 and the header field Retry-After.
-Reply uploadErrorReply(const Error& error);
+HttpReply uploadErrorReply(const Error& error);
 
 /// Receives the body of an upload into a file in memory. Its bytes stay reserved in the client's byte account
 /// (ByteBudget::Account) until this object and all copies of finish()'s result are destroyed.
 class UploadedBody {
   public:
     /// Throws std::system_error if the system cannot create the file.
-    explicit UploadedBody(const AddressAccountPtr& client);
+    explicit UploadedBody(const ClientAccountPtr& client);
 
     /// Appends bytes to the file. Errors: `too_many` if the client's byte account has no room; `internal` if the system
     /// has no memory.
@@ -70,12 +70,13 @@ class UploadedBody {
     std::shared_ptr<const fields::FileHandle> finish();
 
   private:
-    struct ReservedFile {
-        ReservedFile(ByteBudget::Reservation reserved, int descriptor) : bytes(std::move(reserved)), file(descriptor) {}
+    struct FileWithReservation {
+        FileWithReservation(ByteBudget::Reservation reserved, int descriptor)
+            : bytes(std::move(reserved)), file(descriptor) {}
         ByteBudget::Reservation bytes;
         fields::FileHandle file;
     };
-    std::shared_ptr<ReservedFile> reservedFile_;
+    std::shared_ptr<FileWithReservation> reservedFile_;
     std::size_t size_ = 0;
 };
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view kIdentity = "identity";
 
-std::string typeOf(const std::filesystem::path& path) {
+std::string mediaTypeOf(const std::filesystem::path& path) {
     static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> kTypes{{
         {".html", "text/html; charset=utf-8"},
         {".js", "text/javascript; charset=utf-8"},
@@ -47,12 +47,12 @@ std::string etagOf(const std::string& content) {
 }
 
 /// Returns the content coding for the extension of a file name; an empty string for an uncompressed file.
-std::string_view codingOf(const std::filesystem::path& path) {
+std::string_view contentCodingOf(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
     return extension == ".br" ? "br" : extension == ".gz" ? "gzip" : "";
 }
 
-Representation readRepresentation(const std::filesystem::path& path, std::string_view coding) {
+HttpRepresentation readRepresentation(const std::filesystem::path& path, std::string_view coding) {
     std::ifstream in(path, std::ios::binary);
     std::string content{std::istreambuf_iterator<char>(in), {}};
     std::string etag = etagOf(content);
@@ -60,7 +60,7 @@ Representation readRepresentation(const std::filesystem::path& path, std::string
 }
 
 /// Returns the weight, from 0 to 1, that an Accept-Encoding field gives to a content coding (RFC 9110, section 12.4.2).
-double weightOf(std::string_view coding, std::string_view acceptEncoding) {
+double codingWeight(std::string_view coding, std::string_view acceptEncoding) {
     namespace http = boost::beast::http;
     const bool identity = coding == kIdentity;
     double any = identity ? 0.0005 : 0;  // an unlisted coding is unacceptable, except identity as a last resort
@@ -76,11 +76,11 @@ double weightOf(std::string_view coding, std::string_view acceptEncoding) {
 
 }  // namespace
 
-const Representation& WebFile::negotiate(std::string_view acceptEncoding) const {
+const HttpRepresentation& WebFile::negotiate(std::string_view acceptEncoding) const {
     const auto best = std::ranges::max_element(
-        representations, {}, [&](const Representation& each) { return weightOf(each.coding, acceptEncoding); });
-    if (weightOf(best->coding, acceptEncoding) > 0) return *best;
-    return *std::ranges::find(representations, kIdentity, &Representation::coding);
+        representations, {}, [&](const HttpRepresentation& each) { return codingWeight(each.coding, acceptEncoding); });
+    if (codingWeight(best->coding, acceptEncoding) > 0) return *best;
+    return *std::ranges::find(representations, kIdentity, &HttpRepresentation::coding);
 }
 
 WebFiles::WebFiles(const std::filesystem::path& root) {
@@ -88,15 +88,16 @@ WebFiles::WebFiles(const std::filesystem::path& root) {
     std::error_code fault;
     for (const auto& entry : fs::recursive_directory_iterator(root, fault)) {
         const fs::path& path = entry.path();
-        if (!entry.is_regular_file() || (!codingOf(path).empty() && fs::exists(fs::path(path).replace_extension())))
+        if (!entry.is_regular_file() ||
+            (!contentCodingOf(path).empty() && fs::exists(fs::path(path).replace_extension())))
             continue;
-        WebFile file{typeOf(path), {readRepresentation(path, kIdentity)}};
+        WebFile file{mediaTypeOf(path), {readRepresentation(path, kIdentity)}};
         for (const char* extension : {".br", ".gz"}) {
             const fs::path compressed = fs::path(path) += extension;
             if (fs::exists(compressed))
-                file.representations.push_back(readRepresentation(compressed, codingOf(compressed)));
+                file.representations.push_back(readRepresentation(compressed, contentCodingOf(compressed)));
         }
-        std::ranges::sort(file.representations, {}, [](const Representation& each) { return each.bytes.size(); });
+        std::ranges::sort(file.representations, {}, [](const HttpRepresentation& each) { return each.bytes.size(); });
         files_[fmt::format("/{}", path.lexically_relative(root).generic_string())] = std::move(file);
     }
     if (find("/") == nullptr) spdlog::warn("no page: the folder has no index.html folder=\"{}\"", root.string());

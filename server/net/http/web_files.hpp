@@ -12,7 +12,7 @@
 namespace oval4d::net {
 
 /// The bytes of a file in one content coding, compressed or not (a representation in RFC 9110, section 3.2).
-struct Representation {
+struct HttpRepresentation {
     SharedBytes bytes;
     std::string coding;  ///< the Content-Encoding; "identity" if uncompressed
     std::string etag;    ///< the entity tag, including its quotes
@@ -21,11 +21,11 @@ struct Representation {
 /// A file with all its representations, the smallest first.
 struct WebFile {
     std::string type;  ///< the Content-Type
-    std::vector<Representation> representations;
+    std::vector<HttpRepresentation> representations;
 
     /// Returns the representation that the header field Accept-Encoding prefers (RFC 9110, section 12.5.3). Among
     /// equally preferred ones, returns the smallest. Returns the uncompressed one if the field accepts none.
-    const Representation& negotiate(std::string_view acceptEncoding) const;
+    const HttpRepresentation& negotiate(std::string_view acceptEncoding) const;
 };
 
 /// The files of a folder, as they were when the constructor read them. The files `app.js.br` and `app.js.gz` count as

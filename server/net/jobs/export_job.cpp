@@ -32,7 +32,7 @@ class ScopedFileMetrics {
 
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const scene::PictureRequest& picture,
                                                           const exports::ExportRequest& request,
-                                                          const AddressAccountPtr& client) {
+                                                          const ClientAccountPtr& client) {
     return [services, picture, request, client](std::size_t /*worker*/) -> ExportResult {
         ScopedFileMetrics fileMetrics(services.metrics);
         auto held = client->byteAccount().forceReserve(0);
@@ -44,13 +44,13 @@ std::function<ExportResult(std::size_t worker)> exportJob(Services services, con
         auto made = pipeline::exportFile(picture, request, limits, services.exportWorkers.stopToken());
         if (!made) {
             const bool overBudget = made.error().code == ErrorCode::too_many;
-            return Result<FinishedFile>(overBudget ? kTooManyBytes : made.error());
+            return Result<FinishedExport>(overBudget ? kTooManyBytes : made.error());
         }
         fileMetrics.markSucceeded();
         held.forceResize(made->bytes.size());
         SharedBytes bytes = spool(std::move(made->bytes), services.options.spool)
                                 .keepingAlive(std::make_shared<ByteBudget::Reservation>(std::move(held)));
-        return Result<FinishedFile>(FinishedFile{std::move(bytes), std::move(made->warnings)});
+        return Result<FinishedExport>(FinishedExport{std::move(bytes), std::move(made->warnings)});
     };
 }
 

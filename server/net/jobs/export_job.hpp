@@ -14,19 +14,19 @@
 namespace oval4d::net {
 
 /// An exported file, and the warnings about it (see exports::ExportedFile).
-struct FinishedFile {
+struct FinishedExport {
     SharedBytes bytes;
     std::vector<std::string> warnings;
 };
 
 /// The result of an export job: the file or an error. Empty only until the job is done.
-using ExportResult = std::optional<Result<FinishedFile>>;
+using ExportResult = std::optional<Result<FinishedExport>>;
 
 /// Returns a job that makes the requested file. The file's bytes stay reserved on the client's byte account until the
-/// last copy of FinishedFile::bytes is destroyed. Errors: those of pipeline::exportFile(); `too_many` means that the
+/// last copy of FinishedExport::bytes is destroyed. Errors: those of pipeline::exportFile(); `too_many` means that the
 /// byte account has no room for the file.
 std::function<ExportResult(std::size_t worker)> exportJob(Services services, const scene::PictureRequest& picture,
                                                           const exports::ExportRequest& request,
-                                                          const AddressAccountPtr& client);
+                                                          const ClientAccountPtr& client);
 
 }  // namespace oval4d::net

@@ -4,7 +4,7 @@
 
 namespace oval4d::net {
 
-session::FileReader fileReader(const Services& services, std::stop_token stop) {
+session::FileReader makeFileReader(const Services& services, std::stop_token stop) {
     return [&readers = services.readers, &data = services.data, workersStop = services.loadWorkers.stopToken(),
             stop = std::move(stop)](const session::LoadObject& load, const session::Limits& limits) {
         std::stop_source either;

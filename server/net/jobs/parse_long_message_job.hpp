@@ -13,13 +13,14 @@
 namespace oval4d::net {
 
 /// The result of parsing a message: a request, or what is wrong with the message.
-using ParseResult = std::variant<wire::Request, wire::BadRequest>;
+using MessageParseResult = std::variant<wire::Request, wire::BadRequest>;
 
 /// Returns the error for a message that is too long for its type. The error text states the maximum lengths.
-Error messageTooLong(const ServerOptions& options);
+Error messageTooLongError(const ServerOptions& options);
 
 /// Returns a job that parses a long message. Only a `load` message may be long, so the result for any other type is an
 /// error. `text` and `options` must outlive the job.
-std::function<ParseResult(std::size_t worker)> parseLongMessageJob(std::string_view text, const ServerOptions& options);
+std::function<MessageParseResult(std::size_t worker)> parseLongMessageJob(std::string_view text,
+                                                                          const ServerOptions& options);
 
 }  // namespace oval4d::net

@@ -4,36 +4,37 @@
 
 namespace oval4d::net {
 
-CriticalSearchHandle::CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state,
-                                           std::stop_token workersStop)
+CriticalValueSearch::CriticalValueSearch(std::weak_ptr<Peer> by, const session::State& state,
+                                         std::stop_token workersStop)
     : by_(std::move(by)),
       arguments_(session::criticalSearchArguments(state)),
       whenWorkersStop_(std::move(workersStop), StopRequester{stop_}) {}
 
-std::shared_ptr<CriticalSearchHandle> CriticalSearches::add(const std::shared_ptr<Peer>& by,
-                                                            const session::State& state, std::stop_token workersStop) {
+std::shared_ptr<CriticalValueSearch> CriticalValueSearches::add(const std::shared_ptr<Peer>& by,
+                                                                const session::State& state,
+                                                                std::stop_token workersStop) {
     std::erase_if(searches_, [](const auto& each) { return each.expired(); });
-    auto search = std::make_shared<CriticalSearchHandle>(by, state, std::move(workersStop));
+    auto search = std::make_shared<CriticalValueSearch>(by, state, std::move(workersStop));
     searches_.push_back(search);
     return search;
 }
 
-void CriticalSearches::stop(const std::shared_ptr<Peer>& by) {
-    for (const auto& search : running()) {
+void CriticalValueSearches::stop(const std::shared_ptr<Peer>& by) {
+    for (const auto& search : runningSearches()) {
         if (search->isRequestedBy(by)) search->stop();
     }
 }
 
-void CriticalSearches::stopUnneeded(const session::State& state) {
+void CriticalValueSearches::stopUnneededSearches(const session::State& state) {
     if (searches_.empty()) return;
     const session::CriticalSearchArguments needed = session::criticalSearchArguments(state);
-    for (const auto& search : running()) {
+    for (const auto& search : runningSearches()) {
         if (search->arguments() != needed) search->stop();
     }
 }
 
-std::vector<std::shared_ptr<CriticalSearchHandle>> CriticalSearches::running() const {
-    std::vector<std::shared_ptr<CriticalSearchHandle>> found;
+std::vector<std::shared_ptr<CriticalValueSearch>> CriticalValueSearches::runningSearches() const {
+    std::vector<std::shared_ptr<CriticalValueSearch>> found;
     for (const auto& each : searches_) {
         if (auto search = each.lock()) found.push_back(std::move(search));
     }

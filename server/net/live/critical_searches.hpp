@@ -12,11 +12,11 @@
 namespace oval4d::net {
 
 /// A queued or running search for critical values of w, which can be stopped.
-class CriticalSearchHandle {
+class CriticalValueSearch {
   public:
     /// `by` is the connection that has requested the search; null for LiveSession::apply(). `workersStop` is the stop
     /// token of the workers: stopping the workers also stops the search.
-    CriticalSearchHandle(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
+    CriticalValueSearch(std::weak_ptr<Peer> by, const session::State& state, std::stop_token workersStop);
 
     bool isRequestedBy(const std::shared_ptr<Peer>& peer) const { return by_.lock() == peer; }
     /// Returns the data that determine the result of the search.
@@ -36,21 +36,21 @@ class CriticalSearchHandle {
 };
 
 /// All searches of one session. Not thread-safe.
-class CriticalSearches {
+class CriticalValueSearches {
   public:
     /// Registers a search for the critical values of w of a state. The caller must run the search, and must keep the
     /// returned pointer until the search ends.
-    std::shared_ptr<CriticalSearchHandle> add(const std::shared_ptr<Peer>& by, const session::State& state,
-                                              std::stop_token workersStop);
+    std::shared_ptr<CriticalValueSearch> add(const std::shared_ptr<Peer>& by, const session::State& state,
+                                             std::stop_token workersStop);
     /// Stops the searches that this connection has requested.
     void stop(const std::shared_ptr<Peer>& by);
     /// Stops the searches whose results this state does not need, because their arguments() differ.
-    void stopUnneeded(const session::State& state);
+    void stopUnneededSearches(const session::State& state);
 
   private:
-    std::vector<std::shared_ptr<CriticalSearchHandle>> running() const;
+    std::vector<std::shared_ptr<CriticalValueSearch>> runningSearches() const;
 
-    std::vector<std::weak_ptr<CriticalSearchHandle>> searches_;  // ended searches are removed when a search is added
+    std::vector<std::weak_ptr<CriticalValueSearch>> searches_;  // ended searches are removed when a search is added
 };
 
 }  // namespace oval4d::net

@@ -24,15 +24,15 @@ class DraftTiming {
         changed_ = now;
     }
     /// Begins a period of quick changes, however long ago the previous change was.
-    void begin() { isQuick_ = true; }
+    void beginQuickChanges() { isQuick_ = true; }
     /// Ends the period of quick changes if the session has not changed for kRest.
-    void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEnds(); }
+    void endIfRested(Clock::time_point now) { isQuick_ = isQuick_ && now < restEndTime(); }
 
     bool hasQuickChanges() const { return isQuick_; }
     /// Returns the time at which the session reached its current revision.
     Clock::time_point lastChangeTime() const { return changed_; }
     /// Returns the time from which endIfRested() ends a period of quick changes, provided that no change comes before.
-    Clock::time_point restEnds() const { return changed_ + kRest; }
+    Clock::time_point restEndTime() const { return changed_ + kRest; }
 
   private:
     Clock::time_point changed_;

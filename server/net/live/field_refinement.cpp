@@ -20,7 +20,7 @@ namespace asio = boost::asio;
 namespace {
 
 // Returns whether the object is this level of an image. After a file was replaced, an image may have other levels.
-bool isLevel(const slicing::Object& object, std::uint32_t level) {
+bool isImageLevel(const slicing::Object& object, std::uint32_t level) {
     const fields::Field* const field = slicing::fieldIn(object);
     return field != nullptr && field->imageLevel.levels > 0 && field->imageLevel.level == level;
 }
@@ -40,21 +40,21 @@ void FieldRefinement::update() {
         if (!hasClients_() || metered_->value.current.source != coarser_) stop_.request_stop();
         return;
     }
-    if (!nextLoad()) return;
+    if (!nextLoadCommand()) return;
     isRunning_ = true;
     asio::co_spawn(strand_, refine(shared_from_this()), asio::detached);
 }
 
 /// Returns how to load the level to read next. Returns an empty optional if there is no further level or no client.
-std::optional<session::LoadObject> FieldRefinement::nextLoad() const {
+std::optional<session::LoadObject> FieldRefinement::nextLoadCommand() const {
     if (!hasClients_()) return {};
-    return session::loadOfFinerLevel(metered_->value.current);
+    return session::loadCommandForFinerLevel(metered_->value.current);
 }
 
 asio::awaitable<void> FieldRefinement::refine(std::shared_ptr<FieldRefinement> self) {
     session::Session& value = self->metered_->value;
     for (;;) {
-        const std::optional<session::LoadObject> load = self->nextLoad();
+        const std::optional<session::LoadObject> load = self->nextLoadCommand();
         if (!load) break;
         self->coarser_ = value.current.source;
         self->stop_ = std::stop_source();
@@ -69,7 +69,7 @@ asio::awaitable<void> FieldRefinement::refine(std::shared_ptr<FieldRefinement> s
         }
         if (self->stop_.stop_requested()) continue;  // nobody needs this level anymore
         if (isCanceled) break;                       // the server stops
-        const bool isNext = finer && isLevel(*finer, load->finer->level);
+        const bool isNext = finer && isImageLevel(*finer, load->finer->level);
         session::replaceField(value, self->coarser_, isNext ? *finer : session::withoutFinerLevels(self->coarser_),
                               session::FieldReplacement::finer);
         self->metered_->adjustReservationOrTrimUndo(true);

@@ -15,10 +15,11 @@
 
 namespace oval4d::net {
 
-/// Reads the finer levels of the image that a session shows, one after another (see fields::ImageLevel::finer). Each
-/// level replaces the one before it (see session::replaceField()). Reading ends when the session shows another object,
-/// when its last client leaves, or when a level cannot be read; the present level then stays. Reading begins again when
-/// the image is shown again or a client comes. Every function runs on the session's strand.
+/// Reads the finer levels of the image that a session shows, one after another (see
+/// fields::MultiscaleImageLevel::finer). Each level replaces the one before it (see session::replaceField()). Reading
+/// ends when the session shows another object, when its last client leaves, or when a level cannot be read; the present
+/// level then stays. Reading begins again when the image is shown again or a client comes. Every function runs on the
+/// session's strand.
 class FieldRefinement : public std::enable_shared_from_this<FieldRefinement> {
   public:
     /// A function that reads the object that `load` describes. It may throw parallel::Canceled after a request of
@@ -37,7 +38,7 @@ class FieldRefinement : public std::enable_shared_from_this<FieldRefinement> {
 
   private:
     static boost::asio::awaitable<void> refine(std::shared_ptr<FieldRefinement> self);
-    std::optional<session::LoadObject> nextLoad() const;
+    std::optional<session::LoadObject> nextLoadCommand() const;
 
     const boost::asio::any_io_executor strand_;
     const std::shared_ptr<MeteredSession> metered_;

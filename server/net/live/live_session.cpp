@@ -25,7 +25,7 @@ constexpr const char* kTakenOverReason = "another server has taken over this ses
 }  // namespace
 
 LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
-                         store::Fence fence, AddressAccountPtr client, session::Session value)
+                         store::FencingToken fence, ClientAccountPtr client, session::Session value)
     : services_(services),
       credentials_(std::move(credentials)),
       strand_(asio::make_strand(services.io)),
@@ -33,7 +33,7 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       session_(metered_->value),
       publisher_(std::make_shared<SessionPublisher>(services, strand_, credentials_.id, metered_)),
       loading_(std::make_shared<ObjectLoading>(services, metered_, publisher_)),
-      answers_(std::make_shared<RequestAnswers>(services, strand_, credentials_.id, metered_, publisher_, loading_)),
+      answers_(std::make_shared<RequestAnswerer>(services, strand_, credentials_.id, metered_, publisher_, loading_)),
       // The saver shares the ownership of metered_.
       saver_(std::make_shared<SessionSaver>(writeBehind, credentials_.id, fence,
                                             std::shared_ptr<const session::Session>(metered_, &metered_->value),
@@ -41,14 +41,14 @@ LiveSession::LiveSession(Services services, store::WriteBehindStore& writeBehind
       refinement_(std::make_shared<FieldRefinement>(
           strand_, metered_, [streams = publisher_] { return streams->hasClients(); },
           [loading = loading_](session::LoadObject load, std::stop_token stop) {
-              return loading->readInBackground(std::move(load), std::move(stop));
+              return loading->readArrayInBackground(std::move(load), std::move(stop));
           },
           [streams = publisher_, saver = saver_, &clock = services_.clock] {
               streams->sessionChanged(clock.now());
               saver->scheduleSave();
               streams->sendAndRequestPictures();
           })) {
-    publisher_->whenMoved([weak = std::weak_ptr(saver_)] {
+    publisher_->setMotionListener([weak = std::weak_ptr(saver_)] {
         if (const auto saver = weak.lock()) saver->scheduleSave();
     });
 }
@@ -61,7 +61,7 @@ asio::awaitable<void> LiveSession::execute(std::shared_ptr<Peer> peer, wire::Req
     return asio::co_spawn(strand_, executeOnStrand(std::move(peer), std::move(request)), asio::use_awaitable);
 }
 
-asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::apply(AddressAccountPtr client,
+asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::apply(ClientAccountPtr client,
                                                                                       session::Command command) {
     return asio::co_spawn(strand_, applyOnStrand(std::move(client), std::move(command)), asio::use_awaitable);
 }
@@ -71,12 +71,13 @@ void LiveSession::leave(std::shared_ptr<Peer> peer, std::function<bool(const ses
     asio::post(strand_, [self = shared_from_this(), peer = std::move(peer), left = std::move(left)] {
         self->publisher_->remove(peer.get());
         self->refinement_->update();
-        if (left(self->session_)) self->saver_->detach();
+        if (left(self->session_)) self->saver_->stopSaving();
     });
 }
 
 void LiveSession::stopSearches(std::shared_ptr<Peer> peer) {
-    asio::post(strand_, [self = shared_from_this(), peer = std::move(peer)] { self->loading_->searches().stop(peer); });
+    asio::post(strand_,
+               [self = shared_from_this(), peer = std::move(peer)] { self->loading_->criticalSearches().stop(peer); });
 }
 
 void LiveSession::save(std::shared_ptr<void> completion) {
@@ -87,7 +88,7 @@ void LiveSession::save(std::shared_ptr<void> completion) {
 
 void LiveSession::detachAndDisconnectAll() {
     asio::post(strand_, [self = shared_from_this()] {
-        self->saver_->detach();
+        self->saver_->stopSaving();
         self->publisher_->closeAll(close_code::kStopping, kTakenOverReason);
     });
 }
@@ -95,11 +96,12 @@ void LiveSession::detachAndDisconnectAll() {
 template <>
 asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, wire::Hello hello, RequestId id) {
     assertOnStrand();
-    if (saver_->isDetached()) {  // detachAndDisconnectAll() was called after this client had joined the session
+    if (saver_->hasStoppedSaving()) {  // detachAndDisconnectAll() was called after this client had joined the session
         peer->close(close_code::kStopping, kTakenOverReason);
         co_return;
     }
-    publisher_->add(peer, {hello.stream, hello.encoding, hello.viewport.value_or(scene::Viewport{}), hello.scheme});
+    publisher_->addSubscriber(peer,
+                              {hello.stream, hello.encoding, hello.viewport.value_or(scene::Viewport{}), hello.scheme});
     peer->send(
         textMessage(wire::welcomeMessage(credentials_.id, credentials_.token, limitsJson(services_.options), id)));
     publisher_->sendAndRequestPictures();
@@ -129,7 +131,7 @@ asio::awaitable<void> LiveSession::executeAndAnswer(std::shared_ptr<Peer> peer, 
 }
 
 asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::applyOnStrand(
-    AddressAccountPtr by, session::Command command) {
+    ClientAccountPtr by, session::Command command) {
     const auto applied = co_await applyCommand(std::move(by), nullptr, command, true);
     if (applied && !applied->owned) co_return Result<CommandResult>(kInternalError);
     publisher_->sendAndRequestPictures();
@@ -139,7 +141,7 @@ asio::awaitable<std::optional<Result<LiveSession::CommandResult>>> LiveSession::
 /// Applies a command. Slow work runs on a worker; later messages of this client wait for it, messages of other clients
 /// do not. If several servers share the store and `awaitStore` is true, returns only after the store has the result,
 /// because a command must not be acknowledged before.
-asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(AddressAccountPtr by,
+asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(ClientAccountPtr by,
                                                                               std::shared_ptr<Peer> peer,
                                                                               const session::Command& command,
                                                                               bool awaitStore) {
@@ -174,7 +176,7 @@ asio::awaitable<Result<LiveSession::CommandResult>> LiveSession::applyCommand(Ad
     const bool hasNewObject = session_.current.source != source || session_.loaded != loaded;
     if (applied.revision == before && !hasNewObject) co_return applied;
     if (applied.revision != before) publisher_->sessionChanged(services_.clock.now());
-    loading_->searches().stopUnneeded(session_.current);
+    loading_->criticalSearches().stopUnneededSearches(session_.current);
     refinement_->update();
     // The first picture of a new field that is larger than memory is a draft, because a picture in full quality takes
     // much longer.

@@ -30,19 +30,19 @@ namespace oval4d::net {
 /// - SessionPublisher sends changed states and pictures to the clients.
 /// - SessionSaver saves the session in the store.
 /// - FieldRefinement replaces a coarse level of an image by finer ones.
-/// - RequestAnswers answers questions.
+/// - RequestAnswerer answers questions.
 ///
 /// The members of a session are used only on its strand. Public functions may be called from any thread.
 class LiveSession : public std::enable_shared_from_this<LiveSession> {
   public:
     using Strand = SessionPublisher::Strand;
-    using RequestId = RequestAnswers::RequestId;
+    using RequestId = RequestAnswerer::RequestId;
 
     /// `client` opened the session; the session's memory counts as bytes held for this client (ByteBudget::Account).
     /// `value` is the session's value, new or read from the store. `fence` is the number with which the session was
-    /// created in the store or fetched from it (see store::Fence).
+    /// created in the store or fetched from it (see store::FencingToken).
     LiveSession(Services services, store::WriteBehindStore& writeBehind, store::SessionCredentials credentials,
-                store::Fence fence, AddressAccountPtr client, session::Session value);
+                store::FencingToken fence, ClientAccountPtr client, session::Session value);
 
     const store::SessionCredentials& credentials() const { return credentials_; }
 
@@ -65,7 +65,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// Errors: those of session::apply(); `too_many` if a limit on bytes or jobs is reached; `internal` if another
     /// server has taken over the session. The awaited optional is never empty; Asio requires a default-constructible
     /// result.
-    boost::asio::awaitable<std::optional<Result<CommandResult>>> apply(AddressAccountPtr client,
+    boost::asio::awaitable<std::optional<Result<CommandResult>>> apply(ClientAccountPtr client,
                                                                        session::Command command);
 
     /// Removes the client `peer` (nobody if it is null), then calls `left` with the session's value, both on the
@@ -97,9 +97,9 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     /// missing, the program does not link.
     template <typename RequestBody>
     boost::asio::awaitable<void> executeAndAnswer(std::shared_ptr<Peer> peer, RequestBody /*body*/, RequestId id);
-    boost::asio::awaitable<std::optional<Result<CommandResult>>> applyOnStrand(AddressAccountPtr by,
+    boost::asio::awaitable<std::optional<Result<CommandResult>>> applyOnStrand(ClientAccountPtr by,
                                                                                session::Command command);
-    boost::asio::awaitable<Result<CommandResult>> applyCommand(AddressAccountPtr by, std::shared_ptr<Peer> peer,
+    boost::asio::awaitable<Result<CommandResult>> applyCommand(ClientAccountPtr by, std::shared_ptr<Peer> peer,
                                                                const session::Command& command, bool awaitStore);
 
     std::uint64_t revision() const { return session_.revision; }
@@ -114,7 +114,7 @@ class LiveSession : public std::enable_shared_from_this<LiveSession> {
     session::Session& session_;  // the value of metered_
     const std::shared_ptr<SessionPublisher> publisher_;
     const std::shared_ptr<ObjectLoading> loading_;
-    const std::shared_ptr<RequestAnswers> answers_;
+    const std::shared_ptr<RequestAnswerer> answers_;
     const std::shared_ptr<SessionSaver> saver_;
     const std::shared_ptr<FieldRefinement> refinement_;
 };

@@ -6,18 +6,18 @@
 
 namespace oval4d::net {
 
-MeteredSession::MeteredSession(AddressAccountPtr client, session::Session opened)
+MeteredSession::MeteredSession(ClientAccountPtr client, session::Session opened)
     : value(std::move(opened)),
       client_(std::move(client)),
-      objectMemory_(session::ownObjectMemory(value)),
+      objectMemory_(session::unsharedMemoryOfObjects(value)),
       reservation_(client_->byteAccount().forceReserve(objectMemory_ + session::historyMemoryWithoutObjects(value))) {}
 
 void MeteredSession::adjustReservationOrTrimUndo(bool objectsChanged) {
-    if (objectsChanged) objectMemory_ = session::ownObjectMemory(value);
+    if (objectsChanged) objectMemory_ = session::unsharedMemoryOfObjects(value);
     const std::size_t bytes = objectMemory_ + session::historyMemoryWithoutObjects(value);
     if (bytes > reservation_.size() && !reservation_.growTo(bytes)) {
         session::forgetOlderHalf(value);
-        objectMemory_ = session::ownObjectMemory(value);
+        objectMemory_ = session::unsharedMemoryOfObjects(value);
     }
     reservation_.forceResize(objectMemory_ + session::historyMemoryWithoutObjects(value));
 }

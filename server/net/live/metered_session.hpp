@@ -13,9 +13,9 @@ namespace oval4d::net {
 /// A session whose memory counts as bytes held for the client that opened it (ByteBudget::Account). Not thread-safe.
 class MeteredSession {
   public:
-    MeteredSession(AddressAccountPtr client, session::Session opened);
+    MeteredSession(ClientAccountPtr client, session::Session opened);
 
-    const AddressAccountPtr& client() const { return client_; }
+    const ClientAccountPtr& client() const { return client_; }
 
     /// Adjusts the reserved bytes to the memory that the session takes after a command. If they would exceed a limit on
     /// the bytes held for clients, removes the older half of the undo steps. Then reserves the remaining memory, even
@@ -26,7 +26,7 @@ class MeteredSession {
     session::Session value;
 
   private:
-    const AddressAccountPtr client_;
+    const ClientAccountPtr client_;
     std::size_t objectMemory_;             // result of session::ownObjectMemory(), in bytes
     ByteBudget::Reservation reservation_;  // covers objectMemory_ and the undo history
 };

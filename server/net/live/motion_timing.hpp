@@ -19,14 +19,14 @@ class MotionTiming {
     static constexpr Clock::duration kLongestStep = std::chrono::milliseconds(250);
 
     /// Makes a step now, if one is due. Returns the time that the step covers; an empty optional if no step is due yet.
-    std::optional<Clock::duration> step(Clock::time_point now) {
-        if (last_ && now < due()) return std::nullopt;
+    std::optional<Clock::duration> stepIfDue(Clock::time_point now) {
+        if (last_ && now < nextStepTime()) return std::nullopt;
         const Clock::duration covered = last_ ? std::min(now - *last_, kLongestStep) : kInterval;
         last_ = now;
         return covered;
     }
     /// Returns when the next step is due. A step must have been made since the last stop().
-    Clock::time_point due() const { return *last_ + kInterval; }
+    Clock::time_point nextStepTime() const { return *last_ + kInterval; }
     /// Records that nothing moves.
     void stop() { last_.reset(); }
 

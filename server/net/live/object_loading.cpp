@@ -18,20 +18,20 @@ session::ObjectLoader ObjectLoading::makeLoader() const {
             session::FileReader(), search};
 }
 
-asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
+asio::awaitable<std::optional<Error>> ObjectLoading::completePending(ClientAccountPtr by, std::shared_ptr<Peer> peer,
                                                                      session::ObjectLoader& loader,
                                                                      std::stop_token stop) {
     auto reservation = metered_->client()->byteAccount().reserve(loader.memoryNeeded());
     if (!reservation) co_return kTooManyBytes;
     const parallel::WorkerPool::Seconds cost = loader.estimatedDuration();
     const bool needsFile = loader.pendingNeedsFile();
-    std::shared_ptr<CriticalSearchHandle> search;
+    std::shared_ptr<CriticalValueSearch> search;
     if (loader.isSearchPending())
         search = searches_.add(peer, metered_->value.current, services_.exportWorkers.stopToken());
     // The worker shares the ownership of the loader, because the worker may outlive this coroutine.
     const auto running = std::make_shared<session::ObjectLoader>(std::move(loader));
     if (needsFile) {
-        running->readFilesWith(fileReader(services_, std::move(stop)));
+        running->readFilesWith(makeFileReader(services_, std::move(stop)));
         co_await runOnPool<std::monostate>(services_.loadWorkers, loaderJob(running),
                                            metered_->client()->loadJobQueue(), cost);
     } else if (search) {
@@ -47,8 +47,8 @@ asio::awaitable<std::optional<Error>> ObjectLoading::completePending(AddressAcco
     co_return std::nullopt;
 }
 
-asio::awaitable<Result<slicing::Object>> ObjectLoading::readInBackground(session::LoadObject load,
-                                                                         std::stop_token stop) {
+asio::awaitable<Result<slicing::Object>> ObjectLoading::readArrayInBackground(session::LoadObject load,
+                                                                              std::stop_token stop) {
     session::ObjectLoader loader = makeLoader();
     Result<session::ObjectWithWarnings> read = loader.objectFrom(load);
     if (loader.isPending()) {

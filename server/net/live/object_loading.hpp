@@ -31,28 +31,29 @@ class ObjectLoading {
     session::ObjectLoader makeLoader() const;
 
     /// Does the work that `loader` has deferred, on a worker: builds or reads an object, or searches for critical
-    /// values of w (see slicing/critical/). An export worker runs such a search, and searches() can stop it. `by` is
-    /// the client in whose job queue the job waits. `peer` is the connection that needs the result; it may be null.
-    /// `stop` ends the reading of a file early, with parallel::Canceled. The caller must keep `loader` until the
+    /// values of w (see slicing/critical/). An export worker runs such a search, and criticalSearches() can stop it.
+    /// `by` is the client in whose job queue the job waits. `peer` is the connection that needs the result; it may be
+    /// null. `stop` ends the reading of a file early, with parallel::Canceled. The caller must keep `loader` until the
     /// function returns. Returns an error if there is no room for the result, else an empty optional. Throws
     /// parallel::QueueFull if too many jobs are waiting, and rethrows what the job throws; the caller must not use the
     /// loader after an exception.
-    boost::asio::awaitable<std::optional<Error>> completePending(AddressAccountPtr by, std::shared_ptr<Peer> peer,
+    boost::asio::awaitable<std::optional<Error>> completePending(ClientAccountPtr by, std::shared_ptr<Peer> peer,
                                                                  session::ObjectLoader& loader,
                                                                  std::stop_token stop = {});
 
     /// Reads an array of the data folder on a worker, for the client that opened the session. Errors and exceptions:
     /// those of session::ObjectLoader::objectFrom() and completePending().
-    boost::asio::awaitable<Result<slicing::Object>> readInBackground(session::LoadObject load, std::stop_token stop);
+    boost::asio::awaitable<Result<slicing::Object>> readArrayInBackground(session::LoadObject load,
+                                                                          std::stop_token stop);
 
     /// Returns the searches for critical values of w that completePending() runs.
-    CriticalSearches& searches() { return searches_; }
+    CriticalValueSearches& criticalSearches() { return searches_; }
 
   private:
     const Services services_;
     const std::shared_ptr<MeteredSession> metered_;
     const std::shared_ptr<SessionPublisher> publisher_;
-    CriticalSearches searches_;
+    CriticalValueSearches searches_;
 };
 
 }  // namespace oval4d::net

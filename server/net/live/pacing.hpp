@@ -11,15 +11,15 @@ namespace oval4d::net {
 /// Tracks the pictures on their way to one client. A picture is sent (queued), then written to the socket, then shown
 /// by the client. At most kInFlight pictures may be sent but not yet shown. Two pictures keep the client busy, and are
 /// so few that the client shows hardly any outdated ones.
-class Pacing {
+class PicturePacing {
   public:
     using Clock = std::chrono::steady_clock;
     static constexpr std::size_t kInFlight = 2;
 
     /// Returns whether one more picture may be sent. `pending` pictures are still being made, and count as sent.
-    bool hasRoom(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
+    bool maySendMore(std::size_t pending = 0) const { return unshown_.size() + pending < kInFlight; }
     /// Returns the newest revision that was sent or skipped; an empty optional before the first.
-    std::optional<std::uint64_t> newestSentOrSkipped() const { return newest_; }
+    std::optional<std::uint64_t> newestRevisionSentOrSkipped() const { return newest_; }
 
     /// Records that the picture of this revision has been queued for the client.
     void recordSent(std::uint64_t revision);

@@ -20,9 +20,9 @@ class Peer {
     /// been written to the socket. It is not called if the connection ends before.
     virtual void send(OutgoingMessage message, std::function<void()> written = {}) = 0;
 
-    /// Returns the account of the client's IP address or network (see AddressAccount). The worker pools divide their
+    /// Returns the account of the client's IP address or network (see ClientAccount). The worker pools divide their
     /// time among these accounts. Work for this connection counts as work for this account.
-    virtual const AddressAccountPtr& client() const = 0;
+    virtual const ClientAccountPtr& client() const = 0;
 
     /// Makes the connection notice at once if its client leaves during the current request, and then call
     /// LiveSession::stopSearches(). Without this call, the connection may notice this only after the request.

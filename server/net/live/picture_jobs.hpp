@@ -18,7 +18,7 @@ class PictureJobs {
     struct PictureBeingEncoded {
         std::uint64_t job = 0, revision = 0;
         slicing::Quality quality = slicing::Quality::full;
-        StreamKey streamKey;
+        PictureStreamKey streamKey;
     };
 
     /// Returns whether a job is queued or being drawn.
@@ -41,12 +41,12 @@ class PictureJobs {
     }
 
     /// Returns how many pictures with this key are being encoded.
-    std::size_t countEncoding(const StreamKey& key) const {
+    std::size_t countEncoding(const PictureStreamKey& key) const {
         return static_cast<std::size_t>(std::ranges::count(encoding_, key, &PictureBeingEncoded::streamKey));
     }
     /// Returns whether a picture of this revision with this key is being encoded, in the quality `atLeast` or a better
     /// one.
-    bool isEncoding(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
+    bool isEncoding(const PictureStreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
         return std::ranges::any_of(encoding_, [&](const PictureBeingEncoded& each) {
             return each.streamKey == key && each.revision == revision && each.quality >= atLeast;
         });

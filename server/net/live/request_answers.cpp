@@ -23,21 +23,21 @@
 namespace oval4d::net {
 
 namespace asio = boost::asio;
-using wire::Stream;
+using wire::StreamKind;
 
 namespace {
 
-/// The completion handler of a coroutine. It keeps the RequestAnswers object alive until the coroutine has ended.
-struct KeepAnswersAlive {
-    std::shared_ptr<RequestAnswers> answers;
+/// The completion handler of a coroutine. It keeps the RequestAnswerer object alive until the coroutine has ended.
+struct AnswersLifetimeGuard {
+    std::shared_ptr<RequestAnswerer> answers;
     void operator()(const std::exception_ptr& /*failure*/) const {}
 };
 
 }  // namespace
 
-RequestAnswers::RequestAnswers(Services services, SessionPublisher::Strand strand, std::string sessionId,
-                               std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
-                               std::shared_ptr<ObjectLoading> loading)
+RequestAnswerer::RequestAnswerer(Services services, SessionPublisher::Strand strand, std::string sessionId,
+                                 std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
+                                 std::shared_ptr<ObjectLoading> loading)
     : services_(services),
       strand_(std::move(strand)),
       sessionId_(std::move(sessionId)),
@@ -46,10 +46,10 @@ RequestAnswers::RequestAnswers(Services services, SessionPublisher::Strand stran
       publisher_(std::move(publisher)),
       loading_(std::move(loading)) {}
 
-asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
-    const StreamKey* const stream = publisher_->streamOf(*peer);
+asio::awaitable<void> RequestAnswerer::answer(std::shared_ptr<Peer> peer, wire::Get get, RequestId id) {
+    const PictureStreamKey* const stream = publisher_->streamOf(*peer);
     if (stream == nullptr) co_return;
-    StreamKey key = *stream;
+    PictureStreamKey key = *stream;
     if (get.viewport) key.viewport = *get.viewport;
     key.background = get.background;
     key.highlight = get.highlight;
@@ -64,7 +64,7 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
             co_await answerWithState(peer, key.scheme, id);
             break;
         case wire::GetTarget::catalogue: {
-            const std::vector<std::string> names = co_await dataNames(services_, peer->client());
+            const std::vector<std::string> names = co_await dataFolderNames(services_, peer->client());
             std::vector<slicing::Object> loaded;
             for (const auto& [name, object] : session_.loaded) loaded.push_back(object);
             peer->send(textMessage(wire::catalogueMessage(id, loaded, names)));
@@ -77,15 +77,15 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
             answerWithViewLink(*peer, id);
             break;
         case wire::GetTarget::slices:
-            key.stream = Stream::geometry;
+            key.stream = StreamKind::geometry;
             co_await answerWithPicture(peer, key, id);
             break;
         case wire::GetTarget::frame:
-            key.stream = Stream::frames;
+            key.stream = StreamKind::frames;
             co_await answerWithPicture(peer, key, id);
             break;
         case wire::GetTarget::at:
-            key.stream = Stream::geometry;
+            key.stream = StreamKind::geometry;
             if (get.fieldPoint) {
                 co_await answerWithSample(peer, *get.fieldPoint, id);
             } else {
@@ -97,12 +97,12 @@ asio::awaitable<void> RequestAnswers::answer(std::shared_ptr<Peer> peer, wire::G
             break;
         case wire::GetTarget::critical:
             // The search may take long, so further messages of the client do not wait for this answer.
-            asio::co_spawn(strand_, answerWithCriticalValues(peer, id), KeepAnswersAlive{shared_from_this()});
+            asio::co_spawn(strand_, answerWithCriticalValues(peer, id), AnswersLifetimeGuard{shared_from_this()});
             break;
     }
 }
 
-void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId id) {
+void RequestAnswerer::answer(Peer& peer, const wire::Measure& measure, RequestId id) {
     // Measures State::source, which has the coordinates of the object's file. State::object is State::source after the
     // transformation to the frame of reference.
     const slicing::Object& object = session_.current.source;
@@ -125,22 +125,23 @@ void RequestAnswers::answer(Peer& peer, const wire::Measure& measure, RequestId 
     peer.send(textAnswer(measured, id));
 }
 
-void RequestAnswers::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id) {
+void RequestAnswerer::answer(Peer& peer, const wire::Ping& /*ping*/, RequestId id) {
     const parallel::WorkerPool& workers = services_.pictureWorkers.workers();
-    peer.send(textAnswer(wire::Pong{workers.size(), workers.waiting(), workers.busyTime().count(),
+    peer.send(textAnswer(wire::Pong{workers.size(), workers.waitingJobCount(), workers.busyTime().count(),
                                     Seconds(services_.clock.now().time_since_epoch()).count()},
                          id));
 }
 
-asio::awaitable<void> RequestAnswers::answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id) {
-    SnapshotPtr state = publisher_->currentState();
+asio::awaitable<void> RequestAnswerer::answerWithState(std::shared_ptr<Peer> peer, scene::ColorScheme scheme,
+                                                       RequestId id) {
+    SessionSnapshotPtr state = publisher_->currentState();
     std::optional<Error> failed;
     try {
         if (!state) {
-            state = co_await runOnPool<SnapshotPtr>(services_.pictureWorkers, publisher_->currentStateJob(),
-                                                    publisher_->jobQueuesOf(peer->client()).pictures,
-                                                    pipeline::focusSectionCost(session_.current.object));
-            publisher_->keepIfCurrent(state);
+            state = co_await runOnPool<SessionSnapshotPtr>(services_.pictureWorkers, publisher_->currentStateJob(),
+                                                           publisher_->jobQueuesOf(peer->client()).pictures,
+                                                           pipeline::focusSectionCost(session_.current.object));
+            publisher_->storeStateIfCurrent(state);
         }
         peer->send({state->stateTextFor(scheme, id), false});
     } catch (const parallel::QueueFull&) {
@@ -152,7 +153,7 @@ asio::awaitable<void> RequestAnswers::answerWithState(std::shared_ptr<Peer> peer
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
-void RequestAnswers::answerWithViewLink(Peer& peer, RequestId id) {
+void RequestAnswerer::answerWithViewLink(Peer& peer, RequestId id) {
     session::ObjectLoader loader = loading_->makeLoader();
     const auto query = session::queryFromState(session_.current, loader);
     if (query) {
@@ -162,12 +163,12 @@ void RequestAnswers::answerWithViewLink(Peer& peer, RequestId id) {
     }
 }
 
-asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
-                                                     RequestId id) {
+asio::awaitable<void> RequestAnswerer::answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
+                                                      RequestId id) {
     const std::uint64_t askedRevision = revision();
     ExportResult made;
     try {
-        const scene::PictureRequest picture = session::pictureOf(session_.current);
+        const scene::PictureRequest picture = session::pictureRequestOf(session_.current);
         made = co_await runOnPool<ExportResult>(
             services_.exportWorkers, exportJob(services_, picture, request, peer->client()),
             publisher_->jobQueuesOf(peer->client()).exports, pipeline::exportCost(picture, request));
@@ -180,7 +181,7 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
         sendError(*peer, services_.metrics, made ? made->error() : kInternalError, id);
         co_return;
     }
-    const FinishedFile& finished = **made;
+    const FinishedExport& finished = **made;
     OutgoingMessage message;
     message.bytes = finished.bytes;
     message.binary = true;
@@ -188,7 +189,7 @@ asio::awaitable<void> RequestAnswers::answerWithFile(std::shared_ptr<Peer> peer,
     peer->send(textAnswer(wire::Done{askedRevision, finished.warnings}, id));
 }
 
-asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id) {
+asio::awaitable<void> RequestAnswerer::answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id) {
     const std::uint64_t askedRevision = revision();
     const double originW = slicing::infoOf(session_.current.object).originInFile.w;
     Result<slicing::CriticalSectionsPtr> found = kInternalError;
@@ -207,7 +208,7 @@ asio::awaitable<void> RequestAnswers::answerWithCriticalValues(std::shared_ptr<P
 }
 
 /// Finds the critical values of w of the current object. If they are not known yet, an export worker searches for them.
-asio::awaitable<Result<slicing::CriticalSectionsPtr>> RequestAnswers::findCriticalValues(std::shared_ptr<Peer> peer) {
+asio::awaitable<Result<slicing::CriticalSectionsPtr>> RequestAnswerer::findCriticalValues(std::shared_ptr<Peer> peer) {
     session::ObjectLoader loader = loading_->makeLoader();
     const session::State asked = session_.current;
     auto found = loader.criticalSections(asked);
@@ -216,18 +217,19 @@ asio::awaitable<Result<slicing::CriticalSectionsPtr>> RequestAnswers::findCritic
     co_return loader.criticalSections(asked);
 }
 
-asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
-                                                        std::optional<glm::dvec2> point) {
+asio::awaitable<void> RequestAnswerer::answerWithPicture(std::shared_ptr<Peer> peer, PictureStreamKey key, RequestId id,
+                                                         std::optional<glm::dvec2> point) {
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     try {
-        const Seconds cost = point ? pipeline::pointCost(session::pictureOf(session_.current, key.viewport))
-                                   : pictureCost(session_.current, key, slicing::Quality::full);
+        const Seconds cost =
+            point ? pipeline::pointDescriptionCost(session::pictureRequestOf(session_.current, key.viewport))
+                  : pictureCost(session_.current, key, slicing::Quality::full);
         OutgoingMessage picture =
-            co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, requestedJob(key, id, point),
+            co_await runOnPool<OutgoingMessage>(services_.pictureWorkers, requestedPictureJob(key, id, point),
                                                 publisher_->jobQueuesOf(peer->client()).pictures, cost);
         peer->send(std::move(picture));
-        if (key.stream == Stream::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
+        if (key.stream == StreamKind::frames) peer->send(textAnswer(wire::Done{askedRevision}, id));
     } catch (const parallel::QueueFull&) {
         failed = kTooManyJobs;
     } catch (const std::exception& fault) {
@@ -236,7 +238,7 @@ asio::awaitable<void> RequestAnswers::answerWithPicture(std::shared_ptr<Peer> pe
     if (failed) sendError(*peer, services_.metrics, *failed, id);
 }
 
-asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> peer, glm::dvec4 point, RequestId id) {
+asio::awaitable<void> RequestAnswerer::answerWithSample(std::shared_ptr<Peer> peer, glm::dvec4 point, RequestId id) {
     const std::uint64_t askedRevision = revision();
     std::optional<Error> failed;
     if (slicing::fieldIn(session_.current.object) == nullptr) {
@@ -258,8 +260,8 @@ asio::awaitable<void> RequestAnswers::answerWithSample(std::shared_ptr<Peer> pee
 
 /// Returns a job that finds the values of the current field at a point. The point is in the coordinates of the object's
 /// file, after the rotation.
-std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::sampleJob(const glm::dvec4& point,
-                                                                              RequestId id) const {
+std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswerer::sampleJob(const glm::dvec4& point,
+                                                                               RequestId id) const {
     return [state = session_.current, point, askedRevision = revision(), id](pipeline::Pipeline& /*pipeline*/) {
         const glm::dvec4 fromOrigin = point - slicing::infoOf(state.object).originInFile;
         return textMessage(wire::sampleMessage(
@@ -269,24 +271,25 @@ std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::sampleJob(co
 
 /// Returns a job that makes a picture of the current state. If `point` is given, the job instead tells what the picture
 /// shows at this point.
-std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswers::requestedJob(
-    const StreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
-    const SnapshotPtr known = publisher_->currentFullSnapshot();
-    return [known, state = session_.current, askedRevision = revision(), changed = publisher_->lastChangeTime(), key,
-            id, point, section = publisher_->namedSection(),
-            &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
-        if (section) pipeline.keepFocusSection(*section);
-        if (point) {
-            const scene::PictureRequest picture = session::pictureOf(state, key.viewport);
-            return textMessage(pipeline.describePoint(picture, askedRevision, id, *point));
-        }
-        const SnapshotPtr snapshot =
-            suffices(known, key) ? known
-                                 : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);
-        OutgoingMessage picture = makePicture(pipeline, *snapshot, key, id);
-        metrics.observe(pipeline.times());
-        return picture;
-    };
+std::function<OutgoingMessage(pipeline::Pipeline&)> RequestAnswerer::requestedPictureJob(
+    const PictureStreamKey& key, RequestId id, std::optional<glm::dvec2> point) const {
+    const SessionSnapshotPtr known = publisher_->currentFullSnapshot();
+    return
+        [known, state = session_.current, askedRevision = revision(), changed = publisher_->lastChangeTime(), key, id,
+         point, section = publisher_->lastNamedSection(), &metrics = services_.metrics](pipeline::Pipeline& pipeline) {
+            if (section) pipeline.reuseFocusSectionNames(*section);
+            if (point) {
+                const scene::PictureRequest picture = session::pictureRequestOf(state, key.viewport);
+                return textMessage(pipeline.describePoint(picture, askedRevision, id, *point));
+            }
+            const SessionSnapshotPtr snapshot =
+                isSufficientFor(known, key)
+                    ? known
+                    : makeSnapshot(pipeline, state, askedRevision, changed, key, slicing::Quality::full);
+            OutgoingMessage picture = makePicture(pipeline, *snapshot, key, id);
+            metrics.observe(pipeline.times());
+            return picture;
+        };
 }
 
 }  // namespace oval4d::net

@@ -29,14 +29,14 @@ namespace oval4d::net {
 
 /// Answers questions about what a session shows and about the load of the server. Workers make answers that take long.
 /// Every function runs on the session's strand.
-class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
+class RequestAnswerer : public std::enable_shared_from_this<RequestAnswerer> {
   public:
     using RequestId = std::optional<double>;  ///< empty if a request has no id
 
     /// `sessionId` is for the log. `publisher` and `loading` belong to the session `metered`.
-    RequestAnswers(Services services, SessionPublisher::Strand strand, std::string sessionId,
-                   std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
-                   std::shared_ptr<ObjectLoading> loading);
+    RequestAnswerer(Services services, SessionPublisher::Strand strand, std::string sessionId,
+                    std::shared_ptr<MeteredSession> metered, std::shared_ptr<SessionPublisher> publisher,
+                    std::shared_ptr<ObjectLoading> loading);
 
     /// Answers a request `get`, and returns when the answer is sent. A request for critical values of w is an
     /// exception: the function returns at once, and the answer follows later. Does nothing if the publisher does not
@@ -46,18 +46,18 @@ class RequestAnswers : public std::enable_shared_from_this<RequestAnswers> {
     void answer(Peer& peer, const wire::Ping& ping, RequestId id);
 
   private:
-    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, StreamKey key, RequestId id,
+    boost::asio::awaitable<void> answerWithPicture(std::shared_ptr<Peer> peer, PictureStreamKey key, RequestId id,
                                                    std::optional<glm::dvec2> point = {});
     boost::asio::awaitable<void> answerWithSample(std::shared_ptr<Peer> peer, glm::dvec4 point, RequestId id);
     std::function<OutgoingMessage(pipeline::Pipeline&)> sampleJob(const glm::dvec4& point, RequestId id) const;
-    boost::asio::awaitable<void> answerWithState(std::shared_ptr<Peer> peer, scene::Scheme scheme, RequestId id);
+    boost::asio::awaitable<void> answerWithState(std::shared_ptr<Peer> peer, scene::ColorScheme scheme, RequestId id);
     void answerWithViewLink(Peer& peer, RequestId id);
     boost::asio::awaitable<void> answerWithFile(std::shared_ptr<Peer> peer, exports::ExportRequest request,
                                                 RequestId id);
     boost::asio::awaitable<void> answerWithCriticalValues(std::shared_ptr<Peer> peer, RequestId id);
     boost::asio::awaitable<Result<slicing::CriticalSectionsPtr>> findCriticalValues(std::shared_ptr<Peer> peer);
-    std::function<OutgoingMessage(pipeline::Pipeline&)> requestedJob(const StreamKey& key, RequestId id,
-                                                                     std::optional<glm::dvec2> point) const;
+    std::function<OutgoingMessage(pipeline::Pipeline&)> requestedPictureJob(const PictureStreamKey& key, RequestId id,
+                                                                            std::optional<glm::dvec2> point) const;
 
     std::uint64_t revision() const { return session_.revision; }
 

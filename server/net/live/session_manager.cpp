@@ -19,7 +19,7 @@ namespace {
 
 const Error kTakenOver{ErrorCode::internal, "another server has taken over this session; try again"};
 
-store::WriteBehindStore::WriteBehindSettings settingsFrom(const ServerOptions& options) {
+store::WriteBehindStore::WriteBehindSettings writeBehindSettings(const ServerOptions& options) {
     return {std::chrono::duration_cast<store::Milliseconds>(options.sessionExpiry), options.keptUndo,
             options.storeQuota};
 }
@@ -36,7 +36,7 @@ class RecordObjectDecoder {
         if (!object && bytes_.contains(key)) object = store::decodeObjectRecord(bytes_[key], open_);
         return object;
     }
-    KeysBySerial keys() const {
+    KeysBySerial keysBySerial() const {
         KeysBySerial keys;
         for (const auto& [key, object] : decoded_) {
             if (object) keys[slicing::infoOf(*object).serial] = key;
@@ -63,10 +63,10 @@ Seconds decodingCost(const store::SessionRecord& record) {
 SessionManager::SessionManager(Services services, std::unique_ptr<store::Store> store)
     : services_(services),
       byClient_(std::chrono::duration_cast<SessionsByClient::Clock::duration>(services.options.sessionExpiry)),
-      writeBehind_(std::move(store), settingsFrom(services.options), listener(),
+      writeBehind_(std::move(store), writeBehindSettings(services.options), storeListener(),
                    [&clock = services.clock] { return clock.now(); }) {}
 
-WriteBehindStore::Listener SessionManager::listener() {
+WriteBehindStore::Listener SessionManager::storeListener() {
     return {[this](const std::string& id) { dropTakenSession(id); },
             [this](const std::string& id) {
                 if (const auto session = find(id)) session->save();
@@ -80,7 +80,7 @@ WriteBehindStore::Listener SessionManager::listener() {
 /// Counts a new session against the client's limit of new sessions per minute. If the number of stored sessions is at a
 /// limit, evicts a closed session that was never changed. Returns an error if the limit per minute is reached or no
 /// session can be evicted. The caller must hold mutex_.
-std::optional<Error> SessionManager::admitSessionMakingRoom(AddressAccount& client) {
+std::optional<Error> SessionManager::admitSessionMakingRoom(ClientAccount& client) {
     const auto now = services_.clock.now();
     const ServerOptions& options = services_.options;
     // The session to evict is found here, but is evicted only when no limit can refuse the new session anymore.
@@ -114,29 +114,29 @@ void SessionManager::evict(const std::string& id) {
     byClient_.remove(id);
 }
 
-void SessionManager::create(const AddressAccountPtr& client, const JoinHandler& done) {
+void SessionManager::createSession(const ClientAccountPtr& client, const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (auto refused = admitSessionMakingRoom(*client)) {
         lock.unlock();
         done(std::move(*refused));
         return;
     }
-    const store::SessionCredentials credentials = writeBehind_.create();
-    const auto session = activate(credentials, store::kFirstFence, client, session::Session{});
+    const store::SessionCredentials credentials = writeBehind_.createSession();
+    const auto session = createLiveSession(credentials, store::kFirstFence, client, session::Session{});
     lock.unlock();
     spdlog::info("session created session={}", credentials.id);
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_once) {
+    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_once) {
         // The shared store must have the session before the client learns its id, so that every server can open the
         // session.
         writeBehind_.save(credentials.id, store::kFirstFence, session::Session{}, WriteBehindStore::SaveScope::whole,
                           [done, session](bool) { done(session); });
     } else {
-        if (writeBehind_.writePolicy() == store::Store::WritePolicy::soon) session->save();
+        if (writeBehind_.writeTiming() == store::Store::WriteTiming::soon) session->save();
         done(session);
     }
 }
 
-void SessionManager::join(const store::SessionCredentials& credentials, const AddressAccountPtr& client,
+void SessionManager::join(const store::SessionCredentials& credentials, const ClientAccountPtr& client,
                           const JoinHandler& done) {
     std::unique_lock lock(mutex_);
     if (const auto found = live_.find(credentials.id); found != live_.end()) {
@@ -156,26 +156,26 @@ void SessionManager::join(const store::SessionCredentials& credentials, const Ad
     lock.unlock();
     writeBehind_.read(credentials,
                       [self = shared_from_this(), pending = PendingJoin{credentials, client, done}](
-                          WriteBehindStore::FetchResult fetch) { self->onRead(pending, std::move(fetch)); });
+                          WriteBehindStore::FetchResult fetch) { self->onRecordRead(pending, std::move(fetch)); });
 }
 
 /// Handles a session that was read from the store. Runs on the thread of the write-behind store. The session is claimed
 /// only after its record has been decoded. A session that this server cannot open is therefore not written, and stays
 /// with the server that has it open.
-void SessionManager::onRead(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
+void SessionManager::onRecordRead(const PendingJoin& pending, WriteBehindStore::FetchResult fetch) {
     if (!fetch) {
         finishOpening(pending, fetch.error());
     } else if (fetch->session) {
         finishOpening(pending, std::move(*fetch->session), fetch->record.fence);
     } else {
         startDecoding(pending, std::make_shared<const store::SessionRecord>(std::move(fetch->record)),
-                      Ownership::unclaimed);
+                      ClaimState::unclaimed);
     }
 }
 
 /// Makes a worker decode a record. Decoding here would block the thread of the write-behind store.
 void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<const store::SessionRecord> record,
-                                   Ownership ownership) {
+                                   ClaimState ownership) {
     const Seconds cost = decodingCost(*record);
     // A record that refers to a file of the data folder goes to a load worker, because opening the file may take long.
     const bool opensFile =
@@ -186,19 +186,19 @@ void SessionManager::startDecoding(const PendingJoin& pending, std::shared_ptr<c
                    ownership](std::size_t /*worker*/) { self->decode(pending, record, ownership); },
                   opensFile ? pending.client->loadJobQueue() : pending.client->pictureJobQueue(), cost);
     if (accepted) return;
-    if (ownership == Ownership::claimed) writeBehind_.discardFetched(pending.credentials.id);
+    if (ownership == ClaimState::claimed) writeBehind_.discardFetched(pending.credentials.id);
     finishOpening(pending, kTooManyJobs);
 }
 
 void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<const store::SessionRecord>& stored,
-                            Ownership ownership) {
+                            ClaimState ownership) {
     const store::SessionRecord& record = *stored;
     const std::string& id = pending.credentials.id;
     bool isUnread = false, mustWait = false;  // whether a file was not read, and whether it may be readable later
     try {
         RecordObjectDecoder objects(record, [&](const session::LoadObject& load) -> Result<slicing::Object> {
             isUnread = mustWait = true;  // both stay true if the reader throws an exception, as when the server stops
-            const auto loaded = fileReader(services_)(load, services_.options.session);
+            const auto loaded = makeFileReader(services_)(load, services_.options.session);
             isUnread = !loaded;
             if (loaded) return loaded->object;
             // `too_large` also means that reading took too long, which may happen when many files are read at once.
@@ -208,16 +208,16 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
         });
         auto value = store::decodeSession(record.whole, record.head, std::ref(objects), services_.polytopes);
         if (!record.damage.empty()) throw store::UnreadableRecord(record.damage);
-        if (ownership == Ownership::unclaimed) {
-            claim(pending,
-                  std::make_shared<const DecodedRecord>(DecodedRecord{stored, std::move(value), objects.keys()}));
+        if (ownership == ClaimState::unclaimed) {
+            claim(pending, std::make_shared<const DecodedRecord>(
+                               DecodedRecord{stored, std::move(value), objects.keysBySerial()}));
             return;
         }
-        writeBehind_.setStoredKeys(id, objects.keys());
+        writeBehind_.setStoredKeys(id, objects.keysBySerial());
         finishOpening(pending, std::move(value), record.fence);
     } catch (const std::exception& fault) {
         // Nothing in a damaged record is certain, not even that a later version has stored it.
-        const bool isLater = record.damage.empty() && dynamic_cast<const store::LaterRecord*>(&fault) != nullptr;
+        const bool isLater = record.damage.empty() && dynamic_cast<const store::NewerVersionRecord*>(&fault) != nullptr;
         if (isLater) {
             spdlog::warn("session of a later version refused session={} store={} reason=\"{}\"", id,
                          writeBehind_.name(), fault.what());
@@ -227,7 +227,7 @@ void SessionManager::decode(const PendingJoin& pending, const std::shared_ptr<co
             spdlog::error("session cannot be read session={} store={} fault=\"{}\"", id, writeBehind_.name(),
                           fault.what());
         }
-        if (ownership == Ownership::claimed) writeBehind_.discardFetched(id);
+        if (ownership == ClaimState::claimed) writeBehind_.discardFetched(id);
         const std::string what = isLater    ? "this server keeps the session, but cannot open it: "
                                  : isUnread ? "this session cannot be opened: "
                                             : "this session is stored in a form that the server cannot read: ";
@@ -265,13 +265,14 @@ void SessionManager::onClaimed(const PendingJoin& pending, const DecodedRecord& 
         finishOpening(pending, decoded.value, claimed.fence);
         return;
     }
-    startDecoding(pending, std::make_shared<const store::SessionRecord>(std::move(claimed)), Ownership::claimed);
+    startDecoding(pending, std::make_shared<const store::SessionRecord>(std::move(claimed)), ClaimState::claimed);
 }
 
 /// Passes the session, or the error, to the client that asked first. If another server has meanwhile taken over the
 /// session and may have changed it, passes kTakenOver. Then calls join() again for the other waiting clients. `fence`
-/// is the number with which the session was fetched (see store::Fence); 0 if `value` is an error.
-void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence) {
+/// is the number with which the session was fetched (see store::FencingToken); 0 if `value` is an error.
+void SessionManager::finishOpening(const PendingJoin& pending, Result<session::Session> value,
+                                   store::FencingToken fence) {
     const std::string& id = pending.credentials.id;
     std::vector<PendingJoin> others;
     std::shared_ptr<LiveSession> session;
@@ -281,16 +282,17 @@ void SessionManager::finishOpening(const PendingJoin& pending, Result<session::S
         opening_.erase(id);
         // Another server may have claimed the session while its record was decoded. If a server claims it from now on,
         // dropTakenSession() finds it in live_, because that function locks mutex_.
-        if (value && !writeBehind_.owns(id, fence)) value = kTakenOver;
-        if (value) session = activate(pending.credentials, fence, pending.client, std::move(*value));
+        if (value && !writeBehind_.ownsSession(id, fence)) value = kTakenOver;
+        if (value) session = createLiveSession(pending.credentials, fence, pending.client, std::move(*value));
     }
     if (session) spdlog::info("session opened session={}", id);
     pending.done(session ? JoinResult(session) : value.error());
     for (const auto& [credentials, client, done] : others) join(credentials, client, done);
 }
 
-std::shared_ptr<LiveSession> SessionManager::activate(store::SessionCredentials credentials, store::Fence fence,
-                                                      const AddressAccountPtr& client, session::Session value) {
+std::shared_ptr<LiveSession> SessionManager::createLiveSession(store::SessionCredentials credentials,
+                                                               store::FencingToken fence,
+                                                               const ClientAccountPtr& client, session::Session value) {
     const std::string id = credentials.id;
     auto session =
         std::make_shared<LiveSession>(services_, writeBehind_, std::move(credentials), fence, client, std::move(value));
@@ -307,7 +309,7 @@ void SessionManager::leave(const std::shared_ptr<LiveSession>& session, std::sha
         if (found == self->live_.end() || found->second.session != session || --found->second.clients > 0) return false;
         const bool unmodified = value.revision == 0 && value.loaded.empty();
         self->byClient_.recordClosed(id, unmodified, self->services_.clock.now());
-        self->writeBehind_.close(id, value);
+        self->writeBehind_.closeSession(id, value);
         self->live_.erase(found);
         spdlog::info("session closed session={}", id);
         return true;
@@ -337,14 +339,14 @@ std::shared_ptr<LiveSession> SessionManager::find(const std::string& id) const {
 }
 
 void SessionManager::saveAll(const std::shared_ptr<void>& completion) {
-    if (writeBehind_.writePolicy() == store::Store::WritePolicy::at_close) return;
+    if (writeBehind_.writeTiming() == store::Store::WriteTiming::at_close) return;
     const std::lock_guard lock(mutex_);
     for (const auto& [id, live] : live_) live.session->save(completion);
 }
 
 void SessionManager::stop(Seconds limit) { writeBehind_.stop(std::chrono::duration_cast<store::Milliseconds>(limit)); }
 
-std::size_t SessionManager::openCount() const {
+std::size_t SessionManager::openSessionCount() const {
     const std::lock_guard lock(mutex_);
     return live_.size();
 }

@@ -25,18 +25,18 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
 
     /// Creates a session, and passes it to `done`. If the number of sessions is at a limit, deletes a closed session
     /// that was never changed; without such a session, passes the error `too_many` to `done`.
-    void create(const AddressAccountPtr& client, const JoinHandler& done);
+    void createSession(const ClientAccountPtr& client, const JoinHandler& done);
     /// Adds a client to the session with these credentials. Loads the session from the store if necessary. Passes the
     /// session to `done`, or an error: `not_found`, `bad_token` or `later_version`; `too_many` if too many jobs are
     /// queued; `internal` if the store does not answer or another server takes over the session.
-    void join(const store::SessionCredentials& credentials, const AddressAccountPtr& client, const JoinHandler& done);
+    void join(const store::SessionCredentials& credentials, const ClientAccountPtr& client, const JoinHandler& done);
     /// Removes the client `peer` from a session. Closes the session if it has no other client. `peer` is null if the
-    /// client was never welcomed, as for an upload. Must be called exactly once for each successful call of create() or
-    /// join().
+    /// client was never welcomed, as for an upload. Must be called exactly once for each successful call of
+    /// createSession() or join().
     void leave(const std::shared_ptr<LiveSession>& session, std::shared_ptr<Peer> peer);
 
     /// Writes all open sessions to the store, unless sessions are written only when they are closed
-    /// (WritePolicy::at_close). Holds `completion` until all are written or the store is found to be unavailable. A
+    /// (WriteTiming::at_close). Holds `completion` until all are written or the store is found to be unavailable. A
     /// caller that keeps a std::weak_ptr to `completion` can wait until the weak_ptr expires.
     void saveAll(const std::shared_ptr<void>& completion = {});
     const store::WriteBehindStore& writeBehind() const { return writeBehind_; }
@@ -45,7 +45,7 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     void stop(Seconds limit);
 
     /// Returns the number of sessions with at least one client.
-    std::size_t openCount() const;
+    std::size_t openSessionCount() const;
 
   private:
     // An open session, and the number of its clients.
@@ -56,13 +56,13 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
     // A call of join() that waits until the session is fetched from the store.
     struct PendingJoin {
         store::SessionCredentials credentials;
-        AddressAccountPtr client;
+        ClientAccountPtr client;
         JoinHandler done;
     };
 
-    store::WriteBehindStore::Listener listener();
+    store::WriteBehindStore::Listener storeListener();
     std::shared_ptr<LiveSession> find(const std::string& id) const;
-    std::optional<Error> admitSessionMakingRoom(AddressAccount& client);
+    std::optional<Error> admitSessionMakingRoom(ClientAccount& client);
     void evict(const std::string& id);
     // The stored record of a session, with the decoded session.
     struct DecodedRecord {
@@ -70,19 +70,19 @@ class SessionManager : public std::enable_shared_from_this<SessionManager> {
         session::Session value;
         store::KeysBySerial keys;
     };
-    enum class Ownership : std::uint8_t { unclaimed, claimed };  // whether this server has claimed a record's session
+    enum class ClaimState : std::uint8_t { unclaimed, claimed };  // whether this server has claimed a record's session
 
-    void onRead(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
+    void onRecordRead(const PendingJoin& pending, store::WriteBehindStore::FetchResult fetch);
     void startDecoding(const PendingJoin& pending, std::shared_ptr<const store::SessionRecord> record,
-                       Ownership ownership);
+                       ClaimState ownership);
     void decode(const PendingJoin& pending, const std::shared_ptr<const store::SessionRecord>& stored,
-                Ownership ownership);
+                ClaimState ownership);
     void claim(const PendingJoin& pending, const std::shared_ptr<const DecodedRecord>& decoded);
     void onClaimed(const PendingJoin& pending, const DecodedRecord& decoded,
                    store::WriteBehindStore::FetchResult fetch);
-    void finishOpening(const PendingJoin& pending, Result<session::Session> value, store::Fence fence = 0);
-    std::shared_ptr<LiveSession> activate(store::SessionCredentials credentials, store::Fence fence,
-                                          const AddressAccountPtr& client, session::Session value);
+    void finishOpening(const PendingJoin& pending, Result<session::Session> value, store::FencingToken fence = 0);
+    std::shared_ptr<LiveSession> createLiveSession(store::SessionCredentials credentials, store::FencingToken fence,
+                                                   const ClientAccountPtr& client, session::Session value);
     void dropTakenSession(const std::string& id);
 
     const Services services_;

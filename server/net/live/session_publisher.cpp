@@ -16,7 +16,7 @@
 namespace oval4d::net {
 
 namespace asio = boost::asio;
-using wire::Stream;
+using wire::StreamKind;
 
 namespace {
 
@@ -42,19 +42,19 @@ SessionPublisher::SessionPublisher(Services services, Strand strand, std::string
       retryTimer_(services_.clock, strand_),
       refineTimer_(services_.clock, strand_) {}
 
-void SessionPublisher::add(const std::shared_ptr<Peer>& peer, const StreamKey& key) {
+void SessionPublisher::addSubscriber(const std::shared_ptr<Peer>& peer, const PictureStreamKey& key) {
     assertOnStrand();
     JobQueuesOfClient jobQueues = jobQueuesOf(peer->client());
     subscribers_[peer.get()] = Subscriber{peer, std::move(jobQueues), key, {}};
 }
 
-const StreamKey* SessionPublisher::streamOf(const Peer& peer) const {
+const PictureStreamKey* SessionPublisher::streamOf(const Peer& peer) const {
     assertOnStrand();
     const auto subscriber = subscribers_.find(&peer);
     return subscriber == subscribers_.end() ? nullptr : &subscriber->second.streamKey;
 }
 
-SessionPublisher::JobQueuesOfClient SessionPublisher::jobQueuesOf(const AddressAccountPtr& own) const {
+SessionPublisher::JobQueuesOfClient SessionPublisher::jobQueuesOf(const ClientAccountPtr& own) const {
     for (const auto& [key, subscriber] : subscribers_) {
         if (subscriber.jobQueues.client == own) return subscriber.jobQueues;
     }
@@ -81,14 +81,14 @@ void SessionPublisher::sendAndRequestPictures() {
     assertOnStrand();
     advanceMotion();
     if (state_ && state_->revision != revision()) state_.reset();  // it may keep dropped objects alive
-    std::vector<StreamKey> missing;
+    std::vector<PictureStreamKey> missing;
     bool allServed = true;
     const slicing::Quality wanted = wantedQuality();
     for (auto& [key, subscriber] : subscribers_) {
-        if (subscriber.pacing.newestSentOrSkipped() == revision() && subscriber.quality >= wanted) continue;
-        if (subscriber.streamKey.stream == Stream::none) {
+        if (subscriber.pacing.newestRevisionSentOrSkipped() == revision() && subscriber.quality >= wanted) continue;
+        if (subscriber.streamKey.stream == StreamKind::none) {
             if (subscriber.stateInFlight) continue;
-            if (const SnapshotPtr state = currentState()) {
+            if (const SessionSnapshotPtr state = currentState()) {
                 sendState(subscriber, *state);
             } else {
                 requestState(subscriber);
@@ -96,11 +96,11 @@ void SessionPublisher::sendAndRequestPictures() {
             continue;
         }
         allServed = false;
-        if (!subscriber.pacing.hasRoom()) continue;
+        if (!subscriber.pacing.maySendMore()) continue;
         if (const OutgoingMessage* picture = pictures_.find(subscriber.streamKey, revision(), wanted)) {
             sendStateAndPicture(subscriber, *picture);
         } else if (!inProgress_.isEncoding(subscriber.streamKey, revision(), wanted) &&
-                   subscriber.pacing.hasRoom(inProgress_.countEncoding(subscriber.streamKey)) &&
+                   subscriber.pacing.maySendMore(inProgress_.countEncoding(subscriber.streamKey)) &&
                    std::ranges::find(missing, subscriber.streamKey) == missing.end()) {
             missing.push_back(subscriber.streamKey);
         }
@@ -118,19 +118,19 @@ slicing::Quality SessionPublisher::wantedQuality() const {
                                                                          : slicing::Quality::full;
 }
 
-/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::restEnds()).
+/// Schedules pictures of full quality for the end of the period of quick changes (DraftTiming::restEndTime()).
 /// wantedQuality() stays `draft` until the timer expires. The draft is then made even if the server was too busy to
 /// make it earlier.
 void SessionPublisher::scheduleRefinement() {
     if (session_.current.isMoving()) return;
-    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEnds(), [](SessionPublisher& publisher) {
+    refineTimer_.startUnlessRunning(weak_from_this(), draftTiming_.restEndTime(), [](SessionPublisher& publisher) {
         publisher.draftTiming_.endIfRested(publisher.services_.clock.now());
         publisher.sendAndRequestPictures();
     });
 }
 
-/// Makes the next step of a motion (see session::advance()), if the step is due. Waits until a client has the current
-/// revision and can receive the next one.
+/// Makes the next step of a motion (see session::advanceMotionBy()), if the step is due. Waits until a client has the
+/// current revision and can receive the next one.
 void SessionPublisher::advanceMotion() {
     assertOnStrand();
     if (!session_.current.isMoving()) {
@@ -138,39 +138,39 @@ void SessionPublisher::advanceMotion() {
         return;
     }
     if (inProgress_.isQueuedOrDrawing() ||
-        std::ranges::none_of(subscribers_, [this](const auto& entry) { return readyForNext(entry.second); }))
+        std::ranges::none_of(subscribers_, [this](const auto& entry) { return isReadyForNextPicture(entry.second); }))
         return;
     const auto now = services_.clock.now();
-    const auto passed = motionTiming_.step(now);
+    const auto passed = motionTiming_.stepIfDue(now);
     if (!passed) {
-        motionTimer_.startUnlessRunning(weak_from_this(), motionTiming_.due(),
+        motionTimer_.startUnlessRunning(weak_from_this(), motionTiming_.nextStepTime(),
                                         &SessionPublisher::sendAndRequestPictures);
         return;
     }
     const std::uint64_t before = revision();
-    session::advance(session_, Seconds(*passed).count());
+    session::advanceMotionBy(session_, Seconds(*passed).count());
     if (revision() == before) return;  // turning by the angle 0 changes nothing, so no next step is scheduled
     draftTiming_.recordChange(now);
     moved_();
 }
 
-bool SessionPublisher::readyForNext(const Subscriber& subscriber) const {
-    const bool hasNewest = subscriber.pacing.newestSentOrSkipped() == revision();
+bool SessionPublisher::isReadyForNextPicture(const Subscriber& subscriber) const {
+    const bool hasNewest = subscriber.pacing.newestRevisionSentOrSkipped() == revision();
     if (!hasNewest && !inProgress_.isEncoding(subscriber.streamKey, revision(), slicing::Quality::draft)) return false;
-    return subscriber.streamKey.stream == Stream::none
+    return subscriber.streamKey.stream == StreamKind::none
                ? !subscriber.stateInFlight
-               : subscriber.pacing.hasRoom(inProgress_.countEncoding(subscriber.streamKey));
+               : subscriber.pacing.maySendMore(inProgress_.countEncoding(subscriber.streamKey));
 }
 
 /// Posts a job that makes these pictures, or replaces the job that is queued. Does nothing while a job's pictures are
 /// being drawn, because sendAndRequestPictures() is called again afterward.
-void SessionPublisher::requestPictures(std::vector<StreamKey> wanted) {
+void SessionPublisher::requestPictures(std::vector<PictureStreamKey> wanted) {
     assertOnStrand();
     const slicing::Quality quality = wantedQuality();
     const bool isNew = !inProgress_.isQueuedOrDrawing();
     const parallel::WorkerPool::JobQueuePtr jobQueue = subscriberToCharge(wanted).jobQueues.pictures;
     Seconds cost{0};
-    for (const StreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
+    for (const PictureStreamKey& key : wanted) cost += pictureCost(session_.current, key, quality);
     RevisionPicturesJob next{
         inProgress_.currentOrNextJobNumber(), session_.current,  revision(), draftTiming_.lastChangeTime(), quality,
         pictures_.find(revision(), quality),  std::move(wanted), section_};
@@ -191,7 +191,8 @@ void SessionPublisher::requestPictures(std::vector<StreamKey> wanted) {
 
 /// Returns the client in whose job queue a job for the pictures `wanted` waits. A job uses up its client's share of the
 /// workers, so clients that receive the same pictures take turns.
-const SessionPublisher::Subscriber& SessionPublisher::subscriberToCharge(const std::vector<StreamKey>& wanted) const {
+const SessionPublisher::Subscriber& SessionPublisher::subscriberToCharge(
+    const std::vector<PictureStreamKey>& wanted) const {
     std::vector<const Subscriber*> payers;
     for (const auto& [peer, subscriber] : subscribers_) {
         if (std::ranges::find(wanted, subscriber.streamKey) != wanted.end()) payers.push_back(&subscriber);
@@ -213,10 +214,10 @@ void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
         queuedJob_.reset();
     }
     RevisionPictures result{job.number, job.revision, job.quality, job.snapshot, {}, {}};
-    if (job.section) pipeline.keepFocusSection(*job.section);
-    for (const StreamKey& key : job.wanted) {
+    if (job.section) pipeline.reuseFocusSectionNames(*job.section);
+    for (const PictureStreamKey& key : job.wanted) {
         try {
-            if (!suffices(result.snapshot, key))
+            if (!isSufficientFor(result.snapshot, key))
                 result.snapshot = makeSnapshot(pipeline, job.state, job.revision, job.changed, key, job.quality);
             result.snapshot->stateTextFor(key.scheme);  // makes the text here, so that the strand need not make it
             std::function<void()> whenDrawn;
@@ -229,13 +230,13 @@ void SessionPublisher::runJob(pipeline::Pipeline& pipeline) {
         }
     }
     asio::post(strand_, [self = shared_from_this(), result = std::move(result)]() mutable {
-        self->onJobDone(std::move(result));
+        self->onPictureJobDone(std::move(result));
     });
 }
 
 /// Called on a worker when the last picture of a job has been drawn, but not yet encoded. The next job may be queued
 /// from now on.
-void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const StreamKey& key) {
+void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const PictureStreamKey& key) {
     asio::post(strand_, [self = shared_from_this(),
                          drawn = PictureJobs::PictureBeingEncoded{job.number, job.revision, job.quality, key}] {
         self->inProgress_.recordLastPictureDrawn(drawn);
@@ -246,14 +247,14 @@ void SessionPublisher::onLastPictureDrawn(const RevisionPicturesJob& job, const 
 /// Sends the pictures that a worker has made, even if the session has changed since. The pictures are newer than those
 /// that the clients have. During very frequent changes, clients therefore see every picture that the workers have time
 /// to make.
-void SessionPublisher::onJobDone(RevisionPictures result) {
+void SessionPublisher::onPictureJobDone(RevisionPictures result) {
     assertOnStrand();
     inProgress_.recordDone(result.job);
     if (result.snapshot && !isNamedSectionCurrent()) section_ = result.snapshot->section;
     pictures_.addUnlessOlder(result.snapshot, std::move(result.pictures));
     for (auto& [key, subscriber] : subscribers_) {
-        if (subscriber.streamKey.stream == Stream::none || !subscriber.pacing.hasRoom()) continue;
-        const auto newest = subscriber.pacing.newestSentOrSkipped();
+        if (subscriber.streamKey.stream == StreamKind::none || !subscriber.pacing.maySendMore()) continue;
+        const auto newest = subscriber.pacing.newestRevisionSentOrSkipped();
         if (newest && std::tie(*newest, subscriber.quality) >= std::tie(result.revision, result.quality)) continue;
         if (const OutgoingMessage* picture = pictures_.find(subscriber.streamKey, result.revision, result.quality)) {
             sendStateAndPicture(subscriber, *picture);
@@ -271,7 +272,7 @@ void SessionPublisher::onJobDone(RevisionPictures result) {
 void SessionPublisher::sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
-    const Snapshot& snapshot = *pictures_.snapshot();
+    const SessionSnapshot& snapshot = *pictures_.snapshot();
     subscriber.pacing.recordSent(snapshot.revision);
     subscriber.quality = snapshot.quality;
     services_.metrics.countPicture(subscriber.streamKey.stream);
@@ -291,12 +292,12 @@ void SessionPublisher::sendStateAndPicture(Subscriber& subscriber, const Outgoin
                });
 }
 
-SnapshotPtr SessionPublisher::currentState() {
+SessionSnapshotPtr SessionPublisher::currentState() {
     assertOnStrand();
     if (state_ && state_->revision == revision()) return state_;
     if (!isNamedSectionCurrent()) {
         if (!pipeline::FocusSectionNamer::isFast(session_.current.object)) return nullptr;
-        section_ = pipeline::FocusSectionNamer().name(session::pictureOf(session_.current));
+        section_ = pipeline::FocusSectionNamer().name(session::pictureRequestOf(session_.current));
     }
     return state_ = makeStateSnapshot(session_.current, revision(), lastChangeTime(), *section_);
 }
@@ -305,16 +306,16 @@ SnapshotPtr SessionPublisher::currentState() {
 /// do not change the section.
 bool SessionPublisher::isNamedSectionCurrent() const {
     const session::State& current = session_.current;
-    return section_ && section_->isOf(current.object, current.orientation, current.focusW());
+    return section_ && section_->isSectionOf(current.object, current.orientation, current.focusW());
 }
 
-std::function<SnapshotPtr(pipeline::Pipeline&)> SessionPublisher::currentStateJob() const {
+std::function<SessionSnapshotPtr(pipeline::Pipeline&)> SessionPublisher::currentStateJob() const {
     return [state = session_.current, ofRevision = revision(), changed = lastChangeTime()](pipeline::Pipeline& worker) {
-        return makeStateSnapshot(state, ofRevision, changed, worker.nameFocusSection(session::pictureOf(state)));
+        return makeStateSnapshot(state, ofRevision, changed, worker.nameFocusSection(session::pictureRequestOf(state)));
     };
 }
 
-bool SessionPublisher::keepIfCurrent(const SnapshotPtr& state) {
+bool SessionPublisher::storeStateIfCurrent(const SessionSnapshotPtr& state) {
     assertOnStrand();
     if (state->revision != revision()) return false;
     state_ = state;
@@ -328,7 +329,7 @@ void SessionPublisher::requestState(const Subscriber& subscriber) {
     assertOnStrand();
     if (stateRequested_) return;
     const auto job = [self = shared_from_this(), make = currentStateJob()](pipeline::Pipeline& pipeline) {
-        SnapshotPtr made;
+        SessionSnapshotPtr made;
         try {
             made = make(pipeline);
         } catch (const std::exception& fault) {
@@ -343,14 +344,14 @@ void SessionPublisher::requestState(const Subscriber& subscriber) {
 
 /// Sends the state that a worker has made, even if the session has changed since, because it is newer than the states
 /// that the clients have. `made` is null if the worker has failed.
-void SessionPublisher::onStateMade(const SnapshotPtr& made) {
+void SessionPublisher::onStateMade(const SessionSnapshotPtr& made) {
     assertOnStrand();
     stateRequested_ = false;
     if (!made) return scheduleRetry();
-    if (!keepIfCurrent(made)) {
+    if (!storeStateIfCurrent(made)) {
         for (auto& [key, subscriber] : subscribers_) {
-            const auto newest = subscriber.pacing.newestSentOrSkipped();
-            if (subscriber.streamKey.stream == Stream::none && !subscriber.stateInFlight &&
+            const auto newest = subscriber.pacing.newestRevisionSentOrSkipped();
+            if (subscriber.streamKey.stream == StreamKind::none && !subscriber.stateInFlight &&
                 (!newest || *newest < made->revision))
                 sendState(subscriber, *made);
         }
@@ -360,7 +361,7 @@ void SessionPublisher::onStateMade(const SnapshotPtr& made) {
 
 /// Sends the state of `snapshot` to a client without a stream. Only one state at a time is on its way. If the state
 /// changes faster than the client's socket accepts messages, states in between are skipped.
-void SessionPublisher::sendState(Subscriber& subscriber, const Snapshot& snapshot) {
+void SessionPublisher::sendState(Subscriber& subscriber, const SessionSnapshot& snapshot) {
     const auto peer = subscriber.peer.lock();
     if (!peer) return;
     subscriber.pacing.recordSkipped(snapshot.revision);

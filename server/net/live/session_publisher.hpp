@@ -39,11 +39,11 @@ namespace oval4d::net {
 class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
   public:
     using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
-    using Clock = Pacing::Clock;
+    using Clock = PicturePacing::Clock;
     /// A client, with the job queues for its work in this session: one in the pool for pictures, one in the pool for
     /// exports.
     struct JobQueuesOfClient {
-        AddressAccountPtr client;
+        ClientAccountPtr client;
         parallel::WorkerPool::JobQueuePtr pictures, exports;
     };
 
@@ -52,26 +52,26 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
 
     /// Sets the function that is called after each step of a motion, so that its caller can save the changed session.
     /// Must be called before a client is added.
-    void whenMoved(std::function<void()> moved) { moved_ = std::move(moved); }
+    void setMotionListener(std::function<void()> moved) { moved_ = std::move(moved); }
 
     /// Adds a client, or changes the pictures of a client that was added before. The client receives pictures of the
     /// kind `key`; if key.stream is `none`, only states.
-    void add(const std::shared_ptr<Peer>& peer, const StreamKey& key);
+    void addSubscriber(const std::shared_ptr<Peer>& peer, const PictureStreamKey& key);
     void remove(const Peer* peer) { subscribers_.erase(peer); }
     bool hasClients() const { return !subscribers_.empty(); }
     /// Returns the kind of pictures that a client receives; null if the client was not added. The pointer is valid
-    /// until the next add() or remove().
-    const StreamKey* streamOf(const Peer& peer) const;
+    /// until the next addSubscriber() or remove().
+    const PictureStreamKey* streamOf(const Peer& peer) const;
     /// Returns the job queues of a client in this session. All connections of the client to the session share these
     /// queues, so that several connections get no larger share of the workers.
-    JobQueuesOfClient jobQueuesOf(const AddressAccountPtr& own) const;
+    JobQueuesOfClient jobQueuesOf(const ClientAccountPtr& own) const;
     /// Closes the connections of all clients with a WebSocket close code and a reason.
     void closeAll(std::uint16_t code, const std::string& reason);
 
     /// Records that the session has reached a new revision.
     void sessionChanged(Clock::time_point now) { draftTiming_.recordChange(now); }
     /// Makes only drafts of the pictures of a field until the session rests, as during quick changes (see DraftTiming).
-    void beginDrafts() { draftTiming_.begin(); }
+    void beginDrafts() { draftTiming_.beginQuickChanges(); }
     /// Records that a client has shown the picture of this revision, and sends the next picture.
     void pictureShown(const Peer& peer, std::uint64_t ofRevision);
     /// Sends every client the newest state or picture, if it is ready and the client can receive it. Requests missing
@@ -83,39 +83,40 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     Clock::time_point lastChangeTime() const { return draftTiming_.lastChangeTime(); }
     /// Returns the current state with the names of its section, without slices. Returns null if naming the section may
     /// take long and no worker has named it yet.
-    SnapshotPtr currentState();
+    SessionSnapshotPtr currentState();
     /// Returns a job for a worker. The job names the section of the state that is now current, and returns this state.
-    std::function<SnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
+    std::function<SessionSnapshotPtr(pipeline::Pipeline&)> currentStateJob() const;
     /// Keeps the result of a currentStateJob(): currentState() then returns it, and its section need not be named
     /// again. If the session has changed since the job was created, does nothing and returns false.
-    bool keepIfCurrent(const SnapshotPtr& state);
+    bool storeStateIfCurrent(const SessionSnapshotPtr& state);
 
     /// Returns the section that was named last. It may belong to an earlier state. Empty if no section has been named.
-    const std::optional<slicing::NamedSection>& namedSection() const { return section_; }
+    const std::optional<slicing::NamedSection>& lastNamedSection() const { return section_; }
     /// Returns the snapshot of the current revision in full quality; null if there is none.
-    SnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
+    SessionSnapshotPtr currentFullSnapshot() const { return pictures_.find(revision(), slicing::Quality::full); }
 
   private:
     // A connected client of this session, with what it has been sent.
     struct Subscriber {
         std::weak_ptr<Peer> peer;
         JobQueuesOfClient jobQueues;
-        StreamKey streamKey;
-        Pacing pacing;
+        PictureStreamKey streamKey;
+        PicturePacing pacing;
         slicing::Quality quality = slicing::Quality::full;  // quality of the newest sent picture
         bool stateInFlight = false;  // whether a `state` message is queued but not written (only without a stream)
     };
     // A picture that could not be made, and the reason.
-    using FailedPicture = std::pair<StreamKey, Error>;
-    // A job that makes the pictures of one revision: one picture for each StreamKey among the waiting clients.
+    using FailedPicture = std::pair<PictureStreamKey, Error>;
+    // A job that makes the pictures of one revision: one picture for each PictureStreamKey among the waiting clients.
     struct RevisionPicturesJob {
         std::uint64_t number = 0;  // identifies the job within the session; starts at 1
         session::State state;
         std::uint64_t revision = 0;
         Clock::time_point changed;  // the time at which the session reached this revision
         slicing::Quality quality = slicing::Quality::full;
-        SnapshotPtr snapshot;  // the snapshot of this revision and quality if it has already been made, else null
-        std::vector<StreamKey> wanted;                 // the pictures to make
+        SessionSnapshotPtr
+            snapshot;  // the snapshot of this revision and quality if it has already been made, else null
+        std::vector<PictureStreamKey> wanted;          // the pictures to make
         std::optional<slicing::NamedSection> section;  // section_ at the creation of the job
     };
     // The result of a RevisionPicturesJob: the pictures that it has made, and those that have failed.
@@ -123,7 +124,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
         std::uint64_t job = 0;  // number of the job
         std::uint64_t revision = 0;
         slicing::Quality quality = slicing::Quality::full;
-        SnapshotPtr snapshot;
+        SessionSnapshotPtr snapshot;
         SnapshotPictureCache::MessagesByStream pictures;
         std::vector<FailedPicture> failed;
     };
@@ -136,22 +137,22 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     void advanceMotion();
     slicing::Quality wantedQuality() const;
     void scheduleRefinement();
-    void requestPictures(std::vector<StreamKey> wanted);
-    const Subscriber& subscriberToCharge(const std::vector<StreamKey>& wanted) const;
+    void requestPictures(std::vector<PictureStreamKey> wanted);
+    const Subscriber& subscriberToCharge(const std::vector<PictureStreamKey>& wanted) const;
     void scheduleRetry();
-    void onJobDone(RevisionPictures result);
+    void onPictureJobDone(RevisionPictures result);
     void sendStateAndPicture(Subscriber& subscriber, const OutgoingMessage& picture);
     void requestState(const Subscriber& subscriber);
-    void onStateMade(const SnapshotPtr& made);
-    void sendState(Subscriber& subscriber, const Snapshot& snapshot);
+    void onStateMade(const SessionSnapshotPtr& made);
+    void sendState(Subscriber& subscriber, const SessionSnapshot& snapshot);
     void scheduleShownTimeout();
     void assumeOverduePicturesShown();
     Clock::duration shownTimeout() const;
-    bool readyForNext(const Subscriber& subscriber) const;
+    bool isReadyForNextPicture(const Subscriber& subscriber) const;
 
     // The functions of this group run on a worker.
     void runJob(pipeline::Pipeline& pipeline);
-    void onLastPictureDrawn(const RevisionPicturesJob& job, const StreamKey& key);
+    void onLastPictureDrawn(const RevisionPicturesJob& job, const PictureStreamKey& key);
 
     // The members of this group do not change after construction.
     const Services services_;  // declared first, because other members are initialized from it
@@ -167,7 +168,7 @@ class SessionPublisher : public std::enable_shared_from_this<SessionPublisher> {
     MotionTiming motionTiming_;
     PictureJobs inProgress_;
     SnapshotPictureCache pictures_;  // kept while a client waits for a picture, else empty
-    SnapshotPtr state_;              // what currentState() has returned for the current revision; null if nothing
+    SessionSnapshotPtr state_;       // what currentState() has returned for the current revision; null if nothing
     bool stateRequested_ = false;    // whether a worker has been asked for a state
     std::optional<slicing::NamedSection> section_;  // a section in the focus slice: the one that was named last
     OneShotTimer motionTimer_, paceTimer_, retryTimer_, refineTimer_;

@@ -5,9 +5,9 @@
 namespace oval4d::net {
 
 using SaveScope = store::WriteBehindStore::SaveScope;
-using WritePolicy = store::Store::WritePolicy;
+using WriteTiming = store::Store::WriteTiming;
 
-SessionSaver::SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
+SessionSaver::SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::FencingToken fence,
                            std::shared_ptr<const session::Session> session, const TimerClock& clock,
                            const boost::asio::any_io_executor& strand)
     : writeBehind_(writeBehind),
@@ -18,8 +18,8 @@ SessionSaver::SessionSaver(store::WriteBehindStore& writeBehind, std::string id,
       timer_(clock, strand) {}
 
 void SessionSaver::scheduleSave() {
-    if (writeBehind_.writePolicy() == WritePolicy::at_close) return;
-    writeBehind_.noteChange(id_, fence_);
+    if (writeBehind_.writeTiming() == WriteTiming::at_close) return;
+    writeBehind_.recordUnsavedChange(id_, fence_);
     timer_.startUnlessRunning(weak_from_this(), clock_.now() + kDelay, [](SessionSaver& saver) { saver.saveNow(); });
 }
 
@@ -28,14 +28,14 @@ void SessionSaver::saveNow(store::SaveCallback written) {
 }
 
 std::optional<SessionSaver::WriteFunction> SessionSaver::writeBeforeAcknowledgment(bool hasNewObject) {
-    if (writeBehind_.writePolicy() != WritePolicy::at_once) return std::nullopt;
+    if (writeBehind_.writeTiming() != WriteTiming::at_once) return std::nullopt;
     // The head of a record is saved without objects, so a new object requires that the whole session is saved.
-    return writeOf(hasNewObject ? SaveScope::whole : SaveScope::head);
+    return makeWriteFunction(hasNewObject ? SaveScope::whole : SaveScope::head);
 }
 
 /// Returns a function that writes the present value of the session: all of it, or only its head (the state and the
 /// revision).
-SessionSaver::WriteFunction SessionSaver::writeOf(SaveScope scope) {
+SessionSaver::WriteFunction SessionSaver::makeWriteFunction(SaveScope scope) {
     session::Session value;
     if (scope == SaveScope::whole) {
         value = *session_;

@@ -16,8 +16,8 @@
 namespace oval4d::net {
 
 /// Saves a session in use, as the store's write policy demands: a short time after each change, and perhaps also before
-/// the change is acknowledged. After detach(), never writes the session again. Not thread-safe: the functions of this
-/// class, and the functions that they return, must be called on the session's strand.
+/// the change is acknowledged. After stopSaving(), never writes the session again. Not thread-safe: the functions of
+/// this class, and the functions that they return, must be called on the session's strand.
 class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
   public:
     /// The delay from a change to the save. The store must be at most one second behind the session, even on a busy
@@ -28,17 +28,18 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     /// WriteBehindStore::save().
     using WriteFunction = std::function<void(store::SaveCallback written)>;
 
-    /// `fence` is the number with which the session was created in the store or fetched from it (see store::Fence).
-    /// `session` is the session, which the caller changes on `strand`. `clock` measures the delay.
-    SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::Fence fence,
+    /// `fence` is the number with which the session was created in the store or fetched from it (see
+    /// store::FencingToken). `session` is the session, which the caller changes on `strand`. `clock` measures the
+    /// delay.
+    SessionSaver(store::WriteBehindStore& writeBehind, std::string id, store::FencingToken fence,
                  std::shared_ptr<const session::Session> session, const TimerClock& clock,
                  const boost::asio::any_io_executor& strand);
 
     /// Schedules a save after kDelay. Must be called after each change of the session.
     void scheduleSave();
 
-    /// Hands the session to the store. The store saves it as soon as possible and then calls `written`. After detach(),
-    /// saves nothing and never calls `written`.
+    /// Hands the session to the store. The store saves it as soon as possible and then calls `written`. After
+    /// stopSaving(), saves nothing and never calls `written`.
     void saveNow(store::SaveCallback written = {});
 
     /// Returns a function that writes the present value of the session; an empty optional if a change need not be
@@ -47,15 +48,15 @@ class SessionSaver : public std::enable_shared_from_this<SessionSaver> {
     std::optional<WriteFunction> writeBeforeAcknowledgment(bool hasNewObject);
 
     /// Makes this object never write the session to the store again.
-    void detach() { detached_ = true; }
-    bool isDetached() const { return detached_; }
+    void stopSaving() { detached_ = true; }
+    bool hasStoppedSaving() const { return detached_; }
 
   private:
-    WriteFunction writeOf(store::WriteBehindStore::SaveScope scope);
+    WriteFunction makeWriteFunction(store::WriteBehindStore::SaveScope scope);
 
     store::WriteBehindStore& writeBehind_;
     const std::string id_;
-    const store::Fence fence_;
+    const store::FencingToken fence_;
     const std::shared_ptr<const session::Session> session_;
     const TimerClock& clock_;
     OneShotTimer timer_;  // measures kDelay

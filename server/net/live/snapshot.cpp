@@ -12,38 +12,39 @@
 
 namespace oval4d::net {
 
-using wire::Stream;
+using wire::StreamKind;
 
-SharedBytes Snapshot::stateTextFor(scene::Scheme scheme) const {
+SharedBytes SessionSnapshot::stateTextFor(scene::ColorScheme scheme) const {
     const std::lock_guard lock(textsMutex_);
     SharedBytes& text = texts_.at(static_cast<std::size_t>(scheme));
     if (text.size() == 0) text = SharedBytes(wire::stateMessage(state, section.names, revision, {}, quality, scheme));
     return text;
 }
 
-SharedBytes Snapshot::stateTextFor(scene::Scheme scheme, std::optional<double> id) const {
+SharedBytes SessionSnapshot::stateTextFor(scene::ColorScheme scheme, std::optional<double> id) const {
     if (!id) return stateTextFor(scheme);
     return SharedBytes(wire::stateMessage(state, section.names, revision, id, quality, scheme));
 }
 
-SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
-                         std::chrono::steady_clock::time_point changed, const StreamKey& key,
-                         slicing::Quality quality) {
-    auto made = std::make_shared<Snapshot>();
+SessionSnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
+                                std::chrono::steady_clock::time_point changed, const PictureStreamKey& key,
+                                slicing::Quality quality) {
+    auto made = std::make_shared<SessionSnapshot>();
     made->state = state;
     made->revision = revision;
     made->changed = changed;
     made->quality = quality;
-    const scene::PictureRequest picture = session::pictureOf(state, key.viewport, quality);
-    made->sliced = key.stream != Stream::frames;
+    const scene::PictureRequest picture = session::pictureRequestOf(state, key.viewport, quality);
+    made->sliced = key.stream != StreamKind::frames;
     if (made->sliced) pipeline.slice(picture, made->slices);
     made->section = pipeline.nameFocusSection(picture, made->sliced ? &made->slices : nullptr);
     return made;
 }
 
-SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
-                              std::chrono::steady_clock::time_point changed, const slicing::NamedSection& section) {
-    auto made = std::make_shared<Snapshot>();
+SessionSnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
+                                     std::chrono::steady_clock::time_point changed,
+                                     const slicing::NamedSection& section) {
+    auto made = std::make_shared<SessionSnapshot>();
     made->state = state;
     made->revision = revision;
     made->changed = changed;
@@ -51,22 +52,22 @@ SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revisio
     return made;
 }
 
-bool suffices(const SnapshotPtr& snapshot, const StreamKey& key) {
-    return snapshot && (snapshot->sliced || key.stream == wire::Stream::frames);
+bool isSufficientFor(const SessionSnapshotPtr& snapshot, const PictureStreamKey& key) {
+    return snapshot && (snapshot->sliced || key.stream == wire::StreamKind::frames);
 }
 
-OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
+OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const SessionSnapshot& snapshot, const PictureStreamKey& key,
                             std::optional<double> id, const std::function<void()>& whenDrawn) {
     const auto applyOverrides = [&key](scene::Look& look) {
         if (key.background) look.background = *key.background;
         if (key.highlight) look.highlight = *key.highlight;
     };
-    scene::PictureRequest picture = session::pictureOf(snapshot.state, key.viewport, snapshot.quality);
+    scene::PictureRequest picture = session::pictureRequestOf(snapshot.state, key.viewport, snapshot.quality);
     applyOverrides(picture.look);
     using scene::Background;
-    if (key.scheme == scene::Scheme::light && picture.look.background == Background::automatic)
+    if (key.scheme == scene::ColorScheme::light && picture.look.background == Background::automatic)
         picture.look.background = Background::light;
-    if (key.stream == Stream::frames) {
+    if (key.stream == StreamKind::frames) {
         SharedBytes stateText;  // the state stored in the PNG file; unlike `picture`, keeps the background `automatic`
         if (key.background || key.highlight) {
             session::State state = snapshot.state;
@@ -85,9 +86,9 @@ OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapsh
     return {SharedBytes(std::move(text)), key.encoding != wire::Encoding::json};
 }
 
-Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality) {
-    const scene::PictureRequest picture = session::pictureOf(state, key.viewport, quality);
-    return key.stream == Stream::frames ? pipeline::frameCost(picture) : pipeline::geometryCost(picture);
+Seconds pictureCost(const session::State& state, const PictureStreamKey& key, slicing::Quality quality) {
+    const scene::PictureRequest picture = session::pictureRequestOf(state, key.viewport, quality);
+    return key.stream == StreamKind::frames ? pipeline::frameCost(picture) : pipeline::geometryCost(picture);
 }
 
 }  // namespace oval4d::net

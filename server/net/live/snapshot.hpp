@@ -22,21 +22,21 @@
 namespace oval4d::net {
 
 /// The kind of picture that a client receives for each revision. Clients with equal keys share pictures.
-struct StreamKey {
-    wire::Stream stream = wire::Stream::none;
+struct PictureStreamKey {
+    wire::StreamKind stream = wire::StreamKind::none;
     wire::Encoding encoding = wire::Encoding::json;
     scene::Viewport viewport;
-    scene::Scheme scheme = scene::Scheme::dark;        ///< the colors of pictures whose background is `automatic`
-    std::optional<scene::Background> background = {};  ///< replaces the session's background, if not empty
+    scene::ColorScheme scheme = scene::ColorScheme::dark;  ///< the colors of pictures whose background is `automatic`
+    std::optional<scene::Background> background = {};      ///< replaces the session's background, if not empty
     /// If the outer optional is not empty, the inner one replaces the highlighted element of the session (none if
     /// empty).
     std::optional<std::optional<slicing::Element>> highlight = {};
-    bool operator==(const StreamKey&) const = default;
+    bool operator==(const PictureStreamKey&) const = default;
 };
 
 /// The state of one revision of a session, with its slices if a client needs them. Public members do not change after
 /// the snapshot is made.
-struct Snapshot {
+struct SessionSnapshot {
     session::State state;
     std::uint64_t revision = 0;
     std::chrono::steady_clock::time_point changed;      ///< the time at which the session reached this revision
@@ -47,36 +47,38 @@ struct Snapshot {
 
     /// Returns the `state` message of this revision for viewers who prefer pictures in this color scheme. Makes the
     /// text of each scheme only once. Thread-safe.
-    SharedBytes stateTextFor(scene::Scheme scheme) const;
+    SharedBytes stateTextFor(scene::ColorScheme scheme) const;
     /// Returns the `state` message that answers the request with this id. Without an id, the same as
     /// stateTextFor(scheme).
-    SharedBytes stateTextFor(scene::Scheme scheme, std::optional<double> id) const;
+    SharedBytes stateTextFor(scene::ColorScheme scheme, std::optional<double> id) const;
 
   private:
     mutable std::mutex textsMutex_;
     mutable std::array<SharedBytes, scene::kSchemes.size()> texts_;  // by scheme; empty until made
 };
-using SnapshotPtr = std::shared_ptr<const Snapshot>;
+using SessionSnapshotPtr = std::shared_ptr<const SessionSnapshot>;
 
 /// Makes the snapshot of a revision, with slices if pictures of the kind `key` need them. Must be called on a worker.
-SnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
-                         std::chrono::steady_clock::time_point changed, const StreamKey& key, slicing::Quality quality);
+SessionSnapshotPtr makeSnapshot(pipeline::Pipeline& pipeline, const session::State& state, std::uint64_t revision,
+                                std::chrono::steady_clock::time_point changed, const PictureStreamKey& key,
+                                slicing::Quality quality);
 
 /// Makes the snapshot of a revision for clients that receive only states: without slices, and in full quality.
 /// `section` is the section in the focus slice.
-SnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
-                              std::chrono::steady_clock::time_point changed, const slicing::NamedSection& section);
+SessionSnapshotPtr makeStateSnapshot(const session::State& state, std::uint64_t revision,
+                                     std::chrono::steady_clock::time_point changed,
+                                     const slicing::NamedSection& section);
 
 /// Returns whether the snapshot contains everything that pictures of the kind `key` need. False for a null pointer.
-bool suffices(const SnapshotPtr& snapshot, const StreamKey& key);
+bool isSufficientFor(const SessionSnapshotPtr& snapshot, const PictureStreamKey& key);
 
 /// Makes a picture of a snapshot. If the stream of `key` is frames, the picture is a PNG file; otherwise it is a
 /// `slices` message with this request id. For a PNG file, calls `whenDrawn` when the picture is drawn, but not yet
 /// encoded. Must be called on a worker. Throws std::runtime_error if the picture cannot be drawn.
-OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const Snapshot& snapshot, const StreamKey& key,
+OutgoingMessage makePicture(pipeline::Pipeline& pipeline, const SessionSnapshot& snapshot, const PictureStreamKey& key,
                             std::optional<double> id, const std::function<void()>& whenDrawn = {});
 
 /// Returns the estimated time to make a picture of the kind `key`.
-Seconds pictureCost(const session::State& state, const StreamKey& key, slicing::Quality quality);
+Seconds pictureCost(const session::State& state, const PictureStreamKey& key, slicing::Quality quality);
 
 }  // namespace oval4d::net

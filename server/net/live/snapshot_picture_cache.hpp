@@ -16,17 +16,17 @@ namespace oval4d::net {
 /// StreamKeys share a picture. Not thread-safe.
 class SnapshotPictureCache {
   public:
-    using MessagesByStream = std::vector<std::pair<StreamKey, OutgoingMessage>>;
+    using MessagesByStream = std::vector<std::pair<PictureStreamKey, OutgoingMessage>>;
 
     /// Returns the snapshot in the cache; null if there is none.
-    const SnapshotPtr& snapshot() const { return snapshot_; }
+    const SessionSnapshotPtr& snapshot() const { return snapshot_; }
     /// Returns the snapshot in the cache if it has this revision and quality, else null.
-    SnapshotPtr find(std::uint64_t revision, slicing::Quality quality) const {
+    SessionSnapshotPtr find(std::uint64_t revision, slicing::Quality quality) const {
         const bool isKept = snapshot_ && snapshot_->revision == revision && snapshot_->quality == quality;
         return isKept ? snapshot_ : nullptr;
     }
     /// Returns the picture of this revision for `key` in the quality `atLeast` or a better one; null if there is none.
-    const OutgoingMessage* find(const StreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
+    const OutgoingMessage* find(const PictureStreamKey& key, std::uint64_t revision, slicing::Quality atLeast) const {
         if (!snapshot_ || snapshot_->revision != revision || snapshot_->quality < atLeast) return nullptr;
         const auto found = std::ranges::find(pictures_, key, &MessagesByStream::value_type::first);
         return found == pictures_.end() ? nullptr : &found->second;
@@ -35,8 +35,8 @@ class SnapshotPictureCache {
     /// Adds pictures of `snapshot`. Does nothing if the cache has a newer snapshot: one of a later revision, or of the
     /// same revision in higher quality. If the cache has an older snapshot, drops it and its pictures first. `snapshot`
     /// may be null if there are no pictures.
-    void addUnlessOlder(const SnapshotPtr& snapshot, MessagesByStream pictures) {
-        const auto age = [](const Snapshot& each) { return std::tie(each.revision, each.quality); };
+    void addUnlessOlder(const SessionSnapshotPtr& snapshot, MessagesByStream pictures) {
+        const auto age = [](const SessionSnapshot& each) { return std::tie(each.revision, each.quality); };
         if (!snapshot || (snapshot_ && age(*snapshot) < age(*snapshot_))) return;
         if (snapshot != snapshot_) clear();
         snapshot_ = snapshot;
@@ -49,7 +49,7 @@ class SnapshotPictureCache {
     }
 
   private:
-    SnapshotPtr snapshot_;
+    SessionSnapshotPtr snapshot_;
     MessagesByStream pictures_;
 };
 

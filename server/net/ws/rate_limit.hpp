@@ -18,7 +18,7 @@ class RateLimit {
         : bucket_(perSecond, 2 * perSecond, now), abusive_(-2 * perSecond) {}
 
     /// Counts a request, and decides whether it is allowed.
-    Verdict take(Clock::time_point now) {
+    Verdict countRequest(Clock::time_point now) {
         const double left = bucket_.take(1, now);
         return left >= 0 ? Verdict::allowed : left >= abusive_ ? Verdict::refused : Verdict::abusive;
     }

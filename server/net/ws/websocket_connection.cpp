@@ -38,7 +38,7 @@ constexpr double kParseSecondsPerByte = 1e-8;  // a rough estimate
 }  // namespace
 
 WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services services,
-                                         std::shared_ptr<SessionManager> sessions, AddressAccountPtr client,
+                                         std::shared_ptr<SessionManager> sessions, ClientAccountPtr client,
                                          std::string session, std::function<void()> joined)
     : stream_(std::move(stream)),
       services_(services),
@@ -52,7 +52,7 @@ WebSocketConnection::WebSocketConnection(beast::tcp_stream stream, Services serv
       drainedSignal_(stream_.get_executor()),
       executedSignal_(stream_.get_executor()) {}
 
-asio::awaitable<void> WebSocketConnection::run(UpgradeRequest upgrade) {
+asio::awaitable<void> WebSocketConnection::serveClient(UpgradeRequest upgrade) {
     configureStream(upgrade.count(beast::http::field::sec_websocket_protocol) > 0);
     const auto [fault] = co_await stream_.async_accept(upgrade, kAsTuple);
     if (fault) co_return;
@@ -105,7 +105,7 @@ void WebSocketConnection::closeWithoutHello() {
 /// notices the client's pongs only while it reads. Before the client has joined a session, only one message at a time
 /// is read, because the hello changes the maximum length of messages.
 asio::awaitable<void> WebSocketConnection::readLoop() {
-    Incoming incoming = co_await read();
+    ReceivedMessage incoming = co_await read();
     while (!incoming.fault) {
         swap(buffer_, message_);
         startHandling(std::move(incoming));
@@ -120,7 +120,7 @@ asio::awaitable<void> WebSocketConnection::readLoop() {
 /// && could run handleMessage() together with readAhead(), but is not used. It cancels coroutines in a way that is not
 /// thread-safe if one of them awaits another strand, here the session's
 /// (https://github.com/chriskohlhoff/asio/issues/1348).
-void WebSocketConnection::startHandling(Incoming incoming) {
+void WebSocketConnection::startHandling(ReceivedMessage incoming) {
     executing_ = true;
     watching_ = false;
     asio::co_spawn(stream_.get_executor(), handleMessage(std::move(incoming)),
@@ -139,20 +139,20 @@ void WebSocketConnection::discardMessage() {
 /// Reads the next message. First waits until the current message has been executed, so that a client that closes the
 /// connection right after a request still receives the answer. After the client has joined a session, the wait ends
 /// early when a pong may be due, or when watchForDisconnect() is called for a long search.
-asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::readAhead() {
+asio::awaitable<WebSocketConnection::ReceivedMessage> WebSocketConnection::readAhead() {
     if (session_) {
         executedSignal_.expires_after(toSteadyDuration(services_.options.pingInterval / 2));
         if (executing_ && !watching_) co_await executedSignal_.async_wait(kAsTuple);
     } else {
         co_await waitUntil(executedSignal_, [this] { return !executing_; });
     }
-    Incoming next = co_await read();
+    ReceivedMessage next = co_await read();
     if (next.fault && session_) session_->stopSearches(shared_from_this());
     co_return next;
 }
 
 /// Handles the message in `message_`.
-asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
+asio::awaitable<void> WebSocketConnection::handleMessage(ReceivedMessage incoming) {
     services_.metrics.messagesReceived.Increment();
     const auto wait = client_->countMessage(message_.size(), services_.clock.now());
     co_await pauseFor(services_.clock, stream_.get_executor(), wait);
@@ -169,8 +169,8 @@ asio::awaitable<void> WebSocketConnection::handleMessage(Incoming incoming) {
 }
 
 /// Reads one message into `buffer_`. A message that is refused because of its length is read to its end and discarded.
-asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
-    Incoming incoming;
+asio::awaitable<WebSocketConnection::ReceivedMessage> WebSocketConnection::read() {
+    ReceivedMessage incoming;
     bool checked = false;
     co_await waitUntil(drainedSignal_, [this] { return unsent_ <= services_.options.maxUnsent; });
     do {
@@ -194,13 +194,13 @@ asio::awaitable<WebSocketConnection::Incoming> WebSocketConnection::read() {
 
 /// Decides from the beginning of a long message whether to keep it. Keeps a message whose type is `load` or still
 /// unknown, if the client's byte account has room. Otherwise sets `incoming.refusal`.
-void WebSocketConnection::admitOrRefuseLongMessage(Incoming& incoming) {
+void WebSocketConnection::admitOrRefuseLongMessage(ReceivedMessage& incoming) {
     constexpr std::size_t kCopies = 3;  // the message, its parsed members, and a member while it is reallocated
     const auto seen =
         wire::peekRequest({static_cast<const char*>(buffer_.cdata().data()), services_.options.maxRequestBytes});
     incoming.id = seen.id;
     if (seen.type && *seen.type != "load") {
-        incoming.refusal = messageTooLong(services_.options);
+        incoming.refusal = messageTooLongError(services_.options);
     } else if (auto held = client_->byteAccount().reserve(kCopies * services_.options.maxLoadMessageBytes)) {
         incoming.held = std::move(*held);
     } else {
@@ -220,14 +220,14 @@ asio::awaitable<void> WebSocketConnection::waitUntil(asio::steady_timer& changed
 asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text) {
     RequestId id;
     try {
-        if (const auto verdict = rate_.take(services_.clock.now()); verdict != RateLimit::Verdict::allowed) {
+        if (const auto verdict = rate_.countRequest(services_.clock.now()); verdict != RateLimit::Verdict::allowed) {
             sendError({ErrorCode::too_many, "at most " + std::to_string(services_.options.maxRequestsPerSecond) +
                                                 " messages per second are allowed; this one was ignored"},
                       wire::peekRequest(text.substr(0, services_.options.maxRequestBytes)).id);
             if (verdict == RateLimit::Verdict::abusive) close(close_code::kPolicy, "too many requests");
             co_return;
         }
-        auto parsed = co_await parse(text);
+        auto parsed = co_await parseMessage(text);
         discardMessage();  // the text of a long message must not stay in memory while its object is built
         const auto* bad = std::get_if<wire::BadRequest>(&parsed);
         id = bad != nullptr ? bad->id : std::get<wire::Request>(parsed).id;
@@ -246,13 +246,13 @@ asio::awaitable<void> WebSocketConnection::parseAndExecute(std::string_view text
 }
 
 /// Parses a message. A worker parses messages longer than ServerOptions::maxRequestBytes.
-asio::awaitable<ParseResult> WebSocketConnection::parse(std::string_view text) {
+asio::awaitable<MessageParseResult> WebSocketConnection::parseMessage(std::string_view text) {
     if (text.size() <= services_.options.maxRequestBytes)
         co_return wire::parseRequest(text, services_.options.maxDepth);
     auto work = parseLongMessageJob(text, services_.options);
-    co_return co_await runOnPool<ParseResult>(services_.pictureWorkers.workers(), std::move(work),
-                                              client_->pictureJobQueue(),
-                                              Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
+    co_return co_await runOnPool<MessageParseResult>(services_.pictureWorkers.workers(), std::move(work),
+                                                     client_->pictureJobQueue(),
+                                                     Seconds(kParseSecondsPerByte * static_cast<double>(text.size())));
 }
 
 asio::awaitable<void> WebSocketConnection::execute(wire::Request request) {
@@ -275,7 +275,7 @@ asio::awaitable<void> WebSocketConnection::execute(wire::Request request) {
 
 asio::awaitable<void> WebSocketConnection::handleHello(wire::Hello hello, RequestId id) {
     const pipeline::FrameLimits& limits = services_.options.frame;
-    const auto viewport = pipeline::checkViewport(hello.viewport.value_or(pipeline::usualViewport(limits)), limits);
+    const auto viewport = pipeline::checkViewport(hello.viewport.value_or(pipeline::defaultViewport(limits)), limits);
     if (!viewport) {
         sendError(viewport.error(), id);
         co_return;
@@ -336,7 +336,7 @@ std::function<void(SessionManager::JoinHandler)> WebSocketConnection::sessionOpe
     return [sessions = sessions_, client = client_,
             credentials = store::SessionCredentials{requestedId_, token}](const SessionManager::JoinHandler& done) {
         if (credentials.id.empty()) {
-            sessions->create(client, done);
+            sessions->createSession(client, done);
         } else {
             sessions->join(credentials, client, done);
         }
@@ -389,7 +389,7 @@ void WebSocketConnection::closeForShutdown() {
             self->unsent_ -= self->outbox_.back().message.bytes.size();
             self->outbox_.pop_back();
         }
-        self->drainedSignal_.cancel();  // wakes read(), which waits while too many bytes are unsent
+        self->drainedSignal_.cancel();  // wakes readMessage(), which waits while too many bytes are unsent
         if (!self->ended_) self->startClosing(close_code::kStopping, "the server is stopping");
     });
 }
@@ -431,7 +431,7 @@ void WebSocketConnection::writeFragmentsFrom(std::size_t from) {
                 self->onMessageWritten(fault);
             } else {
                 ++self->writes_;
-                self->transferDeadline_->count(kWriteFragment);
+                self->transferDeadline_->countBytes(kWriteFragment);
                 self->writeFragmentsFrom(to);
             }
         });
@@ -448,7 +448,7 @@ void WebSocketConnection::onMessageWritten(boost::system::error_code fault) {
         if (!ended_) beast::get_lowest_layer(stream_).close();
         return;
     }
-    const Outgoing done = std::move(outbox_.front());
+    const QueuedMessage done = std::move(outbox_.front());
     outbox_.pop_front();
     unsent_ -= done.message.bytes.size();
     services_.metrics.bytesSent.Increment(static_cast<double>(done.message.bytes.size()));

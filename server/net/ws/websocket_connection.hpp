@@ -41,13 +41,13 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     /// `session` is the session id in the request path; empty for a new session. `joined` is called when the client has
     /// sent its first hello and has joined a session; it may be empty.
     WebSocketConnection(boost::beast::tcp_stream stream, Services services, std::shared_ptr<SessionManager> sessions,
-                        AddressAccountPtr client, std::string session, std::function<void()> joined);
+                        ClientAccountPtr client, std::string session, std::function<void()> joined);
 
     /// Serves the connection from the handshake until its end. `upgrade` is the client's handshake request.
-    boost::asio::awaitable<void> run(UpgradeRequest upgrade);
+    boost::asio::awaitable<void> serveClient(UpgradeRequest upgrade);
 
     void send(OutgoingMessage message, std::function<void()> written = {}) override;
-    const AddressAccountPtr& client() const override { return client_; }
+    const ClientAccountPtr& client() const override { return client_; }
     void watchForDisconnect() override;
     void close(std::uint16_t code, std::string reason) override;
     /// Closes the connection with the code kStopping, because the server stops. Discards all queued messages except the
@@ -59,13 +59,13 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
   private:
     using RequestId = LiveSession::RequestId;
     // A message in the send queue.
-    struct Outgoing {
+    struct QueuedMessage {
         OutgoingMessage message;
         std::function<void()> written;  // called once the message is written; may be empty
         ByteBudget::Reservation held;   // reserves the bytes of the message
     };
     // The result of reading a message.
-    struct Incoming {
+    struct ReceivedMessage {
         boost::system::error_code fault;  // why reading failed; empty after success
         std::optional<Error> refusal;     // set if the message was long and was refused
         RequestId id;                     // the request id of a refused message, if the id was found
@@ -77,15 +77,15 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     void startHelloTimer();
     void closeWithoutHello();
     boost::asio::awaitable<void> readLoop();
-    void startHandling(Incoming incoming);
+    void startHandling(ReceivedMessage incoming);
     void discardMessage();
-    boost::asio::awaitable<void> handleMessage(Incoming incoming);
-    boost::asio::awaitable<Incoming> readAhead();
-    boost::asio::awaitable<Incoming> read();
-    void admitOrRefuseLongMessage(Incoming& incoming);
+    boost::asio::awaitable<void> handleMessage(ReceivedMessage incoming);
+    boost::asio::awaitable<ReceivedMessage> readAhead();
+    boost::asio::awaitable<ReceivedMessage> read();
+    void admitOrRefuseLongMessage(ReceivedMessage& incoming);
     boost::asio::awaitable<void> waitUntil(boost::asio::steady_timer& changed, std::function<bool()> isTrue);
     boost::asio::awaitable<void> parseAndExecute(std::string_view text);
-    boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parse(std::string_view text);
+    boost::asio::awaitable<std::variant<wire::Request, wire::BadRequest>> parseMessage(std::string_view text);
     boost::asio::awaitable<void> execute(wire::Request request);
     boost::asio::awaitable<void> handleHello(wire::Hello hello, RequestId id);
     boost::asio::awaitable<SessionManager::JoinResult> joinOrCreateSession(wire::Hello hello);
@@ -102,7 +102,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     boost::beast::websocket::stream<boost::beast::tcp_stream> stream_;
     const Services services_;
     const std::shared_ptr<SessionManager> sessions_;
-    const AddressAccountPtr client_;
+    const ClientAccountPtr client_;
     const std::string requestedId_;  // the session id in the request path; empty for a new session
     std::function<void()> joined_;
     std::shared_ptr<LiveSession> session_;  // null until the client has joined a session
@@ -114,7 +114,7 @@ class WebSocketConnection final : public Peer, public std::enable_shared_from_th
     // meanwhile.
     bool executing_ = false, watching_ = false;
 
-    std::deque<Outgoing> outbox_;
+    std::deque<QueuedMessage> outbox_;
     std::size_t unsent_ = 0;  // total size of the messages in outbox_, in bytes
     bool writing_ = false, ended_ = false;
     std::uint64_t writes_ =

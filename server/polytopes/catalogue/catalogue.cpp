@@ -19,7 +19,7 @@ namespace oval4d::polytopes {
 
 namespace {
 
-CatalogueEntry entryOf(Design design, std::string family, std::vector<std::string> aliases) {
+CatalogueEntry catalogueEntryOf(PolytopeDesign design, std::string family, std::vector<std::string> aliases) {
     const ElementCounts counts = elementCounts(design);
     const auto narrow = [](std::uint64_t count) { return static_cast<std::uint32_t>(count); };
     aliases.erase(std::remove_if(aliases.begin(), aliases.end(),
@@ -33,13 +33,13 @@ CatalogueEntry entryOf(Design design, std::string family, std::vector<std::strin
             std::move(design)};
 }
 
-CatalogueEntry entryOf(const NamedWythoffianPolychoron& row) {
+CatalogueEntry catalogueEntryOf(const NamedWythoffianPolychoron& row) {
     std::vector<std::string> aliases;
     for (const std::string_view name : text::splitAtCommas(row.otherNames)) aliases.emplace_back(name);
     aliases.insert(row.family == "regular" ? aliases.begin() + 1 : aliases.begin(), std::string(row.bowers));
     if (row.family == "regular" && aliases.size() < 2) aliases.emplace_back(row.bowers);
     const auto add = [&](std::string_view symbol) {
-        for (std::string& name : operationNames(std::get<Diagram>(parseDiagram(symbol)))) {
+        for (std::string& name : operationNames(std::get<CoxeterDiagram>(parseDiagram(symbol)))) {
             if (std::find(aliases.begin(), aliases.end(), name) == aliases.end()) aliases.push_back(std::move(name));
         }
     };
@@ -48,8 +48,8 @@ CatalogueEntry entryOf(const NamedWythoffianPolychoron& row) {
         add(other);
         aliases.emplace_back(other);
     }
-    return entryOf(designOf(std::get<Diagram>(parseDiagram(row.linearNotation))), std::string(row.family),
-                   std::move(aliases));
+    return catalogueEntryOf(designOf(std::get<CoxeterDiagram>(parseDiagram(row.linearNotation))),
+                            std::string(row.family), std::move(aliases));
 }
 
 // A duoprism in the catalogue: the numbers of sides of its two polygons, and Bowers' short name, or an empty text if
@@ -75,39 +75,40 @@ constexpr auto kDuoprisms = std::to_array<DuoprismRow>({{3, 3, "triddip"},
 constexpr auto kAntiprismPrisms = std::to_array<std::pair<int, std::string_view>>(
     {{4, "squappip"}, {5, "pappip"}, {6, "happip"}, {8, "oappip"}, {10, "dappip"}});
 
-std::vector<CatalogueEntry> allEntries() {
+std::vector<CatalogueEntry> makeCatalogueEntries() {
     std::vector<CatalogueEntry> entries;
-    for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) entries.push_back(entryOf(row));
-    entries.push_back(entryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
-    entries.push_back(entryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
+    for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) entries.push_back(catalogueEntryOf(row));
+    entries.push_back(
+        catalogueEntryOf(snub24Cell(), "other", {"sadi", "snub icositetrachoron", "snub disicositetrachoron"}));
+    entries.push_back(catalogueEntryOf(grandAntiprism(), "other", {"gap", "pentagonal double antiprismoid"}));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         // `prism` is empty for the cube, whose prism is the 8-cell, and for the Kepler–Poinsot solids, whose prisms are
         // not in the catalogue.
         if (base.prism.empty()) continue;
         entries.push_back(
-            entryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
+            catalogueEntryOf(prismOf(base), "prism", {std::string(base.prism), std::string(base.name) + " prism"}));
     }
     for (const auto& [sides, bowersName] : kAntiprismPrisms) {
-        entries.push_back(entryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowersName)}));
+        entries.push_back(catalogueEntryOf(antiprismPrism(sides), "antiprism prism", {std::string(bowersName)}));
     }
     for (const auto& [p, q, bowersName] : kDuoprisms) {
         const std::string names = adjectiveOf({p, 1}) + (p == q ? "" : "-" + adjectiveOf({q, 1})) + " duoprism";
-        entries.push_back(entryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowersName), names}));
+        entries.push_back(catalogueEntryOf(duoprism({p, 1}, {q, 1}), "duoprism", {std::string(bowersName), names}));
     }
     return entries;
 }
 
-const std::vector<CatalogueEntry>& entries() {
-    static const std::vector<CatalogueEntry> kEntries = allEntries();
+const std::vector<CatalogueEntry>& catalogueEntries() {
+    static const std::vector<CatalogueEntry> kEntries = makeCatalogueEntries();
     return kEntries;
 }
 
 // Returns a map to the entries. The keys of an entry are its name, aliases, diagram and Schläfli symbol, each converted
 // by text::normalizedName().
-const std::unordered_map<std::string, const CatalogueEntry*>& index() {
+const std::unordered_map<std::string, const CatalogueEntry*>& entriesByName() {
     static const auto kIndex = [] {
         std::unordered_map<std::string, const CatalogueEntry*> byName;
-        for (const CatalogueEntry& entry : entries()) {
+        for (const CatalogueEntry& entry : catalogueEntries()) {
             byName.emplace(text::normalizedName(entry.name), &entry);
             for (const std::string& alias : entry.aliases) byName.emplace(text::normalizedName(alias), &entry);
             for (const std::string& symbol : {entry.diagram, entry.schlaefli}) {
@@ -126,22 +127,22 @@ struct NearMatch {
 
 // Returns whether a text of `length` letters may be a misspelling of a name at the edit distance `distance`: whether
 // there is at most one mistake for every three letters.
-bool isNear(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
+bool isPlausibleMisspelling(std::size_t distance, std::size_t length) { return 3 * distance <= length; }
 
 // Returns the names with the least edit distance from `text`, at most one name for each entry. Returns an empty list if
 // no name is similar. Of several names with this distance, keeps only those whose length is nearest to that of `text`,
 // because a wrong letter is likelier than a missing one.
-std::vector<NearMatch> nearest(std::string_view text) {
+std::vector<NearMatch> nearMatches(std::string_view text) {
     text = text.substr(0, kMaxNameBytes);
     const std::size_t wanted = text::normalizedName(text).size();
     std::vector<NearMatch> best;
     std::pair<std::size_t, std::size_t> least(-1, -1);
-    for (const polytopes::CatalogueEntry& entry : entries()) {
+    for (const polytopes::CatalogueEntry& entry : catalogueEntries()) {
         const auto consider = [&](std::string_view name) {
             const std::size_t known = text::normalizedName(name).size();
             const std::size_t longer = std::max(known, wanted) - std::min(known, wanted);
             // The edit distance is at least the difference of the lengths.
-            if (longer > least.first || !isNear(longer, wanted)) return;
+            if (longer > least.first || !isPlausibleMisspelling(longer, wanted)) return;
             const std::pair distance(polytopes::editDistanceOfNames(text, name), longer);
             if (distance < least) best.clear();
             if (distance <= least && (best.empty() || best.back().entry != &entry)) best.push_back({name, &entry});
@@ -150,15 +151,15 @@ std::vector<NearMatch> nearest(std::string_view text) {
         consider(entry.name);
         for (const std::string& alias : entry.aliases) consider(alias);
     }
-    if (!isNear(least.first, wanted)) best.clear();
+    if (!isPlausibleMisspelling(least.first, wanted)) best.clear();
     return best;
 }
 
 // Returns the reason why a polytope is too large to be built; an empty optional if it is not too large.
-std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices) {
+std::optional<PolytopeNameError> tooLargeError(const PolytopeDesign& design, std::size_t maxVertices) {
     const auto error = [&](const std::string& what, std::uint64_t most) {
-        return NameError{NameError::Reason::too_large,
-                         "the " + design.name + what + "; at most " + std::to_string(most) + " are allowed"};
+        return PolytopeNameError{PolytopeNameError::Reason::too_large,
+                                 "the " + design.name + what + "; at most " + std::to_string(most) + " are allowed"};
     };
     const std::uint64_t vertices = elementCounts(design).vertices;
     if (vertices > maxVertices) return error(" has " + std::to_string(vertices) + " vertices", maxVertices);
@@ -170,43 +171,44 @@ std::optional<NameError> tooLarge(const Design& design, std::size_t maxVertices)
 
 // Returns the design of a polytope whose name `text` is part of a longer name. If designNamed() returns an error
 // without a message, adds a message.
-DesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
+PolytopeDesignOrError designWithin(std::string_view text, std::size_t maxVertices) {
     auto result = designNamed(text, maxVertices);
-    if (auto* error = std::get_if<NameError>(&result); error != nullptr && error->message.empty()) {
+    if (auto* error = std::get_if<PolytopeNameError>(&result); error != nullptr && error->message.empty()) {
         error->message = text::inQuotes(text) + " is not the name of a polytope";
         std::vector<std::string> near;
         for (const std::string_view name : equallyNearestNames(text)) near.push_back(text::inQuotes(name));
         const std::vector<std::string_view> views(near.begin(), near.end());
-        if (!near.empty()) error->message += "; did you mean " + text::alternatives(views) + "?";
+        if (!near.empty()) error->message += "; did you mean " + text::joinedWithOr(views) + "?";
     }
     return result;
 }
 
 }  // namespace
 
-std::span<const CatalogueEntry> catalogue() { return entries(); }
+std::span<const CatalogueEntry> catalogue() { return catalogueEntries(); }
 
 const CatalogueEntry* findEntry(std::string_view text) {
-    if (const auto found = index().find(text::normalizedName(text)); found != index().end()) return found->second;
-    const auto described = designDescribedBy(text, [](std::string_view base) -> DesignOrError {
+    if (const auto found = entriesByName().find(text::normalizedName(text)); found != entriesByName().end())
+        return found->second;
+    const auto described = designDescribedBy(text, [](std::string_view base) -> PolytopeDesignOrError {
         const CatalogueEntry* entry = findEntry(base);
-        return entry != nullptr ? DesignOrError(entry->design) : NameError{};
+        return entry != nullptr ? PolytopeDesignOrError(entry->design) : PolytopeNameError{};
     });
-    const auto* design = std::get_if<Design>(&described);
+    const auto* design = std::get_if<PolytopeDesign>(&described);
     if (design == nullptr) return nullptr;
-    const auto found = index().find(text::normalizedName(design->name));
-    return found == index().end() ? nullptr : found->second;
+    const auto found = entriesByName().find(text::normalizedName(design->name));
+    return found == entriesByName().end() ? nullptr : found->second;
 }
 
-DesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
+PolytopeDesignOrError designNamed(std::string_view text, std::size_t maxVertices) {
     if (const auto* entry = findEntry(text)) return entry->design;
     auto described = designDescribedBy(text, [=](std::string_view base) { return designWithin(base, maxVertices); });
-    if (const auto* design = std::get_if<Design>(&described)) {
+    if (const auto* design = std::get_if<PolytopeDesign>(&described)) {
         if (design->name.size() > kMaxNameBytes) {
-            return NameError::impossible("the name has " + std::to_string(design->name.size()) + " bytes; at most " +
-                                         std::to_string(kMaxNameBytes) + " are allowed");
+            return PolytopeNameError::impossible("the name has " + std::to_string(design->name.size()) +
+                                                 " bytes; at most " + std::to_string(kMaxNameBytes) + " are allowed");
         }
-        if (auto error = tooLarge(*design, maxVertices)) return *std::move(error);
+        if (auto error = tooLargeError(*design, maxVertices)) return *std::move(error);
     }
     return described;
 }
@@ -228,14 +230,14 @@ std::size_t editDistanceOfNames(std::string_view one, std::string_view other) {
 }
 
 std::string_view nearestName(std::string_view text) {
-    const auto near = nearest(text);
+    const auto near = nearMatches(text);
     return near.empty() ? std::string_view{} : near.front().name;
 }
 
 std::vector<std::string_view> equallyNearestNames(std::string_view text) {
     constexpr std::size_t kMost = 3;
     std::vector<std::string_view> names;
-    for (const NearMatch& near : nearest(text)) names.push_back(near.name);
+    for (const NearMatch& near : nearMatches(text)) names.push_back(near.name);
     names.resize(std::min(names.size(), kMost));
     return names;
 }

@@ -24,7 +24,7 @@ struct CatalogueEntry {
     std::string schlaefli;             ///< Schläfli symbol, such as "{3,4,3}", or empty
     std::uint32_t vertices, edges, faces, cells;  ///< the numbers of elements
     std::uint32_t symmetryOrder;                  ///< the order of the full symmetry group, which includes reflections
-    Design design;
+    PolytopeDesign design;
 };
 
 /// Returns all entries, in the order in which the keys n and N of the page step through them: the convex regular
@@ -33,7 +33,7 @@ struct CatalogueEntry {
 /// ends. Thread-safe.
 std::span<const CatalogueEntry> catalogue();
 
-/// The maximum size in bytes of a canonical name (Design::name), so that names can be stored and shown.
+/// The maximum size in bytes of a canonical name (PolytopeDesign::name), so that names can be stored and shown.
 inline constexpr std::size_t kMaxNameBytes = 256;
 
 /// Returns the entry of the polytope that `text` denotes by a name, an alias, a diagram, a Schläfli symbol or in
@@ -48,7 +48,7 @@ const CatalogueEntry* findEntry(std::string_view text);
 /// For a polytope that is not in the catalogue, also returns an error if it has more than `maxVertices` vertices, if
 /// its canonical name has more than kMaxNameBytes, or if the convex hulls that build it have more than kMaxHullPoints
 /// points in total (convex_hull.hpp).
-DesignOrError designNamed(std::string_view text, std::size_t maxVertices);
+PolytopeDesignOrError designNamed(std::string_view text, std::size_t maxVertices);
 
 /// Returns the name or alias with the least edit distance from `text`, for suggestions ("did you mean"). If several
 /// names have this distance, prefers one whose length is nearest to that of `text`. Returns an empty text if the

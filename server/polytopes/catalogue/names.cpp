@@ -20,7 +20,7 @@ namespace {
 const std::vector<std::string_view>& constructionWords() {
     static const std::vector<std::string_view> all = [] {
         std::vector<std::string_view> found;
-        for (const Notation* notation : kNotations) {
+        for (const PolytopeNotation* notation : kNotations) {
             for (const std::string_view word : text::splitAtCommas(notation->constructions)) found.push_back(word);
         }
         return found;
@@ -30,7 +30,7 @@ const std::vector<std::string_view>& constructionWords() {
 
 // Counts the constructions in a name: each word of constructionWords() that is followed by "of", and each "dual" that
 // is followed by any word.
-std::size_t constructionsIn(const std::vector<std::string>& words) {
+std::size_t countConstructions(const std::vector<std::string>& words) {
     std::size_t count = 0;
     for (std::size_t i = 0; i + 1 < words.size(); ++i) {
         const bool begins = std::ranges::find(constructionWords(), words[i]) != constructionWords().end();
@@ -52,7 +52,7 @@ bool hasMisplacedCircumradius(const std::vector<std::string>& words) {
 // Returns why a text names no polytope, for a text that is in none of the notations. There are two known reasons: the
 // text names a polyhedron, or it has the form of a construction but begins with an unknown word. Returns an empty
 // string for other texts.
-std::string reasonFor(const std::vector<std::string>& words) {
+std::string unknownNameReason(const std::vector<std::string>& words) {
     if (const auto solid = solidNamed(words); solid && std::holds_alternative<Solid>(*solid)) {
         const std::string name = nameOf(std::get<Solid>(*solid));
         return "the " + name + " is a polyhedron; 4-D polytopes over it are the prism of " + name +
@@ -66,26 +66,26 @@ std::string reasonFor(const std::vector<std::string>& words) {
 
 }  // namespace
 
-DesignOrError designDescribedBy(std::string_view text, const DesignLookup& lookup) {
+PolytopeDesignOrError designDescribedBy(std::string_view text, const DesignLookup& lookup) {
     const std::vector<std::string> words = text::lowerCaseWords(text);
-    if (words.empty()) return NameError{};
-    if (const std::size_t count = constructionsIn(words); count > kMaxConstructions) {
-        return NameError::impossible("the name has " + std::to_string(count) + " constructions; at most " +
-                                     std::to_string(kMaxConstructions) + " are allowed");
+    if (words.empty()) return PolytopeNameError{};
+    if (const std::size_t count = countConstructions(words); count > kMaxConstructions) {
+        return PolytopeNameError::impossible("the name has " + std::to_string(count) + " constructions; at most " +
+                                             std::to_string(kMaxConstructions) + " are allowed");
     }
     if (hasMisplacedCircumradius(words)) {
-        return NameError::impossible(
+        return PolytopeNameError::impossible(
             "'of circumradius' and a number may follow only a polytope of a hull or an intersection, as in hull of "
             "tesseract and 16-cell of circumradius 3");
     }
-    for (const Notation* notation : kNotations) {
+    for (const PolytopeNotation* notation : kNotations) {
         auto found = notation->parse({words, lookup});
         if (!found) continue;
-        const auto* error = std::get_if<NameError>(&*found);
-        if (error == nullptr || error->reason != NameError::Reason::unknown || !error->message.empty())
+        const auto* error = std::get_if<PolytopeNameError>(&*found);
+        if (error == nullptr || error->reason != PolytopeNameError::Reason::unknown || !error->message.empty())
             return *std::move(found);
     }
-    return NameError{NameError::Reason::unknown, reasonFor(words)};
+    return PolytopeNameError{PolytopeNameError::Reason::unknown, unknownNameReason(words)};
 }
 
 }  // namespace oval4d::polytopes

@@ -17,6 +17,6 @@ inline constexpr std::size_t kMaxConstructions = 8;
 /// it is in a notation but describes no polytope, or if it has more than kMaxConstructions constructions. Ignores case;
 /// blanks and hyphens between words are equivalent. Calls `lookup` for the name of another polytope in the text, as in
 /// "dual of rectified 5-cell".
-DesignOrError designDescribedBy(std::string_view text, const DesignLookup& lookup);
+PolytopeDesignOrError designDescribedBy(std::string_view text, const DesignLookup& lookup);
 
 }  // namespace oval4d::polytopes

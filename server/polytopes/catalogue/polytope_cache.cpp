@@ -12,7 +12,7 @@ const std::shared_ptr<const Polytope>& fiveCell() {
     return shared;
 }
 
-PolytopeCache::SharedPolytope PolytopeCache::get(const Design& design) {
+PolytopeCache::SharedPolytope PolytopeCache::get(const PolytopeDesign& design) {
     if (design.name == fiveCell()->name) return fiveCell();
     const auto slot = findOrAddSlot(design.name);
     const std::scoped_lock building(slot->building);
@@ -24,7 +24,7 @@ PolytopeCache::SharedPolytope PolytopeCache::get(const Design& design) {
     return polytope;
 }
 
-PolytopeCache::SharedPolytope PolytopeCache::find(const Design& design) {
+PolytopeCache::SharedPolytope PolytopeCache::find(const PolytopeDesign& design) {
     if (design.name == fiveCell()->name) return fiveCell();
     SharedPolytope polytope = peek(design);
     const std::scoped_lock lock(mutex_);
@@ -37,7 +37,7 @@ std::size_t PolytopeCache::bytes() const {
     return bytes_;
 }
 
-PolytopeCache::SharedPolytope PolytopeCache::peek(const Design& design) const {
+PolytopeCache::SharedPolytope PolytopeCache::peek(const PolytopeDesign& design) const {
     const std::scoped_lock lock(mutex_);
     const auto found = slots_.find(design.name);
     return found == slots_.end() ? nullptr : found->second->polytope.lock();

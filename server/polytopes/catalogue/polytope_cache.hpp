@@ -31,11 +31,11 @@ class PolytopeCache {
     /// Returns the polytope of this design, and builds it on the calling thread if the cache does not find it.
     /// Concurrent calls for the same design wait until the polytope is built. Throws std::invalid_argument as build()
     /// does.
-    SharedPolytope get(const Design& design);
+    SharedPolytope get(const PolytopeDesign& design);
 
     /// Returns the polytope of this design if the cache finds it, else nullptr. Never waits for a polytope to be
     /// built, except for the first use of the 5-cell.
-    SharedPolytope find(const Design& design);
+    SharedPolytope find(const PolytopeDesign& design);
 
     /// Returns the memory in bytes of the polytopes that the cache owns, which never exceeds the limit.
     std::size_t bytes() const;
@@ -49,7 +49,7 @@ class PolytopeCache {
 
     // Returns the polytope of this design if the cache finds it, else nullptr. The design must not be that of the
     // 5-cell, which is not in the cache. Unlike find(), does not mark the polytope as used.
-    SharedPolytope peek(const Design& design) const;
+    SharedPolytope peek(const PolytopeDesign& design) const;
     // Returns the slot of this name; creates it if necessary.
     std::shared_ptr<PolytopeCacheEntry> findOrAddSlot(const std::string& name);
     // Moves the polytope to the front of recent_. Removes the least recently used polytopes until the memory limit is

@@ -27,8 +27,8 @@ constexpr double kLeastRadius = 0.01, kMostRadius = 100;
 bool isCombinationWord(std::string_view word) { return word == "hull" || word == "intersection" || word == "product"; }
 
 // One of the two polytopes of a hull or an intersection.
-struct Operand {
-    Design design;
+struct CombinationOperand {
+    PolytopeDesign design;
     std::optional<double> circumradius;  // the circumradius that the name states; empty for the default (see
                                          // combinationNamed())
 
@@ -44,7 +44,7 @@ using Words = std::vector<std::string>;
 
 // Returns the index of the word "and" between the names of the two operands, or an empty optional if there is none.
 // An "and" within the name of the first operand, as in "hull of hull of A and B and C", does not count.
-std::optional<std::size_t> findAnd(const Words& words) {
+std::optional<std::size_t> findAndBetweenOperands(const Words& words) {
     int nested = 0;
     for (std::size_t i = 2; i < words.size(); ++i) {
         if (isCombinationWord(words[i]) && i + 1 < words.size() && words[i + 1] == "of") ++nested;
@@ -53,8 +53,8 @@ std::optional<std::size_t> findAnd(const Words& words) {
     return {};
 }
 
-std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLookup& lookup) {
-    Operand operand;
+std::variant<CombinationOperand, PolytopeNameError> operandNamed(const Words& words, const DesignLookup& lookup) {
+    CombinationOperand operand;
     std::size_t end = words.size();
     // text::lowerCaseWords() divides a text at hyphens, so it turns the number 5e-1 into two words.
     const std::size_t numberWords = end > 1 && words[end - 2].ends_with('e') ? 2 : 1;
@@ -65,31 +65,32 @@ std::variant<Operand, NameError> operandNamed(const Words& words, const DesignLo
         const auto [rest, error] = std::from_chars(number.data(), number.data() + number.size(), value);
         if (error != std::errc{} || rest != number.data() + number.size() ||
             !(value >= kLeastRadius && value <= kMostRadius)) {
-            return NameError::impossible(text::inQuotes(number) + " is not a circumradius; it must be a number from " +
-                                         text::shortestDecimal(kLeastRadius) + " to " +
-                                         text::shortestDecimal(kMostRadius));
+            return PolytopeNameError::impossible(
+                text::inQuotes(number) + " is not a circumradius; it must be a number from " +
+                text::shortestDecimal(kLeastRadius) + " to " + text::shortestDecimal(kMostRadius));
         }
         operand.circumradius = value;
         end -= suffix;
     }
-    const DesignOrError described = lookup(text::joined(words, 0, end));
-    if (const auto* error = std::get_if<NameError>(&described)) return *error;
-    operand.design = std::get<Design>(described);
+    const PolytopeDesignOrError described = lookup(text::joined(words, 0, end));
+    if (const auto* error = std::get_if<PolytopeNameError>(&described)) return *error;
+    operand.design = std::get<PolytopeDesign>(described);
     return operand;
 }
 
-class CombinationRecipe : public Recipe {
+class HullOrIntersectionRecipe : public Recipe {
   public:
-    CombinationRecipe(bool intersection, Operand first, Operand second)
+    HullOrIntersectionRecipe(bool intersection, CombinationOperand first, CombinationOperand second)
         : intersection_(intersection), operands_{std::move(first), std::move(second)} {}
 
-    ElementCounts counts() const override {
-        const ElementCounts a = operands_[0].design.recipe->counts(), b = operands_[1].design.recipe->counts();
+    ElementCounts countElements() const override {
+        const ElementCounts a = operands_[0].design.recipe->countElements(),
+                            b = operands_[1].design.recipe->countElements();
         return {a.vertices + b.vertices, a.edges + b.edges, a.faces + b.faces, a.cells + b.cells};
     }
     std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
     std::uint64_t hullPointCount() const override {
-        const auto [vertices, edges, faces, cells] = counts();
+        const auto [vertices, edges, faces, cells] = countElements();
         return operands_[0].design.recipe->hullPointCount() + operands_[1].design.recipe->hullPointCount() +
                (intersection_ ? cells : vertices);
     }
@@ -97,7 +98,7 @@ class CombinationRecipe : public Recipe {
     Polytope build(const std::string& name) const override {
         std::vector<glm::dvec4> points;
         double circumradius = 0;
-        for (const Operand& operand : operands_) {
+        for (const CombinationOperand& operand : operands_) {
             const Polytope polytope = buildRequiringConvex(operand.design);
             if (circumradius == 0 || operand.circumradius)
                 circumradius = operand.circumradius.value_or(polytope.circumradius);
@@ -114,10 +115,10 @@ class CombinationRecipe : public Recipe {
 
   private:
     bool intersection_;
-    std::array<Operand, 2> operands_;
+    std::array<CombinationOperand, 2> operands_;
 };
 
-DesignOrError productNamed(const Words& one, const Words& other, const DesignLookup& lookup) {
+PolytopeDesignOrError productNamed(const Words& one, const Words& other, const DesignLookup& lookup) {
     const std::string first = text::joined(one, 0, one.size());
     const std::string second = text::joined(other, 0, other.size());
     for (const auto& [factor, solid] : {std::pair(first, second), std::pair(second, first)}) {
@@ -126,7 +127,7 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
     const auto p = polygonNamed(first);
     const auto q = polygonNamed(second);
     if (!p || !q || p->numerator < 3 || q->numerator < 3) {
-        return NameError::impossible(
+        return PolytopeNameError::impossible(
             text::inQuotes(!p || p->numerator < 3 ? first : second) +
             " is not a polygon with at least three sides; a product is that of two polygons, as in "
             "product of 5-gon and 7-gon, or of a polyhedron and a segment, as in product of cube and "
@@ -147,31 +148,31 @@ DesignOrError productNamed(const Words& one, const Words& other, const DesignLoo
 //
 // The product of two polygons is their duoprism. The product of a polyhedron and a segment (of length 2) is the prism
 // over the polyhedron.
-std::optional<DesignOrError> combinationNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> combinationNamed(const PolytopeNameWords& text) {
     const Words& words = text.words;
     if (!isCombinationWord(words[0]) || words.size() < 3 || words[1] != "of") return {};
-    const auto at = findAnd(words);
+    const auto at = findAndBetweenOperands(words);
     if (!at || *at == 2 || *at + 1 == words.size()) {
         const std::string example = words[0] == "product" ? "5-gon and 7-gon" : "tesseract and 16-cell";
-        return NameError::impossible("the word 'and' must stand between two names, as in " + words[0] + " of " +
-                                     example);
+        return PolytopeNameError::impossible("the word 'and' must stand between two names, as in " + words[0] + " of " +
+                                             example);
     }
     const auto middle = words.begin() + static_cast<std::ptrdiff_t>(*at);
     const Words one(words.begin() + 2, middle), other(middle + 1, words.end());
     if (words[0] == "product") return productNamed(one, other, text.lookup);
     auto first = operandNamed(one, text.lookup);
-    if (const auto* error = std::get_if<NameError>(&first)) return *error;
+    if (const auto* error = std::get_if<PolytopeNameError>(&first)) return *error;
     auto second = operandNamed(other, text.lookup);
-    if (const auto* error = std::get_if<NameError>(&second)) return *error;
-    auto& a = std::get<Operand>(first);
-    auto& b = std::get<Operand>(second);
-    return Design{words[0] + " of " + a.name() + " and " + b.name(),
-                  std::make_shared<CombinationRecipe>(words[0] == "intersection", a, b)};
+    if (const auto* error = std::get_if<PolytopeNameError>(&second)) return *error;
+    auto& a = std::get<CombinationOperand>(first);
+    auto& b = std::get<CombinationOperand>(second);
+    return PolytopeDesign{words[0] + " of " + a.name() + " and " + b.name(),
+                          std::make_shared<HullOrIntersectionRecipe>(words[0] == "intersection", a, b)};
 }
 
 }  // namespace
 
-constinit const Notation kCombinationNotation{
+constinit const PolytopeNotation kCombinationNotation{
     .polytopes =
         "`product of A and B`, of two polygons such as `5-gon`, `pentagon` and `5/2-gon`, or of a "
         "polyhedron and `segment`: the duoprism, or the prism over the polyhedron.<br>`hull of X and Y`, "

@@ -17,11 +17,11 @@ using text_files::FileError;
 
 namespace {
 
-// The assumed rounding error of the points, relative to their largest distance from the origin. It is much larger
-// than the rounding error of a double, because constructions may be nested, and each increases the error.
+// The assumed rounding error of the points, relative to their largest distance from the origin. This error is much
+// larger than the rounding error of a double, because constructions may be nested, and each increases the error.
 constexpr double kRounding = 1e-12;
 
-Hull hullOf(std::span<const glm::dvec4> points) {
+ConvexHull hullOf(std::span<const glm::dvec4> points) {
     if (points.size() > kMaxHullPoints) {
         throw TooLarge("it takes the convex hull of " + std::to_string(points.size()) + " points; at most " +
                        std::to_string(kMaxHullPoints) + " are allowed");
@@ -50,20 +50,20 @@ bool center(std::vector<glm::dvec4>& points) {
     return true;
 }
 
-Polytope polytopeOf(std::string name, Hull hull) {
+Polytope polytopeFromHull(std::string name, ConvexHull hull) {
     return makePolytope(std::move(name), std::move(hull.vertices), std::move(hull.faces), std::move(hull.cells));
 }
 
 }  // namespace
 
 Polytope hullPolytope(std::string name, std::span<const glm::dvec4> points) {
-    return polytopeOf(std::move(name), hullOf(points));
+    return polytopeFromHull(std::move(name), hullOf(points));
 }
 
 Polytope centeredHull(std::string name, std::span<const glm::dvec4> points) {
-    Hull hull = hullOf(points);
+    ConvexHull hull = hullOf(points);
     center(hull.vertices);
-    return polytopeOf(std::move(name), std::move(hull));
+    return polytopeFromHull(std::move(name), std::move(hull));
 }
 
 Polytope centered(Polytope polytope) {
@@ -72,7 +72,7 @@ Polytope centered(Polytope polytope) {
                         std::move(polytope.cells));
 }
 
-Polytope buildRequiringConvex(const Design& design) {
+Polytope buildRequiringConvex(const PolytopeDesign& design) {
     Polytope polytope = build(design);
     if (!polytope.convex) {
         throw std::invalid_argument(

@@ -47,6 +47,6 @@ Polytope centered(Polytope polytope);
 /// Builds the polytope of `design`, from whose vertices a construction will compute a convex hull. Throws
 /// std::invalid_argument if the polytope is not convex, and TooLarge if a 2-face has more than kMaxHullSides sides.
 /// Also throws the exceptions of build().
-Polytope buildRequiringConvex(const Design& design);
+Polytope buildRequiringConvex(const PolytopeDesign& design);
 
 }  // namespace oval4d::polytopes

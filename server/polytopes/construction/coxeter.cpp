@@ -24,7 +24,7 @@ constexpr double kPhi = std::numbers::phi;
 // A diagram that is a chain, given by its branches p, q and r, and mirrors that meet at the angles of the diagram. With
 // these mirrors, the polytopes of the diagram have the coordinates that are usual in the literature.
 struct DiagramWithMirrors {
-    std::array<Branch, 3> branches;
+    std::array<DiagramBranch, 3> branches;
     Mirrors mirrors;
 };
 
@@ -33,7 +33,7 @@ Mirrors normalized(Mirrors mirrors) {
     return mirrors;
 }
 
-const std::array<DiagramWithMirrors, 4>& placedFamilies() {
+const std::array<DiagramWithMirrors, 4>& familiesWithMirrors() {
     static const std::array<DiagramWithMirrors, 4> kPlaced = [] {
         // The mirrors of the 5-cell in Kageyama's paper, which README.md names. The normal of mirror i is the
         // difference of vertex i and vertex i + 1, so the reflection in the mirror swaps these two vertices.
@@ -44,9 +44,9 @@ const std::array<DiagramWithMirrors, 4>& placedFamilies() {
             {{-1, -y, z, w}, {1, -y, z, w}, {0, 2 * y, z, w}, {0, 0, std::sqrt(1.5), w}, {0, 0, 0, -4 * w}}};
         Mirrors a4;
         for (std::size_t i = 0; i < 4; ++i) a4[i] = simplex[i] - simplex[i + 1];
-        const Branch three{3, 1};
-        const Branch four{4, 1};
-        const Branch five{5, 1};
+        const DiagramBranch three{3, 1};
+        const DiagramBranch four{4, 1};
+        const DiagramBranch five{5, 1};
         return std::array<DiagramWithMirrors, 4>{{
             {{three, three, three}, normalized(a4)},
             {{four, three, three}, normalized({{{0, 0, 0, 1}, {0, 0, 1, -1}, {0, 1, -1, 0}, {1, -1, 0, 0}}})},
@@ -60,11 +60,11 @@ const std::array<DiagramWithMirrors, 4>& placedFamilies() {
 
 // Returns mirrors that meet at the diagram's angles. The angles determine the Gram matrix of the unit normals of the
 // mirrors; the rows of the Cholesky factor of this matrix are such normals.
-Mirrors placedByAngles(const Diagram& diagram) {
+Mirrors mirrorsFromAngles(const CoxeterDiagram& diagram) {
     Mirrors mirrors{};
     for (int i = 0; i < kMirrors; ++i) {
         for (int j = 0; j <= i; ++j) {
-            const Branch b = diagram.branches[i][j];
+            const DiagramBranch b = diagram.branches[i][j];
             double rest = i == j ? 1 : -std::cos(std::numbers::pi * b.denominator / b.numerator);
             for (int k = 0; k < j; ++k) rest -= mirrors[i][k] * mirrors[j][k];
             if (i != j) {
@@ -118,20 +118,20 @@ class SetOrbits {
     std::optional<std::uint32_t> addOrbit(const std::vector<std::uint32_t>& seed,
                                           const ReflectionImages& memberImages) {
         const auto first = static_cast<std::uint32_t>(lists.size());
-        if (add(seed) != first) return std::nullopt;
+        if (findOrAdd(seed) != first) return std::nullopt;
         std::vector<std::uint32_t> moved;
         for (std::size_t i = images.size() / kMirrors; i < lists.size(); ++i) {
             for (std::size_t mirror = 0; mirror < kMirrors; ++mirror) {
                 moved.assign(lists[i].begin(), lists[i].end());
                 for (auto& member : moved) member = memberImages[kMirrors * member + mirror];
-                images.push_back(add(moved));
+                images.push_back(findOrAdd(moved));
             }
         }
         return first;
     }
 
   private:
-    std::uint32_t add(const std::vector<std::uint32_t>& list) {
+    std::uint32_t findOrAdd(const std::vector<std::uint32_t>& list) {
         std::vector<std::uint32_t> sorted(list);
         std::sort(sorted.begin(), sorted.end());
         std::uint64_t hash = sorted.size();
@@ -155,7 +155,7 @@ class SetOrbits {
 // be the reflection of p in mirror a, and ab the rotation that is the product of both reflections. The vertices of the
 // polygon are the images of p and of a·p under the powers of ab. If only one of the two mirrors is ringed, p and a·p
 // have the same images.
-std::vector<std::uint32_t> polygon(const ReflectionImages& images, std::uint32_t a, std::uint32_t b) {
+std::vector<std::uint32_t> polygonOfMirrors(const ReflectionImages& images, std::uint32_t a, std::uint32_t b) {
     const auto image = [&](std::uint32_t vertex, std::uint32_t mirror) { return images[kMirrors * vertex + mirror]; };
     if (image(0, a) == 0) std::swap(a, b);
     const std::uint32_t beside = image(0, a);
@@ -172,15 +172,15 @@ std::vector<std::uint32_t> polygon(const ReflectionImages& images, std::uint32_t
     return loop;
 }
 
-// Returns the 2-faces of the cell that the mirrors of `set` generate. They are the images of `seeds`, which are the
-// cell's 2-faces at the generating vertex, under the group of these mirrors.
+// Returns the 2-faces of the cell that the mirrors of `set` generate. These 2-faces are the images of `seeds`, which
+// are the cell's 2-faces at the generating vertex, under the group of these mirrors.
 std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint32_t>& seeds,
                                      const ReflectionImages& faceImages) {
     std::vector<std::uint32_t> faces(seeds);
     std::unordered_set<std::uint32_t> known(seeds.begin(), seeds.end());
     for (std::size_t i = 0; i < faces.size(); ++i) {
         for (int mirror = 0; mirror < kMirrors; ++mirror) {
-            if (!holds(set, mirror)) continue;
+            if (!containsMirror(set, mirror)) continue;
             const auto image = faceImages[kMirrors * faces[i] + mirror];
             if (known.insert(image).second) faces.push_back(image);
         }
@@ -190,11 +190,12 @@ std::vector<std::uint32_t> cellFaces(MirrorSet set, const std::vector<std::uint3
 
 // Returns the canonical representative of the orbit of `set` under the symmetries of the diagram: the image of
 // `set` whose bit mask is the least number.
-MirrorSet leastImage(MirrorSet set, const std::vector<Permutation>& symmetries) {
+MirrorSet leastImage(MirrorSet set, const std::vector<MirrorPermutation>& symmetries) {
     MirrorSet least = set;
-    for (const Permutation& from : symmetries) {
+    for (const MirrorPermutation& from : symmetries) {
         MirrorSet image = 0;
-        for (int i = 0; i < kMirrors; ++i) image |= holds(set, from.at(i)) ? 1U << static_cast<unsigned>(i) : 0U;
+        for (int i = 0; i < kMirrors; ++i)
+            image |= containsMirror(set, from.at(i)) ? 1U << static_cast<unsigned>(i) : 0U;
         least = std::min(least, image);
     }
     return least;
@@ -202,17 +203,17 @@ MirrorSet leastImage(MirrorSet set, const std::vector<Permutation>& symmetries) 
 
 }  // namespace
 
-Mirrors mirrorsOf(const Diagram& diagram) {
-    for (const auto& family : placedFamilies()) {
+Mirrors mirrorsOf(const CoxeterDiagram& diagram) {
+    for (const auto& family : familiesWithMirrors()) {
         const auto& [p, q, r] = family.branches;
-        if (Diagram::linear(p, q, r, diagram.ringed).branches == diagram.branches) return family.mirrors;
-        if (Diagram::linear(r, q, p, diagram.ringed).branches == diagram.branches) {
+        if (CoxeterDiagram::linear(p, q, r, diagram.ringed).branches == diagram.branches) return family.mirrors;
+        if (CoxeterDiagram::linear(r, q, p, diagram.ringed).branches == diagram.branches) {
             Mirrors reversed = family.mirrors;
             std::reverse(reversed.begin(), reversed.end());
             return reversed;
         }
     }
-    return placedByAngles(diagram);
+    return mirrorsFromAngles(diagram);
 }
 
 glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed) {
@@ -222,7 +223,8 @@ glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& r
     return glm::inverse(rows) * distances;
 }
 
-Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices) {
+Polytope wythoffConstruction(std::string name, const CoxeterDiagram& diagram, const Mirrors& mirrors,
+                             std::size_t maxVertices) {
     if (!generatesElement(diagram, 0xfU))
         throw std::invalid_argument("every connected part of the diagram needs a ringed node");
     Orbit vertices = orbitOf(generatingVertex(mirrors, diagram.ringed), mirrors, maxVertices);
@@ -234,7 +236,7 @@ Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirror
         for (unsigned b = a + 1; b < kMirrors; ++b) {
             const MirrorSet pair = 1U << a | 1U << b;
             if (!generatesElement(diagram, pair)) continue;
-            const auto face = faces.addOrbit(polygon(vertices.images, a, b), vertices.images);
+            const auto face = faces.addOrbit(polygonOfMirrors(vertices.images, a, b), vertices.images);
             if (!face) throw std::invalid_argument("2-faces of " + name + " coincide");
             faceOfPair.at(pair) = *face;
         }

@@ -18,7 +18,7 @@ using Mirrors = std::array<glm::dvec4, 4>;
 /// Regular Polytopes, §8.7, §14.9; for the 5-cell, those in Kageyama's paper, which README.md names). For other
 /// branches, the mirrors are computed from the Gram matrix of their normals. Throws std::invalid_argument if this
 /// matrix is not positive definite, because the diagram then describes no finite group in four dimensions.
-Mirrors mirrorsOf(const Diagram& diagram);
+Mirrors mirrorsOf(const CoxeterDiagram& diagram);
 
 /// Returns the point that lies at distance 1 from each ringed mirror and on all other mirrors.
 glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& ringed);
@@ -30,6 +30,7 @@ glm::dvec4 generatingVertex(const Mirrors& mirrors, const std::array<bool, 4>& r
 /// All cells of an orbit have the same cell type, and so have cells of two orbits that a symmetry of the diagram
 /// maps to each other. Throws std::invalid_argument if a connected component of the diagram has no ringed mirror,
 /// if two orbits of 2-faces coincide, or if there are more than `maxVertices` vertices.
-Polytope wythoff(std::string name, const Diagram& diagram, const Mirrors& mirrors, std::size_t maxVertices = 100'000);
+Polytope wythoffConstruction(std::string name, const CoxeterDiagram& diagram, const Mirrors& mirrors,
+                             std::size_t maxVertices = 100'000);
 
 }  // namespace oval4d::polytopes

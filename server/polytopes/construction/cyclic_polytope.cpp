@@ -34,21 +34,21 @@ constexpr int kLeastCyclicVertices = 5, kMostCyclicVertices = 448;
 static_assert(cyclicCells(kMostCyclicVertices) <= kMaxHullCells &&
               cyclicCells(kMostCyclicVertices + 1) > kMaxHullCells);
 
-/// A recipe for a cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0). It is the convex
-/// hull of n points at equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t). Vertex k
-/// has t = 2πk/n; numbers of vertices are modulo n.
+/// A recipe for a cyclic polytope other than the 5-cell (Ziegler, Lectures on Polytopes, section 0). The polytope is
+/// the convex hull of n points at equal distances on the trigonometric moment curve t ↦ (cos t, sin t, cos 2t, sin 2t).
+/// Vertex k has t = 2πk/n; numbers of vertices are modulo n.
 ///
 /// By Gale's evenness condition, the cells are the tetrahedra of two disjoint pairs of neighbors, {i, i + 1} and {j, j
 /// + 1}. Proof: let a and b be the values of t halfway between the two vertices of each pair. The function (cos(π/n) −
 /// cos(t − a)) (cos(π/n) − cos(t − b)) is 0 at these four vertices and positive at all others, because no vertex lies
-/// between neighbors. It is a trigonometric polynomial of degree 2, that is, an affine function on the curve. So a
-/// hyperplane supports the polytope in the four vertices.
+/// between neighbors. The function is a trigonometric polynomial of degree 2, that is, an affine function on the curve.
+/// So a hyperplane supports the polytope in the four vertices.
 class CyclicPolytopeRecipe : public Recipe {
   public:
     /// Makes a recipe for n vertices. n must be at least 6.
     explicit CyclicPolytopeRecipe(std::uint32_t n) : n_(n) {}
 
-    ElementCounts counts() const override {
+    ElementCounts countElements() const override {
         const std::uint64_t n = n_;
         return {n, n * (n - 1) / 2, n * (n - 3), cyclicCells(n)};
     }
@@ -104,7 +104,7 @@ class CyclicPolytopeRecipe : public Recipe {
 };
 
 // Returns n for the symbol "c(n,4)". Returns an empty optional for other texts.
-std::optional<Branch> verticesInSymbol(std::string_view symbol) {
+std::optional<DiagramBranch> vertexCountInSymbol(std::string_view symbol) {
     constexpr std::string_view kBegin = "c(", kEnd = ")";
     if (!symbol.starts_with(kBegin) || !symbol.ends_with(kEnd)) return {};
     symbol.remove_prefix(kBegin.size());
@@ -117,39 +117,39 @@ std::optional<Branch> verticesInSymbol(std::string_view symbol) {
 // Parses the name of a cyclic polytope: "cyclic polytope C(7,4)", "C(7, 4)", "7-cyclic polytope". Returns an error
 // if the text has such a form but names no allowed number of vertices, and an empty optional for other texts. The
 // design for five vertices is that of the 5-cell.
-std::optional<DesignOrError> cyclicPolytopeNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> cyclicPolytopeNamed(const PolytopeNameWords& text) {
     const std::vector<std::string>& words = text.words;
     const auto isFamily = [&](std::size_t at) {
         return at + 2 <= words.size() && words[at] == "cyclic" && words[at + 1] == "polytope";
     };
-    std::optional<Branch> number;
+    std::optional<DiagramBranch> number;
     if (words.size() > 2 && isFamily(words.size() - 2)) {
         number = parseBranch(text::joined(words, 0, words.size() - 2));
     } else {
         const std::string symbol = text.joinedFrom(isFamily(0) ? 2 : 0);
         if (!isFamily(0) && !symbol.starts_with("c(")) return {};
-        number = verticesInSymbol(symbol);
+        number = vertexCountInSymbol(symbol);
     }
     if (!number || number->denominator != 1 || number->numerator < kLeastCyclicVertices) {
-        return NameError::impossible("a cyclic polytope is named after the number of its vertices, from " +
-                                     std::to_string(kLeastCyclicVertices) + " to " +
-                                     std::to_string(kMostCyclicVertices) +
-                                     ", as in cyclic polytope C(7,4) or 7-cyclic polytope");
+        return PolytopeNameError::impossible("a cyclic polytope is named after the number of its vertices, from " +
+                                             std::to_string(kLeastCyclicVertices) + " to " +
+                                             std::to_string(kMostCyclicVertices) +
+                                             ", as in cyclic polytope C(7,4) or 7-cyclic polytope");
     }
     const int n = number->numerator;
-    if (n == 5) return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
+    if (n == 5) return designOf(std::get<CoxeterDiagram>(parseDiagram("x3o3o3o")));
     const std::string name = "cyclic polytope C(" + std::to_string(n) + ",4)";
     if (n > kMostCyclicVertices) {
-        return NameError{NameError::Reason::too_large, "the " + name + " has " + std::to_string(n) +
-                                                           " vertices; at most " + std::to_string(kMostCyclicVertices) +
-                                                           " are allowed"};
+        return PolytopeNameError{PolytopeNameError::Reason::too_large,
+                                 "the " + name + " has " + std::to_string(n) + " vertices; at most " +
+                                     std::to_string(kMostCyclicVertices) + " are allowed"};
     }
-    return Design{name, std::make_shared<CyclicPolytopeRecipe>(static_cast<std::uint32_t>(n))};
+    return PolytopeDesign{name, std::make_shared<CyclicPolytopeRecipe>(static_cast<std::uint32_t>(n))};
 }
 
 }  // namespace
 
-constinit const Notation kCyclicPolytopeNotation{
+constinit const PolytopeNotation kCyclicPolytopeNotation{
     .polytopes =
         "a cyclic polytope C(n,4) with n from 5 to 448: the convex hull of n points at equal distances on the "
         "trigonometric moment curve (cos t, sin t, cos 2t, sin 2t). Every two of its vertices are joined by an edge, "

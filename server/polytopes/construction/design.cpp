@@ -22,14 +22,16 @@ namespace {
 
 constexpr RegularPolygon kSquare{4, 1};
 
-Diagram parseValidDiagram(std::string_view linearNotation) { return std::get<Diagram>(parseDiagram(linearNotation)); }
+CoxeterDiagram parseValidDiagram(std::string_view linearNotation) {
+    return std::get<CoxeterDiagram>(parseDiagram(linearNotation));
+}
 
 /// A recipe for the uniform polytopes that Wythoff's construction makes from Coxeter–Dynkin diagrams.
 class WythoffianRecipe : public Recipe {
   public:
-    explicit WythoffianRecipe(const Diagram& diagram) : diagram_(diagram) {}
+    explicit WythoffianRecipe(const CoxeterDiagram& diagram) : diagram_(diagram) {}
 
-    ElementCounts counts() const override { return elementCounts(diagram_); }
+    ElementCounts countElements() const override { return elementCounts(diagram_); }
     std::uint64_t symmetryOrder() const override { return groupOrder(diagram_) * automorphismsOf(diagram_).size(); }
     std::string linearNotation() const override { return linearNotationOf(diagram_); }
     std::string schlaefli() const override { return schlaefliOf(diagram_); }
@@ -42,26 +44,26 @@ class WythoffianRecipe : public Recipe {
         if (name == "120-cell") {
             for (auto& mirror : mirrors) std::swap(mirror.x, mirror.y);
         }
-        Polytope p = wythoff(name, diagram_, mirrors, counts().vertices);
-        if (ElementCounts{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()} != counts())
+        Polytope p = wythoffConstruction(name, diagram_, mirrors, countElements().vertices);
+        if (ElementCounts{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()} != countElements())
             throw std::invalid_argument("elements of " + name + " coincide");
         return p;
     }
 
   private:
-    Diagram diagram_;
+    CoxeterDiagram diagram_;
 };
 
 /// A recipe for the prism over the snub of {p, q}. For p = n and q = 2, the snub is the n-antiprism.
 class SnubPrismRecipe : public Recipe {
   public:
-    SnubPrismRecipe(Branch p, Branch q) : p_(p), q_(q) {}
+    SnubPrismRecipe(DiagramBranch p, DiagramBranch q) : p_(p), q_(q) {}
 
-    ElementCounts counts() const override {
+    ElementCounts countElements() const override {
         const std::uint64_t vertices = rotations();
         std::uint64_t edges = vertices / 2;  // the edges between two of the triangles counted below
         std::uint64_t faces = vertices;      // the triangles of the snub that are neither p-gons nor q-gons
-        for (const Branch b : {p_, q_}) {
+        for (const DiagramBranch b : {p_, q_}) {
             edges += b.numerator == 2 ? vertices / 2 : vertices;
             faces += b.numerator == 2 ? 0 : vertices / static_cast<std::uint64_t>(b.numerator);
         }
@@ -84,30 +86,35 @@ class SnubPrismRecipe : public Recipe {
 
   private:
     // Returns the order of the rotation group of {p, q}, which is also the number of vertices of the snub polyhedron.
-    std::uint64_t rotations() const { return groupOrder(Diagram::linear(p_, q_, {}, {true, true, true, true})) / 4; }
+    std::uint64_t rotations() const {
+        return groupOrder(CoxeterDiagram::linear(p_, q_, {}, {true, true, true, true})) / 4;
+    }
 
-    Branch p_, q_;
+    DiagramBranch p_, q_;
 };
 
-std::shared_ptr<const Recipe> wythoffian(const Diagram& diagram) { return std::make_shared<WythoffianRecipe>(diagram); }
+std::shared_ptr<const Recipe> wythoffian(const CoxeterDiagram& diagram) {
+    return std::make_shared<WythoffianRecipe>(diagram);
+}
 
 // Returns the designs that have names of their own. The key of a design is its canonical diagram; a design with several
 // diagrams has an entry for each of them.
-const std::map<Diagram, Design>& namedDesigns() {
-    static const std::map<Diagram, Design> kDesigns = [] {
-        std::map<Diagram, Design> designs;
+const std::map<CoxeterDiagram, PolytopeDesign>& designsByDiagram() {
+    static const std::map<CoxeterDiagram, PolytopeDesign> kDesigns = [] {
+        std::map<CoxeterDiagram, PolytopeDesign> designs;
         for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
-            const Design design{std::string(row.name), wythoffian(parseValidDiagram(row.linearNotation))};
+            const PolytopeDesign design{std::string(row.name), wythoffian(parseValidDiagram(row.linearNotation))};
             designs.emplace(canonical(parseValidDiagram(row.linearNotation)), design);
             for (const std::string_view other : text::splitAtCommas(row.otherDiagrams))
                 designs.emplace(canonical(parseValidDiagram(other)), design);
         }
         for (const NamedPolyhedron& base : namedPolyhedra()) {
             if (base.linearNotation.starts_with('s')) continue;
-            const Diagram diagram = parseValidDiagram(std::string(base.linearNotation) + " x");
+            const CoxeterDiagram diagram = parseValidDiagram(std::string(base.linearNotation) + " x");
             designs.emplace(canonical(diagram),
-                            base.name == "cube" ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
-                                                : Design{std::string(base.adjective) + " prism", wythoffian(diagram)});
+                            base.name == "cube"
+                                ? designs.at(canonical(parseValidDiagram("x4o3o3o")))
+                                : PolytopeDesign{std::string(base.adjective) + " prism", wythoffian(diagram)});
         }
         // The tetrahedral group is a subgroup of the octahedral group. The bases of the following three prisms have the
         // full octahedral symmetry, so each of these prisms also has a diagram of the octahedral group.
@@ -121,8 +128,8 @@ const std::map<Diagram, Design>& namedDesigns() {
 
 }  // namespace
 
-Design designOf(const Diagram& diagram) {
-    const auto& named = namedDesigns();
+PolytopeDesign designOf(const CoxeterDiagram& diagram) {
+    const auto& named = designsByDiagram();
     if (const auto found = named.find(canonical(diagram)); found != named.end()) return found->second;
     // If every connected component of the diagram has at most two mirrors, the polytope is a duoprism. A component of
     // two mirrors generates a polygon. Two components of one mirror each generate a square together.
@@ -142,32 +149,32 @@ Design designOf(const Diagram& diagram) {
     return duoprism(polygons.at(0), polygons.at(1));
 }
 
-Design duoprism(RegularPolygon p, RegularPolygon q) {
+PolytopeDesign duoprism(RegularPolygon p, RegularPolygon q) {
     if (p == kSquare && q == kSquare) return designOf(parseValidDiagram("x4o3o3o"));
     if (q < p) std::swap(p, q);
     return {textOf(p) + "," + textOf(q) + "-duoprism",
-            wythoffian(Diagram::linear(p, {}, q, {true, false, true, false}))};
+            wythoffian(CoxeterDiagram::linear(p, {}, q, {true, false, true, false}))};
 }
 
-Design antiprismPrism(int sides) {
+PolytopeDesign antiprismPrism(int sides) {
     if (sides == 3) return designOf(parseValidDiagram("o4o3x x"));
     return {adjectiveOf({sides, 1}) + " antiprism prism",
-            std::make_shared<SnubPrismRecipe>(Branch{sides, 1}, Branch{2, 1})};
+            std::make_shared<SnubPrismRecipe>(DiagramBranch{sides, 1}, DiagramBranch{2, 1})};
 }
 
-Design prismOf(const NamedPolyhedron& base) {
+PolytopeDesign prismOf(const NamedPolyhedron& base) {
     if (!base.linearNotation.starts_with('s'))
         return designOf(parseValidDiagram(std::string(base.linearNotation) + " x"));
-    const auto digit = [&](std::size_t i) { return Branch{base.linearNotation[i] - '0', 1}; };
+    const auto digit = [&](std::size_t i) { return DiagramBranch{base.linearNotation[i] - '0', 1}; };
     return {std::string(base.adjective) + " prism", std::make_shared<SnubPrismRecipe>(digit(1), digit(3))};
 }
 
-ElementCounts elementCounts(const Design& design) { return design.recipe->counts(); }
-std::uint64_t symmetryOrder(const Design& design) { return design.recipe->symmetryOrder(); }
-std::string linearNotationOf(const Design& design) { return design.recipe->linearNotation(); }
-std::string schlaefliOf(const Design& design) { return design.recipe->schlaefli(); }
+ElementCounts elementCounts(const PolytopeDesign& design) { return design.recipe->countElements(); }
+std::uint64_t symmetryOrder(const PolytopeDesign& design) { return design.recipe->symmetryOrder(); }
+std::string linearNotationOf(const PolytopeDesign& design) { return design.recipe->linearNotation(); }
+std::string schlaefliOf(const PolytopeDesign& design) { return design.recipe->schlaefli(); }
 
-Polytope build(const Design& design) {
+Polytope build(const PolytopeDesign& design) {
     Polytope polytope = design.recipe->build(design.name);
     polytope.rebuildableFromName = true;
     return polytope;

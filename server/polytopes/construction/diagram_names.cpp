@@ -19,8 +19,8 @@ namespace {
 
 using RingedNodes = std::array<bool, 4>;
 
-// An operation on a regular polychoron, such as truncation. It keeps the diagram of the polychoron, but rings the nodes
-// that `rings` selects.
+// An operation on a regular polychoron, such as truncation. The operation keeps the diagram of the polychoron, but
+// rings the nodes that `rings` selects.
 struct RingOperation {
     std::string_view name;
     RingedNodes rings;
@@ -43,7 +43,9 @@ constexpr auto kOperations = std::to_array<RingOperation>({
     {"runcicantitruncated", {true, true, true, true}},
 });
 
-Diagram diagramOf(const NamedWythoffianPolychoron& row) { return std::get<Diagram>(parseDiagram(row.linearNotation)); }
+CoxeterDiagram diagramOf(const NamedWythoffianPolychoron& row) {
+    return std::get<CoxeterDiagram>(parseDiagram(row.linearNotation));
+}
 
 bool isRegular(const NamedWythoffianPolychoron& row) { return row.family == "regular" || row.family == "star"; }
 
@@ -56,17 +58,17 @@ bool isCalled(const NamedWythoffianPolychoron& row, std::string_view name) {
 }
 
 template <typename Result>
-DesignOrError designFrom(const Result& read) {
-    if (const auto* error = std::get_if<NameError>(&read)) return *error;
-    return designOf(std::get<Diagram>(read));
+PolytopeDesignOrError designFrom(const Result& read) {
+    if (const auto* error = std::get_if<PolytopeNameError>(&read)) return *error;
+    return designOf(std::get<CoxeterDiagram>(read));
 }
 
-std::optional<DesignOrError> operationNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> operationNamed(const PolytopeNameWords& text) {
     for (const RingOperation& operation : kOperations) {
         if (text.words[0] != operation.name) continue;
         for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
             if (!isRegular(row) || !isCalled(row, text.joinedFrom(1))) continue;
-            Diagram diagram = diagramOf(row);
+            CoxeterDiagram diagram = diagramOf(row);
             diagram.ringed = operation.rings;
             return designFrom(parseDiagram(linearNotationOf(diagram)));
         }
@@ -74,7 +76,7 @@ std::optional<DesignOrError> operationNamed(const NameWords& text) {
     return {};
 }
 
-std::optional<DesignOrError> schlaefliNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> schlaefliNamed(const PolytopeNameWords& text) {
     const std::string symbol = text.joinedFrom(0);
     if (symbol.find('{') == std::string::npos) return {};
     return designFrom(parseSchlaefli(symbol));
@@ -85,7 +87,7 @@ bool looksLikeDiagram(std::string_view text) {
     return begins && text.size() > 2 && text.find_first_not_of("xo0123456789/ *abcd") == std::string_view::npos;
 }
 
-std::optional<DesignOrError> diagramNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> diagramNamed(const PolytopeNameWords& text) {
     const std::string diagram = text.joinedFrom(0);
     if (!looksLikeDiagram(diagram)) return {};
     return designFrom(parseDiagram(diagram));
@@ -93,14 +95,14 @@ std::optional<DesignOrError> diagramNamed(const NameWords& text) {
 
 }  // namespace
 
-constinit const Notation kSchlaefliNotation{
+constinit const PolytopeNotation kSchlaefliNotation{
     .polytopes = "a Schläfli symbol",
     .examples = "`{5,5/2,5}`, `t0,1{3,3,5}`, `{5}×{7}`, `tr{4,3}×{}`",
     .edges = "2",
     .parse = schlaefliNamed,
 };
 
-constinit const Notation kDiagramNotation{
+constinit const PolytopeNotation kDiagramNotation{
     .polytopes =
         "a Coxeter–Dynkin diagram in linear notation: x is a ringed node, o an unringed one, numbers "
         "label branches, a blank separates unconnected parts, `*b` refers back to the second node",
@@ -109,23 +111,23 @@ constinit const Notation kDiagramNotation{
     .parse = diagramNamed,
 };
 
-constinit const Notation kOperationNotation{
+constinit const PolytopeNotation kOperationNotation{
     .polytopes = "an operation on a regular polytope by any of its names",
     .examples = "`truncated tesseract`, `rectified hexacosichoron`",
     .edges = "2",
     .parse = operationNamed,
 };
 
-std::vector<std::string> operationNames(const Diagram& diagram) {
+std::vector<std::string> operationNames(const CoxeterDiagram& diagram) {
     std::vector<std::string> names;
     for (const NamedWythoffianPolychoron& row : namedWythoffianPolychora()) {
         if (row.family != "regular") continue;
         for (const RingOperation& operation : kOperations) {
-            // Skip operations that leave the first node without a ring, except rectification and bitruncation: they are
-            // usually named as operations on the dual polytope.
+            // Skip operations that leave the first node without a ring, except rectification and bitruncation: their
+            // results are usually named as operations on the dual polytope.
             if (operation.rings < RingedNodes{true} && operation.name != "rectified" && operation.name != "bitruncated")
                 continue;
-            Diagram regular = diagramOf(row);
+            CoxeterDiagram regular = diagramOf(row);
             regular.ringed = operation.rings;
             if (canonical(regular) != canonical(diagram)) continue;
             names.push_back(std::string(operation.name) + " " + std::string(row.name));

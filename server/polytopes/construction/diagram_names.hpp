@@ -11,6 +11,6 @@ namespace oval4d::polytopes {
 
 /// Returns the names that describe the diagram's polytope as an operation on a convex regular polychoron, such as
 /// "truncated tesseract", "truncated 8-cell" or "bitruncated 16-cell". Returns an empty list if there are none.
-std::vector<std::string> operationNames(const Diagram& diagram);
+std::vector<std::string> operationNames(const CoxeterDiagram& diagram);
 
 }  // namespace oval4d::polytopes

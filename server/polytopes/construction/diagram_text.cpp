@@ -10,14 +10,14 @@ namespace oval4d::polytopes {
 
 namespace {
 
-using Reason = NameError::Reason;
+using Reason = PolytopeNameError::Reason;
 
 constexpr int kMaxNumber = 1'000'000;  // the largest number in a text; polytopes with such numbers are always too large
 
 bool isDigit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
 
 // Reads a text from left to right; `rest` is the part that has not been read.
-struct Reader {
+struct TextScanner {
     std::string_view rest;
 
     bool take(std::string_view token) {
@@ -37,8 +37,8 @@ struct Reader {
         rest.remove_prefix(static_cast<std::size_t>(end - rest.data()));
         return value;
     }
-    std::optional<Branch> branch() {
-        Branch b;
+    std::optional<DiagramBranch> branch() {
+        DiagramBranch b;
         const auto numerator = number();
         if (!numerator) return {};
         b.numerator = *numerator;
@@ -54,8 +54,8 @@ struct Reader {
     }
 };
 
-NameError badBranch() {
-    return NameError::impossible(
+PolytopeNameError badBranchError() {
+    return PolytopeNameError::impossible(
         "a branch number must be a whole number of at least 2, or a fraction in lowest terms greater than 2, such as "
         "5/2");
 }
@@ -65,36 +65,36 @@ NameError badBranch() {
 class DiagramBuilder {
   public:
     int nodes = 0;
-    Diagram diagram;
+    CoxeterDiagram diagram;
 
-    void add(bool ringed) {
+    void addNode(bool ringed) {
         if (nodes < kMirrors) diagram.ringed.at(nodes) = ringed;
         ++nodes;
     }
-    void join(int a, int b, Branch branch) {
+    void addBranch(int a, int b, DiagramBranch branch) {
         if (a < kMirrors && b < kMirrors) diagram.branches[a][b] = diagram.branches[b][a] = branch;
     }
 
-    std::variant<Diagram, NameError> checked(std::string_view text) const {
+    std::variant<CoxeterDiagram, PolytopeNameError> checkedDiagram(std::string_view text) const {
         if (nodes != kMirrors) {
-            return NameError::impossible("the diagram of a polychoron has four nodes, as in x5o3o3x, not " +
-                                         std::to_string(nodes));
+            return PolytopeNameError::impossible("the diagram of a polychoron has four nodes, as in x5o3o3x, not " +
+                                                 std::to_string(nodes));
         }
         if (groupOrder(diagram) == 0) {
-            return NameError::impossible(
+            return PolytopeNameError::impossible(
                 "the mirrors of " + std::string(text) +
                 " do not generate a finite group; each connected component must be the diagram of a "
                 "regular or star polygon, polyhedron or polychoron, or D4, x3o3o *b3o");
         }
         if (!generatesElement(diagram, 0xf)) {
-            return NameError::impossible("every connected component of " + std::string(text) +
-                                         " needs a ringed node, x");
+            return PolytopeNameError::impossible("every connected component of " + std::string(text) +
+                                                 " needs a ringed node, x");
         }
         for (int i = 0; i < kMirrors; ++i) {
             for (int j = 0; j < i; ++j) {
-                const Branch b = diagram.branches[i][j];
+                const DiagramBranch b = diagram.branches[i][j];
                 if (b.denominator % 2 == 0 && diagram.ringed.at(i) && diagram.ringed.at(j)) {
-                    return NameError::impossible(
+                    return PolytopeNameError::impossible(
                         "a branch " + textOf(b) + " of " + std::string(text) +
                         " with both ends ringed generates polygons that cover themselves twice");
                 }
@@ -106,10 +106,10 @@ class DiagramBuilder {
 
 // Returns the mirrors of a connected component that is a chain, in order from the end with the smaller number. Returns
 // an empty list if the component is not a chain.
-std::vector<int> chainOf(const Diagram& diagram, MirrorSet component) {
+std::vector<int> mirrorsAlongChain(const CoxeterDiagram& diagram, MirrorSet component) {
     std::vector<int> mirrors;
     for (int i = 0; i < kMirrors; ++i) {
-        if (holds(component, i)) mirrors.push_back(i);
+        if (containsMirror(component, i)) mirrors.push_back(i);
     }
     do {
         bool chain = true;
@@ -142,53 +142,53 @@ std::optional<MirrorSet> parseRingPrefix(std::string_view text) {
 
 }  // namespace
 
-std::string textOf(Branch branch) {
+std::string textOf(DiagramBranch branch) {
     return std::to_string(branch.numerator) + (branch.denominator == 1 ? "" : "/" + std::to_string(branch.denominator));
 }
 
-std::optional<Branch> parseBranch(std::string_view text) {
-    Reader reader{text};
+std::optional<DiagramBranch> parseBranch(std::string_view text) {
+    TextScanner reader{text};
     const auto branch = reader.branch();
     return reader.rest.empty() ? branch : std::nullopt;
 }
 
-std::variant<Diagram, NameError> parseDiagram(std::string_view text) {
-    Reader reader{text};
+std::variant<CoxeterDiagram, PolytopeNameError> parseDiagram(std::string_view text) {
+    TextScanner reader{text};
     DiagramBuilder builder;
     int last = -1;
     while (true) {
         bool joined = !reader.skipBlanks();
-        if (reader.rest.empty()) return builder.checked(text);
+        if (reader.rest.empty()) return builder.checkedDiagram(text);
         if (reader.take("*")) {
             const int back = reader.rest.empty() ? -1 : reader.rest.front() - 'a';
             if (back < 0 || back >= builder.nodes || back >= kMirrors) {
-                return NameError::impossible(
+                return PolytopeNameError::impossible(
                     "* must be followed by the letter of an earlier node: a for the first, b for the second");
             }
             reader.rest.remove_prefix(1);
             last = back;
             joined = true;
         } else if (builder.nodes > 0 && joined && !isDigit(reader.rest.front())) {
-            return NameError::impossible(
+            return PolytopeNameError::impossible(
                 "two nodes must be separated by a branch number or a blank, as in x5o3o3x and x5o x7o");
         }
         if (builder.nodes > 0 && joined) {
             const auto branch = reader.branch();
-            if (!branch) return badBranch();
-            builder.join(last, builder.nodes, *branch);
+            if (!branch) return badBranchError();
+            builder.addBranch(last, builder.nodes, *branch);
         }
         const bool ringed = reader.rest.starts_with('x');
         if (!ringed && !reader.rest.starts_with('o')) {
-            return NameError::impossible("the nodes of a diagram are written x (ringed) and o, as in x5o3o3x");
+            return PolytopeNameError::impossible("the nodes of a diagram are written x (ringed) and o, as in x5o3o3x");
         }
         reader.rest.remove_prefix(1);
         last = builder.nodes;
-        builder.add(ringed);
+        builder.addNode(ringed);
     }
 }
 
-std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
-    Reader reader{text};
+std::variant<CoxeterDiagram, PolytopeNameError> parseSchlaefli(std::string_view text) {
+    TextScanner reader{text};
     DiagramBuilder builder;
     do {
         reader.skipBlanks();
@@ -196,34 +196,34 @@ std::variant<Diagram, NameError> parseSchlaefli(std::string_view text) {
         const auto rings =
             brace == std::string_view::npos ? std::nullopt : parseRingPrefix(reader.rest.substr(0, brace));
         if (!rings) {
-            return NameError::impossible(
+            return PolytopeNameError::impossible(
                 "a Schläfli symbol has a form such as {3,3,5}, t0,1{4,3,3}, {5}×{7} or t{4,3}×{}");
         }
         reader.rest.remove_prefix(brace + 1);
         const int first = builder.nodes;
-        builder.add(holds(*rings, 0));
+        builder.addNode(containsMirror(*rings, 0));
         while (!reader.take("}")) {
             if (builder.nodes > first + 1) reader.take(",");
             const auto branch = reader.branch();
-            if (!branch) return badBranch();
-            builder.add(builder.nodes - first < kMirrors && holds(*rings, builder.nodes - first));
-            builder.join(builder.nodes - 2, builder.nodes - 1, *branch);
+            if (!branch) return badBranchError();
+            builder.addNode(builder.nodes - first < kMirrors && containsMirror(*rings, builder.nodes - first));
+            builder.addBranch(builder.nodes - 2, builder.nodes - 1, *branch);
         }
         // Check that the symbol has all nodes that its prefix rings. A prefix can ring only the nodes 0 to 3, so a
         // symbol of four or more nodes needs no check. The check is also skipped because a shift by 32 or more is
         // undefined.
         if (const int own = builder.nodes - first; own < kMirrors && (*rings >> static_cast<unsigned>(own)) != 0) {
-            return NameError::impossible(
+            return PolytopeNameError::impossible(
                 "the numbers before { must be node numbers, from 0 to the last node of the symbol");
         }
         reader.skipBlanks();
     } while (reader.take("×") || reader.take("x"));
     if (!reader.rest.empty())
-        return NameError::impossible("the } of a Schläfli symbol may be followed only by × and another symbol");
-    return builder.checked(text);
+        return PolytopeNameError::impossible("the } of a Schläfli symbol may be followed only by × and another symbol");
+    return builder.checkedDiagram(text);
 }
 
-std::string linearNotationOf(const Diagram& diagram) {
+std::string linearNotationOf(const CoxeterDiagram& diagram) {
     std::string text;
     for (int i = 0; i < kMirrors; ++i) {
         int joined = -1;
@@ -238,10 +238,10 @@ std::string linearNotationOf(const Diagram& diagram) {
     return text;
 }
 
-std::string schlaefliOf(const Diagram& diagram) {
+std::string schlaefliOf(const CoxeterDiagram& diagram) {
     std::string text;
     for (const MirrorSet component : componentsOf(diagram)) {
-        const std::vector<int> chain = chainOf(diagram, component);
+        const std::vector<int> chain = mirrorsAlongChain(diagram, component);
         if (chain.empty()) return {};
         if (!text.empty()) text += "×";
         std::string rings;

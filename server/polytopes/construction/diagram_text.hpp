@@ -13,7 +13,7 @@
 namespace oval4d::polytopes {
 
 /// The reason why a text names no polytope.
-struct NameError {
+struct PolytopeNameError {
     enum class Reason : std::uint8_t {
         unknown,     ///< the text is neither a known name nor in a known notation; `message` may be empty
         impossible,  ///< the text has a known notation, but describes no polytope, such as "2,5-duoprism", or is too
@@ -24,7 +24,7 @@ struct NameError {
     std::string message;  ///< what is wrong and what is allowed, as a text for the user
 
     /// Returns an error with Reason::impossible.
-    static NameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
+    static PolytopeNameError impossible(std::string message) { return {Reason::impossible, std::move(message)}; }
 };
 
 /// Parses a diagram in linear notation (after Krieger and Klitzing): nodes x (ringed) and o with branch numbers between
@@ -34,24 +34,24 @@ struct NameError {
 /// Returns an error if the text has another form, if there are not four nodes, if the group is not finite, or if a
 /// component has no ringed node. Also returns an error if a branch with an even denominator joins two ringed nodes,
 /// because the polygons of such a branch would cover themselves twice.
-std::variant<Diagram, NameError> parseDiagram(std::string_view text);
+std::variant<CoxeterDiagram, PolytopeNameError> parseDiagram(std::string_view text);
 
 /// Parses Schläfli symbols of regular and truncated polytopes and of their products: "{3,3,5}", "t0,1{4,3,3}",
 /// "r{3,3,3}", "{5}×{7}", "t{4,3}×{}"; "x" may replace "×". Returns the same errors as parseDiagram().
-std::variant<Diagram, NameError> parseSchlaefli(std::string_view text);
+std::variant<CoxeterDiagram, PolytopeNameError> parseSchlaefli(std::string_view text);
 
 /// Returns the diagram in linear notation, such as "x3o4o3o", in the order of its mirrors.
-std::string linearNotationOf(const Diagram& diagram);
+std::string linearNotationOf(const CoxeterDiagram& diagram);
 
 /// Returns the Schläfli symbol, such as "{3,3,5}", "t0,1{4,3,3}", "t0,1{4,3}×{}" or "{5}×{7}". Returns an empty string
 /// if a connected component of the diagram is not a chain.
-std::string schlaefliOf(const Diagram& diagram);
+std::string schlaefliOf(const CoxeterDiagram& diagram);
 
 /// Returns the branch as text, such as "5" or "5/2".
-std::string textOf(Branch branch);
+std::string textOf(DiagramBranch branch);
 
 /// Parses a branch such as "5" or "5/2": an integer of at least 2, or a fraction in lowest terms greater than 2.
 /// Returns an empty optional for other texts, and if the numerator is greater than 1,000,000.
-std::optional<Branch> parseBranch(std::string_view text);
+std::optional<DiagramBranch> parseBranch(std::string_view text);
 
 }  // namespace oval4d::polytopes

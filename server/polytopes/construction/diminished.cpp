@@ -22,12 +22,12 @@ namespace {
 constexpr std::uint32_t kRemoved = 0xffffffffU;
 
 Polytope sixHundredCell() {
-    const Diagram diagram = Diagram::linear({3, 1}, {3, 1}, {5, 1}, {true, false, false, false});
-    return wythoff("600-cell", diagram, mirrorsOf(diagram));
+    const CoxeterDiagram diagram = CoxeterDiagram::linear({3, 1}, {3, 1}, {5, 1}, {true, false, false, false});
+    return wythoffConstruction("600-cell", diagram, mirrorsOf(diagram));
 }
 
 // Returns the vertex loop of a polygon whose edges are given in any order.
-std::vector<std::uint32_t> loopOf(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+std::vector<std::uint32_t> vertexLoopOf(const std::vector<std::array<std::uint32_t, 2>>& edges) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> beside;
     for (const auto& [a, b] : edges) {
         beside[a].push_back(b);
@@ -90,7 +90,7 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
     }
     for (const auto& [pair, edges] : between) {
         const auto number = static_cast<std::uint32_t>(faces.size());
-        faces.add(loopOf(edges));
+        faces.add(vertexLoopOf(edges));
         cellOfLost[pair.first].push_back(number);
         cellOfLost[pair.second].push_back(number);
     }
@@ -102,7 +102,7 @@ Polytope diminished(std::string name, const Polytope& whole, const std::vector<b
 
 Polytope buildSnub24Cell(std::string name) {
     // In the usual coordinates, scaled to the circumradius 2, the 600-cell has 24 vertices without irrational
-    // coordinates: the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1). They are the vertices of a 24-cell.
+    // coordinates: the permutations of (±2, 0, 0, 0) and all (±1, ±1, ±1, ±1). These vertices are those of a 24-cell.
     const Polytope whole = sixHundredCell();
     const double unit = whole.circumradius / 2;
     std::vector<bool> removed;
@@ -145,7 +145,7 @@ class Diminished600CellRecipe : public Recipe {
           schlaefli_(std::move(schlaefli)),
           builder_(builder) {}
 
-    ElementCounts counts() const override { return counts_; }
+    ElementCounts countElements() const override { return counts_; }
     std::uint64_t symmetryOrder() const override { return symmetryOrder_; }
     std::string linearNotation() const override { return linearNotation_; }
     std::string schlaefli() const override { return schlaefli_; }
@@ -161,13 +161,13 @@ class Diminished600CellRecipe : public Recipe {
 }  // namespace
 
 // The 144 cells are 600 − 24 · 20 tetrahedra and 24 icosahedra.
-Design snub24Cell() {
+PolytopeDesign snub24Cell() {
     return {"snub 24-cell", std::make_shared<Diminished600CellRecipe>(ElementCounts{96, 432, 480, 144}, 576, "s3s4o3o",
                                                                       "s{3,4,3}", buildSnub24Cell)};
 }
 
 // The 320 cells are 20 antiprisms and 300 tetrahedra.
-Design grandAntiprism() {
+PolytopeDesign grandAntiprism() {
     return {"grand antiprism", std::make_shared<Diminished600CellRecipe>(ElementCounts{100, 500, 720, 320}, 400, "", "",
                                                                          buildGrandAntiprism)};
 }

@@ -18,7 +18,7 @@ namespace oval4d::polytopes {
 namespace {
 
 /// Returns the point nearest to the origin in the hyperplane of a cell.
-glm::dvec4 footOf(const Polytope& polytope, std::uint32_t cell) {
+glm::dvec4 footOfPerpendicular(const Polytope& polytope, std::uint32_t cell) {
     // Start at a vertex, and remove the components along three orthonormal directions in the hyperplane. The
     // Gram–Schmidt process computes these directions from the differences of vertices; for accuracy, it always takes
     // the longest remainder as the next direction.
@@ -41,12 +41,12 @@ glm::dvec4 footOf(const Polytope& polytope, std::uint32_t cell) {
 
 class DualRecipe : public Recipe {
   public:
-    explicit DualRecipe(Design base) : base_(std::move(base)) {}
+    explicit DualRecipe(PolytopeDesign base) : base_(std::move(base)) {}
 
-    const Design& base() const { return base_; }
+    const PolytopeDesign& base() const { return base_; }
 
-    ElementCounts counts() const override {
-        const auto [vertices, edges, faces, cells] = base_.recipe->counts();
+    ElementCounts countElements() const override {
+        const auto [vertices, edges, faces, cells] = base_.recipe->countElements();
         return {cells, faces, edges, vertices};
     }
     std::uint64_t symmetryOrder() const override { return base_.recipe->symmetryOrder(); }
@@ -63,7 +63,7 @@ class DualRecipe : public Recipe {
     }
 
   private:
-    Design base_;
+    PolytopeDesign base_;
 };
 
 }  // namespace
@@ -72,7 +72,7 @@ std::vector<glm::dvec4> polesOf(const Polytope& polytope) {
     constexpr double kLeastDistance = 1e-6;  // the least distance of a hyperplane from the origin, in circumradii
     std::vector<glm::dvec4> poles;
     for (std::uint32_t c = 0; c < polytope.cells.size(); ++c) {
-        const glm::dvec4 foot = footOf(polytope, c);
+        const glm::dvec4 foot = footOfPerpendicular(polytope, c);
         if (glm::length(foot) < kLeastDistance * polytope.circumradius)
             throw std::invalid_argument("the hyperplane of a cell of the " + polytope.name +
                                         " passes through its center");
@@ -95,9 +95,9 @@ Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<gl
     return makePolytope(std::move(name), std::move(vertices), std::move(faces), std::move(cells));
 }
 
-std::optional<Diagram> regularDiagram(const Design& design) {
+std::optional<CoxeterDiagram> regularDiagram(const PolytopeDesign& design) {
     const auto read = parseDiagram(design.recipe->linearNotation());
-    const auto* diagram = std::get_if<Diagram>(&read);
+    const auto* diagram = std::get_if<CoxeterDiagram>(&read);
     if (diagram == nullptr || componentsOf(*diagram).size() != 1) return {};
     const bool linear = diagram->branches[0][2].numerator == 2 && diagram->branches[0][3].numerator == 2 &&
                         diagram->branches[1][3].numerator == 2;
@@ -121,23 +121,23 @@ namespace {
 // The dual of a dual has the design of the original polytope. The dual of a regular polytope has the design, and
 // therefore the size, of a regular polytope: the dual of the 8-cell is the 16-cell with edge length 2. If the
 // hyperplane of a cell passes through the center, there is no dual, and Recipe::build throws std::invalid_argument.
-std::optional<DesignOrError> dualNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> dualNamed(const PolytopeNameWords& text) {
     if (text.words.front() != "dual" || text.words.size() < 2) return {};
     const std::size_t skipped = text.words[1] == "of" ? 2 : 1;
-    DesignOrError described = text.lookup(text.joinedFrom(skipped));
-    const auto* base = std::get_if<Design>(&described);
-    if (base == nullptr) return std::get<NameError>(described);
+    PolytopeDesignOrError described = text.lookup(text.joinedFrom(skipped));
+    const auto* base = std::get_if<PolytopeDesign>(&described);
+    if (base == nullptr) return std::get<PolytopeNameError>(described);
     if (const auto* dual = dynamic_cast<const DualRecipe*>(base->recipe.get())) return dual->base();
     if (auto regular = regularDiagram(*base)) {
         regular->ringed = {false, false, false, true};
         return designOf(*regular);
     }
-    return Design{"dual of " + base->name, std::make_shared<DualRecipe>(*base)};
+    return PolytopeDesign{"dual of " + base->name, std::make_shared<DualRecipe>(*base)};
 }
 
 }  // namespace
 
-constinit const Notation kDualNotation{
+constinit const PolytopeNotation kDualNotation{
     .polytopes =
         "`dual of X`, of a convex polytope, or of a star without cells whose hyperplanes pass through the "
         "center: the polar reciprocal about the center. Its circumradius is that of X, unless X is "

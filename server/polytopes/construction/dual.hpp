@@ -15,13 +15,14 @@ namespace oval4d::polytopes {
 /// hyperplane. Throws std::invalid_argument if the hyperplane of a cell passes through the origin.
 std::vector<glm::dvec4> polesOf(const Polytope& polytope);
 
-/// Returns a polytope with the incidences of the dual of `base`. It has a vertex for each cell of `base`, a 2-face for
-/// each edge (the loop of the cells around the edge), and a cell for each vertex. `vertices` holds the position of the
-/// new vertex for each cell of `base`. Throws InvalidPolytope if these elements do not form a valid polytope.
+/// Returns a polytope with the incidences of the dual of `base`. The result has a vertex for each cell of `base`, a
+/// 2-face for each edge (the loop of the cells around the edge), and a cell for each vertex. `vertices` holds the
+/// position of the new vertex for each cell of `base`. Throws InvalidPolytope if these elements do not form a valid
+/// polytope.
 Polytope dualWithVertices(const Polytope& base, std::string name, std::vector<glm::dvec4> vertices);
 
 /// Returns the diagram of a regular polytope: a chain whose only ringed mirror is the first one, with the branches in
 /// the order of the Schläfli symbol. Returns an empty optional for other polytopes.
-std::optional<Diagram> regularDiagram(const Design& design);
+std::optional<CoxeterDiagram> regularDiagram(const PolytopeDesign& design);
 
 }  // namespace oval4d::polytopes

@@ -49,7 +49,7 @@ class DuoantiprismRecipe : public Recipe {
     /// Makes a recipe for a p-gon and a q-gon. p must be at least 2, and q at least 3 and not less than p.
     DuoantiprismRecipe(int p, int q) : p_(static_cast<std::uint32_t>(p)), q_(static_cast<std::uint32_t>(q)) {}
 
-    ElementCounts counts() const override {
+    ElementCounts countElements() const override {
         const std::uint64_t p = p_, q = q_, pairs = p * q;
         const bool digons = p == 2;  // a digon is not a 2-face, and its two sides are the same edge
         return {2 * pairs, (digons ? 7 : 8) * pairs, 8 * pairs + 2 * p + (digons ? 0 : 2 * q), 2 * (pairs + p + q)};
@@ -57,7 +57,7 @@ class DuoantiprismRecipe : public Recipe {
     // The dihedral groups of order 4p and 4q act on the two circles. There are 16pq pairs of an element of one group
     // and an element of the other. Half of these pairs map the vertices of the duoantiprism to each other. If p = q,
     // there are twice as many symmetries, because the two planes can be exchanged.
-    std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * counts().vertices; }
+    std::uint64_t symmetryOrder() const override { return (p_ == q_ ? 8 : 4) * countElements().vertices; }
     std::string linearNotation() const override { return "s" + std::to_string(p_) + "s2s" + std::to_string(q_) + "s"; }
     std::string schlaefli() const override {
         return "ht0,1,2,3{" + std::to_string(p_) + ",2," + std::to_string(q_) + "}";
@@ -143,24 +143,24 @@ class DuoantiprismRecipe : public Recipe {
 // The sides of all p-gons and q-gons have length 2, because the ratio of the longest edge to the shortest edge is least
 // if these sides are equal. The edges that join the polygons are all equally long; their length is between √2 and 2, or
 // 2 for p = q = 2.
-std::optional<DesignOrError> duoantiprismNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> duoantiprismNamed(const PolytopeNameWords& text) {
     if (text.words.back() != "duoantiprism") return {};
     const auto polygons = duoprismPolygonsNamed(text.withoutLast());
     const auto isStar = [](RegularPolygon each) { return each.denominator != 1; };
     if (!polygons || polygons->size() != 2 || std::ranges::any_of(*polygons, isStar)) {
-        return NameError::impossible(
+        return PolytopeNameError::impossible(
             "a duoantiprism is named after two polygons that have at least two sides and are no stars, as in "
             "3,4-duoantiprism");
     }
     const auto [p, q] = std::minmax((*polygons)[0].numerator, (*polygons)[1].numerator);
-    if (q == 2) return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
-    return Design{std::to_string(p) + "," + std::to_string(q) + "-duoantiprism",
-                  std::make_shared<DuoantiprismRecipe>(p, q)};
+    if (q == 2) return designOf(std::get<CoxeterDiagram>(parseDiagram("x3o3o4o")));
+    return PolytopeDesign{std::to_string(p) + "," + std::to_string(q) + "-duoantiprism",
+                          std::make_shared<DuoantiprismRecipe>(p, q)};
 }
 
 }  // namespace
 
-constinit const Notation kDuoantiprismNotation{
+constinit const PolytopeNotation kDuoantiprismNotation{
     .polytopes =
         "a duoantiprism: the convex hull of every other vertex of the duoprism of two polygons with twice as "
         "many sides. The polygons have at least two sides and are no stars; a single polygon stands for two",

@@ -17,15 +17,15 @@
 namespace oval4d::polytopes {
 
 /// The design that a text denotes, or the reason why it denotes none.
-using DesignOrError = std::variant<Design, NameError>;
+using PolytopeDesignOrError = std::variant<PolytopeDesign, PolytopeNameError>;
 
 /// A function that returns the design that a text in any notation denotes. A notation calls this function if its own
 /// text contains the name of another polytope, as in "dual of rectified 5-cell".
-using DesignLookup = std::function<DesignOrError(std::string_view text)>;
+using DesignLookup = std::function<PolytopeDesignOrError(std::string_view text)>;
 
 /// A text that may name a polytope, split into at least one lower-case word, and the function that looks up the names
 /// of other polytopes in the text. The words and the function must outlive this object.
-struct NameWords {
+struct PolytopeNameWords {
     const std::vector<std::string>& words;
     const DesignLookup& lookup;
 
@@ -37,7 +37,7 @@ struct NameWords {
 
 /// A notation for a family of polytopes. `polytopes`, `examples` and `edges` are Markdown texts, from which `tests/lint
 /// --fix` makes a row of a table in protocol/README.md.
-struct Notation {
+struct PolytopeNotation {
     std::string_view polytopes;  ///< the polytopes that have names in the notation, such as "a duoprism"
     std::string_view examples;   ///< examples of names in backquotes, such as "`5,7-duoprism`, `5/2,5-duoprism`"
     std::string_view edges;      ///< the lengths of edges; "2" if all edges of all polytopes of the family have the
@@ -46,25 +46,25 @@ struct Notation {
     std::string_view constructions = {};
     /// Parses a text. Returns the design, an error if the text is in this notation but denotes no polytope, or an empty
     /// optional if the text is not in this notation.
-    std::optional<DesignOrError> (*parse)(const NameWords& text);
+    std::optional<PolytopeDesignOrError> (*parse)(const PolytopeNameWords& text);
 };
 
-extern const Notation kDualNotation;                       // defined in dual.cpp
-extern const Notation kOverPolyhedronNotation;             // defined in over_polyhedra.cpp
-extern const Notation kTruncationOrRectificationNotation;  // defined in truncation_or_rectification.cpp
-extern const Notation kCombinationNotation;                // defined in combination.cpp
-extern const Notation kSchlaefliNotation;                  // defined in diagram_names.cpp
-extern const Notation kDiagramNotation;                    // defined in diagram_names.cpp
-extern const Notation kSnubPrismDiagramNotation;           // defined in prism_names.cpp
-extern const Notation kDuoprismNotation;                   // defined in prism_names.cpp
-extern const Notation kDuoantiprismNotation;               // defined in duoantiprism.cpp
-extern const Notation kCyclicPolytopeNotation;             // defined in cyclic_polytope.cpp
-extern const Notation kPrismNotation;                      // defined in prism_names.cpp
-extern const Notation kOperationNotation;                  // defined in diagram_names.cpp
+extern const PolytopeNotation kDualNotation;                       // defined in dual.cpp
+extern const PolytopeNotation kOverPolyhedronNotation;             // defined in over_polyhedra.cpp
+extern const PolytopeNotation kTruncationOrRectificationNotation;  // defined in truncation_or_rectification.cpp
+extern const PolytopeNotation kCombinationNotation;                // defined in combination.cpp
+extern const PolytopeNotation kSchlaefliNotation;                  // defined in diagram_names.cpp
+extern const PolytopeNotation kDiagramNotation;                    // defined in diagram_names.cpp
+extern const PolytopeNotation kSnubPrismDiagramNotation;           // defined in prism_names.cpp
+extern const PolytopeNotation kDuoprismNotation;                   // defined in prism_names.cpp
+extern const PolytopeNotation kDuoantiprismNotation;               // defined in duoantiprism.cpp
+extern const PolytopeNotation kCyclicPolytopeNotation;             // defined in cyclic_polytope.cpp
+extern const PolytopeNotation kPrismNotation;                      // defined in prism_names.cpp
+extern const PolytopeNotation kOperationNotation;                  // defined in diagram_names.cpp
 
 /// All notations, in the order in which a text is tried. The first notation that returns a design or an error decides.
-/// However, an error with NameError::Reason::unknown and an empty message does not end the search.
-inline constexpr auto kNotations = std::to_array<const Notation*>({
+/// However, an error with PolytopeNameError::Reason::unknown and an empty message does not end the search.
+inline constexpr auto kNotations = std::to_array<const PolytopeNotation*>({
     &kDualNotation,
     &kOverPolyhedronNotation,
     &kTruncationOrRectificationNotation,

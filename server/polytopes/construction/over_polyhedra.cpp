@@ -33,7 +33,7 @@ class PrismOrPyramidRecipe : public Recipe {
   public:
     PrismOrPyramidRecipe(PrismOrPyramidKind over, const Solid& solid) : over_(over), solid_(solid) {}
 
-    ElementCounts counts() const override {
+    ElementCounts countElements() const override {
         const auto [v, e, f] = countsOf(solid_);
         switch (over_) {
             case PrismOrPyramidKind::prism:
@@ -58,7 +58,7 @@ class PrismOrPyramidRecipe : public Recipe {
             return prismOver(name, {std::move(base.vertices), std::move(base.faces), orbits});
         }
         const auto n = static_cast<std::uint32_t>(base.vertices.size());
-        const double height = heightOver(base.vertices);
+        const double height = apexHeightOver(base.vertices);
         const double shift =
             over_ == PrismOrPyramidKind::pyramid ? height / (n + 1) : 0;  // moves the mean to the origin
         std::vector<glm::dvec4> vertices;
@@ -92,8 +92,8 @@ class PrismOrPyramidRecipe : public Recipe {
 
   private:
     // Returns the height of a pyramid or of each half of a bipyramid, by the rules in the comment of
-    // overPolyhedronNamed().
-    double heightOver(const std::vector<glm::dvec3>& base) const {
+    // prismOrPyramidNamed().
+    double apexHeightOver(const std::vector<glm::dvec3>& base) const {
         constexpr double kEdge = 2, kFlat = 1e-6;
         double circumradius = 0;
         for (const glm::dvec3& v : base) circumradius = std::max(circumradius, glm::length(v));
@@ -105,13 +105,13 @@ class PrismOrPyramidRecipe : public Recipe {
     Solid solid_;
 };
 
-Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
+PolytopeDesign prismOrPyramidOver(PrismOrPyramidKind over, const Solid& solid) {
     const auto is = [&](std::string_view name) { return nameOf(solid) == name; };
     if (over == PrismOrPyramidKind::prism && !solid.dual) return uniformPrismOver(solid);
     if (over == PrismOrPyramidKind::pyramid && is("tetrahedron"))
-        return designOf(std::get<Diagram>(parseDiagram("x3o3o3o")));
+        return designOf(std::get<CoxeterDiagram>(parseDiagram("x3o3o3o")));
     if (over == PrismOrPyramidKind::bipyramid && is("octahedron"))
-        return designOf(std::get<Diagram>(parseDiagram("x3o3o4o")));
+        return designOf(std::get<CoxeterDiagram>(parseDiagram("x3o3o4o")));
     const auto word = std::ranges::find(kWords, over, &std::pair<std::string_view, PrismOrPyramidKind>::second)->first;
     return {std::string(word) + " of " + nameOf(solid), std::make_shared<PrismOrPyramidRecipe>(over, solid)};
 }
@@ -125,25 +125,25 @@ Design overPolyhedron(PrismOrPyramidKind over, const Solid& solid) {
 // of a pyramid or bipyramid have length 2. Otherwise, the height of a pyramid, and of each half of a bipyramid, is the
 // circumradius of the polyhedron. The mean of the vertices is the origin. If the name denotes a uniform polytope,
 // returns the design of this polytope, for example the 5-cell for "pyramid of tetrahedron".
-std::optional<DesignOrError> overPolyhedronNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> prismOrPyramidNamed(const PolytopeNameWords& text) {
     if (text.words.size() < 3 || text.words[1] != "of") return {};
     const auto word = std::ranges::find(kWords, text.words[0], &std::pair<std::string_view, PrismOrPyramidKind>::first);
     if (word == kWords.end()) return {};
     const auto solid = solidNamed({text.words.begin() + 2, text.words.end()});
     if (!solid) {
-        return NameError::impossible(
+        return PolytopeNameError::impossible(
             "'" + text.joinedFrom(2) + "' is not the name of a polyhedron; a " + std::string(word->first) +
             " is built over a Platonic or Archimedean solid, a prism, an antiprism, or the dual of "
             "one of these, as in " +
             std::string(word->first) + " of cube");
     }
-    if (const auto* error = std::get_if<NameError>(&*solid)) return *error;
-    return overPolyhedron(word->second, std::get<Solid>(*solid));
+    if (const auto* error = std::get_if<PolytopeNameError>(&*solid)) return *error;
+    return prismOrPyramidOver(word->second, std::get<Solid>(*solid));
 }
 
 }  // namespace
 
-constinit const Notation kOverPolyhedronNotation{
+constinit const PolytopeNotation kOverPolyhedronNotation{
     .polytopes =
         "`prism of P`, `pyramid of P` and `bipyramid of P`, over a polyhedron: the prism of height 2, or "
         "the convex hull of P and a point, or two points, on its axis",
@@ -153,7 +153,7 @@ constinit const Notation kOverPolyhedronNotation{
         "uniform and has a circumradius of less than 2, otherwise such that the distance of the apex from the "
         "center of P is the circumradius of P",
     .constructions = "prism,pyramid,bipyramid",
-    .parse = overPolyhedronNamed,
+    .parse = prismOrPyramidNamed,
 };
 
 }  // namespace oval4d::polytopes

@@ -64,7 +64,7 @@ constexpr auto kPolygons = std::to_array<NamedPolygon>({
 // Each pair of these mirrors that generates an element of the prism generates an orbit of faces of the base. The number
 // of faces in the orbit is the order of the base's group divided by the order of the stabilizer of a face. The
 // circumradius of the base is the distance of the generating vertex from the base's center.
-PolyhedronSignature shapeOf(const Diagram& prism) {
+PolyhedronSignature signatureOf(const CoxeterDiagram& prism) {
     PolyhedronSignature shape;
     const MirrorSet solid = 0x7;
     for (MirrorSet set = 0; set < solid; ++set) {
@@ -86,8 +86,8 @@ PolyhedronSignature shapeOf(const Diagram& prism) {
 }
 
 // Returns the diagram of the prism over a polyhedron that is not a snub.
-Diagram prismDiagram(const NamedPolyhedron& base) {
-    return std::get<Diagram>(parseDiagram(std::string(base.linearNotation) + " x"));
+CoxeterDiagram prismDiagram(const NamedPolyhedron& base) {
+    return std::get<CoxeterDiagram>(parseDiagram(std::string(base.linearNotation) + " x"));
 }
 
 bool isSnub(const NamedPolyhedron& polyhedron) { return polyhedron.linearNotation.starts_with('s'); }
@@ -97,7 +97,7 @@ PolyhedronWithOrbits buildSnub(const NamedPolyhedron& polyhedron) {
     return snubOf({polyhedron.linearNotation[1] - '0', 1}, {polyhedron.linearNotation[3] - '0', 1});
 }
 
-PolyhedronSignature shapeOf(const PolyhedronWithOrbits& snub) {
+PolyhedronSignature signatureOf(const PolyhedronWithOrbits& snub) {
     PolyhedronSignature shape;
     shape.vertices = static_cast<std::uint32_t>(snub.vertices.size());
     shape.circumradius = glm::length(snub.vertices[0]);
@@ -105,17 +105,17 @@ PolyhedronSignature shapeOf(const PolyhedronWithOrbits& snub) {
     return shape;
 }
 
-const std::vector<PolyhedronSignature>& namedShapes() {
+const std::vector<PolyhedronSignature>& namedPolyhedronSignatures() {
     static const std::vector<PolyhedronSignature> kShapes = [] {
         std::vector<PolyhedronSignature> shapes;
         for (const NamedPolyhedron& named : kNamed)
-            shapes.push_back(isSnub(named) ? shapeOf(buildSnub(named)) : shapeOf(prismDiagram(named)));
+            shapes.push_back(isSnub(named) ? signatureOf(buildSnub(named)) : signatureOf(prismDiagram(named)));
         return shapes;
     }();
     return kShapes;
 }
 
-bool alike(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance * b; }
+bool isNearlyEqual(double a, double b, double tolerance) { return std::abs(a - b) <= tolerance * b; }
 
 }  // namespace
 
@@ -127,9 +127,9 @@ bool isConvex(const NamedPolyhedron& polyhedron) {
 
 std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron) {
     if (isSnub(polyhedron)) return buildSnub(polyhedron).vertices;
-    const Diagram prism = prismDiagram(polyhedron);
+    const CoxeterDiagram prism = prismDiagram(polyhedron);
     std::vector<glm::dvec3> vertices;
-    for (const glm::dvec4& vertex : wythoff({}, prism, mirrorsOf(prism)).vertices) {
+    for (const glm::dvec4& vertex : wythoffConstruction({}, prism, mirrorsOf(prism)).vertices) {
         if (vertex.w > 0) vertices.emplace_back(vertex);
     }
     return vertices;
@@ -142,7 +142,7 @@ std::string adjectiveOf(RegularPolygon polygon) {
     return textOf(polygon) + "-gonal";
 }
 
-std::string nounOf(RegularPolygon polygon) {
+std::string polygonNoun(RegularPolygon polygon) {
     for (const NamedPolygon& named : kPolygons) {
         if (named.polygon == polygon) return std::string(named.noun);
     }
@@ -187,9 +187,9 @@ std::optional<std::vector<RegularPolygon>> duoprismPolygonsNamed(std::vector<std
 
 std::string nameOf(const PolyhedronSignature& shape, double tolerance) {
     for (std::size_t i = 0; i < kNamed.size(); ++i) {
-        const PolyhedronSignature& known = namedShapes()[i];
+        const PolyhedronSignature& known = namedPolyhedronSignatures()[i];
         if (known.faces == shape.faces && known.vertices == shape.vertices &&
-            alike(shape.circumradius, known.circumradius, tolerance)) {
+            isNearlyEqual(shape.circumradius, known.circumradius, tolerance)) {
             return std::string(kNamed.at(i).name);
         }
     }
@@ -201,10 +201,10 @@ std::string nameOf(const PolyhedronSignature& shape, double tolerance) {
             const auto found = shape.faces.find(side);
             return found == shape.faces.end() ? 0 : found->second;
         };
-        if (beside({4, 1}) == n && alike(shape.circumradius, std::hypot(1, 1 / std::sin(angle)), tolerance))
+        if (beside({4, 1}) == n && isNearlyEqual(shape.circumradius, std::hypot(1, 1 / std::sin(angle)), tolerance))
             return adjectiveOf(polygon) + " prism";
         const double antiprism = std::sqrt((3 - 2 * std::cos(angle)) / (2 - 2 * std::cos(angle)));
-        if (beside({3, 1}) == 2 * n && alike(shape.circumradius, antiprism, tolerance))
+        if (beside({3, 1}) == 2 * n && isNearlyEqual(shape.circumradius, antiprism, tolerance))
             return adjectiveOf(polygon) + " antiprism";
     }
     return {};

@@ -38,7 +38,7 @@ std::vector<glm::dvec3> verticesOf(const NamedPolyhedron& polyhedron);
 std::string adjectiveOf(RegularPolygon polygon);
 
 /// Returns the noun of a polygon: "pentagon", "pentagram", "17-gon", "7/2-gon".
-std::string nounOf(RegularPolygon polygon);
+std::string polygonNoun(RegularPolygon polygon);
 
 /// Returns the polygon that a word names, such as "5", "5-gonal", "pentagonal", "pentagon", "5/2" or "pentagrammic".
 /// Returns an empty optional if the word names no polygon. "2" gives a polygon of two sides; callers that need at least

@@ -19,22 +19,22 @@ namespace {
 // Parses the name of a duoprism of two regular polygons: "5,7-duoprism", "5-7 duoprism", "triangular-square duoprism",
 // "pentagonal duoprism" (of two pentagons). Returns an error if the text ends with "duoprism" but the words before it
 // do not name two polygons with at least three sides. Returns an empty optional for other texts.
-std::optional<DesignOrError> duoprismNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> duoprismNamed(const PolytopeNameWords& text) {
     if (text.words.back() != "duoprism") return {};
     const auto polygons = duoprismPolygonsNamed(text.withoutLast());
     if (!polygons || std::ranges::any_of(*polygons, [](RegularPolygon each) { return each.numerator < 3; })) {
-        return NameError::impossible(
+        return PolytopeNameError::impossible(
             "a duoprism is named after two polygons with at least three sides, as in 5,7-duoprism or 5/2,5-duoprism");
     }
     if (polygons->size() != 2)
-        return NameError::impossible("a duoprism is named after two polygons, as in 5,7-duoprism");
+        return PolytopeNameError::impossible("a duoprism is named after two polygons, as in 5,7-duoprism");
     return duoprism((*polygons)[0], (*polygons)[1]);
 }
 
 // Parses the name of a prism over a uniform polyhedron: "pentagonal antiprism prism", "6-gonal prism prism", "snub cube
 // prism", "truncated cubic prism". Returns an error if a polygon has fewer than three sides, or if the polygon of an
 // antiprism is a star. Returns an empty optional for other texts.
-std::optional<DesignOrError> prismNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> prismNamed(const PolytopeNameWords& text) {
     if (text.words.back() != "prism" || text.words.size() < 2) return {};
     const std::vector<std::string> words = text.withoutLast();
     const std::string base = text::joined(words, 0, words.size());
@@ -48,16 +48,16 @@ std::optional<DesignOrError> prismNamed(const NameWords& text) {
     const auto polygon = polygonNamed(text::joined(words, 0, words.size() - 1));
     if (!polygon) return {};
     if (polygon->numerator < 3 || (antiprism && polygon->denominator != 1)) {
-        return NameError::impossible(antiprism
-                                         ? "the polygon of an antiprism must have at least three sides and be no star"
-                                         : "the polygon of a prism must have at least three sides");
+        return PolytopeNameError::impossible(
+            antiprism ? "the polygon of an antiprism must have at least three sides and be no star"
+                      : "the polygon of a prism must have at least three sides");
     }
     return antiprism ? antiprismPrism(polygon->numerator) : duoprism(*polygon, {4, 1});
 }
 
 // Parses the diagram of a prism over a snub polyhedron or an antiprism: "s4s3s x", "x s2s5s". Returns an empty optional
 // for other texts.
-std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> snubPrismDiagramNamed(const PolytopeNameWords& text) {
     const std::string wanted = text::normalizedName(text.joinedFrom(0));
     for (const NamedPolyhedron& base : namedPolyhedra()) {
         const std::string own(base.linearNotation);
@@ -78,14 +78,14 @@ std::optional<DesignOrError> snubPrismDiagramNamed(const NameWords& text) {
 
 }  // namespace
 
-constinit const Notation kDuoprismNotation{
+constinit const PolytopeNotation kDuoprismNotation{
     .polytopes = "a duoprism, including those of star polygons; a single polygon stands for two",
     .examples = "`5,7-duoprism`, `5-7 duoprism`, `triangular-square duoprism`, `pentagonal duoprism`, `5/2,5-duoprism`",
     .edges = "2",
     .parse = duoprismNamed,
 };
 
-constinit const Notation kPrismNotation{
+constinit const PolytopeNotation kPrismNotation{
     .polytopes = "a prism over a Platonic, Archimedean or Kepler–Poinsot solid, a prism or an antiprism",
     .examples =
         "`snub cube prism`, `truncated cubic prism`, `great icosahedral prism`, `9-gonal prism prism`, "
@@ -94,7 +94,7 @@ constinit const Notation kPrismNotation{
     .parse = prismNamed,
 };
 
-constinit const Notation kSnubPrismDiagramNotation{
+constinit const PolytopeNotation kSnubPrismDiagramNotation{
     .polytopes =
         "the diagram of a prism over a snub polyhedron or an antiprism, in which s is a node of the snub "
         "or antiprism",

@@ -17,7 +17,7 @@ class Recipe {
     virtual ~Recipe() = default;
 
     /// Returns the numbers of elements of the polytope. If build() computes a convex hull, the numbers are estimates.
-    virtual ElementCounts counts() const = 0;
+    virtual ElementCounts countElements() const = 0;
 
     /// The value that symmetryOrder() returns if the order is not known.
     static constexpr std::uint64_t kUnknownOrder = 0;
@@ -42,7 +42,7 @@ class Recipe {
 
 /// A polytope that can be built: its name and its recipe. Designs with equal names build equal polytopes; caches use
 /// the name as their key.
-struct Design {
+struct PolytopeDesign {
     std::string name;  ///< the name of the polytope, such as "truncated tesseract" or "5,7-duoprism"
     std::shared_ptr<const Recipe> recipe;
 };

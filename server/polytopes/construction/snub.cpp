@@ -23,8 +23,8 @@ struct TriangleGroupGenerators {
     glm::dmat3 rotationP, rotationQ;
 };
 
-TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
-    const auto cosine = [](Branch b) { return std::cos(std::numbers::pi * b.denominator / b.numerator); };
+TriangleGroupGenerators generatorsOf(DiagramBranch p, DiagramBranch q) {
+    const auto cosine = [](DiagramBranch b) { return std::cos(std::numbers::pi * b.denominator / b.numerator); };
     const double sine = std::sqrt(1 - cosine(p) * cosine(p));
     const double y = -cosine(q) / sine;
     const std::array<glm::dvec3, 3> m{{{1, 0, 0}, {-cosine(p), sine, 0}, {0, y, std::sqrt(1 - y * y)}}};
@@ -35,7 +35,7 @@ TriangleGroupGenerators generatorsOf(Branch p, Branch q) {
 // Returns the point x between the mirrors for which all edges of the snub polyhedron have length 2: rotationP,
 // rotationQ and their product each move x by a distance of 2. Solves |x − g x|² = 4 for these three rotations g by
 // Newton's method.
-glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p) {
+glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, DiagramBranch p) {
     const std::array<glm::dmat3, 3> moves{glm::dmat3(1) - generators.rotationP, glm::dmat3(1) - generators.rotationQ,
                                           glm::dmat3(1) - generators.rotationP * generators.rotationQ};
     // The initial guess lies midway between the first two mirrors, at distance 1 from the third mirror. Its distance
@@ -63,7 +63,7 @@ glm::dvec3 equidistantPoint(const TriangleGroupGenerators& generators, Branch p)
 
 }  // namespace
 
-PolyhedronWithOrbits snubOf(Branch p, Branch q) {
+PolyhedronWithOrbits snubOf(DiagramBranch p, DiagramBranch q) {
     const TriangleGroupGenerators generators = generatorsOf(p, q);
     const glm::dvec3 seed = equidistantPoint(generators, p);
     // The vertices are g · seed for all rotations g of the group. For each vertex g · seed, `next` holds the indices of

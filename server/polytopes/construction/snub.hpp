@@ -24,6 +24,6 @@ struct PolyhedronWithOrbits {
 /// n-antiprism for {n, 2}. The vertices are the images of one point under the rotation group of {p, q}. The faces are
 /// the p-gons and q-gons around the rotation axes (none around a twofold axis), and the triangles between them
 /// (Coxeter, Regular Polytopes, §8.6). The caller must ensure that p and q are integers with 1/p + 1/q > 1/2.
-PolyhedronWithOrbits snubOf(Branch p, Branch q);
+PolyhedronWithOrbits snubOf(DiagramBranch p, DiagramBranch q);
 
 }  // namespace oval4d::polytopes

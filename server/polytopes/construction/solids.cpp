@@ -64,11 +64,11 @@ Solid canonical(Solid solid) {
 }
 
 // A family of solids over polygons: the last word of their names, and the values of Solid::antiprism and Solid::dual.
-struct PolygonFamily {
+struct SolidFamily {
     std::string_view word;
     bool antiprism, dual;
 };
-constexpr auto kPolygonFamilies = std::to_array<PolygonFamily>({
+constexpr auto kPolygonFamilies = std::to_array<SolidFamily>({
     {"prism", false, false},
     {"antiprism", true, false},
     {"bipyramid", false, true},
@@ -94,9 +94,10 @@ SolidMesh prismMesh(int sides) {
 }
 
 // Returns the mesh of a polyhedron that is not a snub: one base of the prism over it.
-SolidMesh baseOf(const NamedPolyhedron& polyhedron) {
-    const Diagram diagram = std::get<Diagram>(parseDiagram(std::string(polyhedron.linearNotation) + " x"));
-    const Polytope prism = wythoff({}, diagram, mirrorsOf(diagram));
+SolidMesh polyhedronMeshOf(const NamedPolyhedron& polyhedron) {
+    const CoxeterDiagram diagram =
+        std::get<CoxeterDiagram>(parseDiagram(std::string(polyhedron.linearNotation) + " x"));
+    const Polytope prism = wythoffConstruction({}, diagram, mirrorsOf(diagram));
     SolidMesh base;
     std::vector<std::uint32_t> number(prism.vertices.size());
     for (std::size_t v = 0; v < prism.vertices.size(); ++v) {
@@ -158,8 +159,8 @@ SolidMesh dualOf(const SolidMesh& base) {
 
 }  // namespace
 
-std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words) {
-    using SolidOrError = std::variant<Solid, NameError>;
+std::optional<std::variant<Solid, PolytopeNameError>> solidNamed(const std::vector<std::string>& words) {
+    using SolidOrError = std::variant<Solid, PolytopeNameError>;
     std::size_t first = 0;
     bool dual = false;
     while (first + 1 < words.size() && words[first] == "dual") {
@@ -173,7 +174,7 @@ std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::
     };
     if (const NamedPolyhedron* const named = polyhedronCalled(name)) {
         if (!isConvex(*named))
-            return NameError::impossible("the " + name + " is a star; the polyhedron must be convex");
+            return PolytopeNameError::impossible("the " + name + " is a star; the polyhedron must be convex");
         return solid(named, false);
     }
     for (const auto& [base, own] : kDuals) {
@@ -185,8 +186,8 @@ std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::
         const auto polygon = polygonNamed(text::joined(words, first, words.size() - 1));
         if (!polygon) return {};
         if (polygon->numerator < 3 || polygon->denominator != 1) {
-            return NameError::impossible("the polygon of " + std::string(word == "antiprism" ? "an " : "a ") +
-                                         std::string(word) + " must have at least three sides and be no star");
+            return PolytopeNameError::impossible("the polygon of " + std::string(word == "antiprism" ? "an " : "a ") +
+                                                 std::string(word) + " must have at least three sides and be no star");
         }
         return canonical({nullptr, polygon->numerator, antiprism, dual != isDual});
     }
@@ -195,7 +196,7 @@ std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::
 
 std::string nameOf(const Solid& solid) {
     if (solid.named != nullptr) return std::string(solid.dual ? dualName(solid.named->name) : solid.named->name);
-    const auto family = std::ranges::find_if(kPolygonFamilies, [&](const PolygonFamily& each) {
+    const auto family = std::ranges::find_if(kPolygonFamilies, [&](const SolidFamily& each) {
         return each.antiprism == solid.antiprism && each.dual == solid.dual;
     });
     return adjectiveOf({solid.sides, 1}) + " " + std::string(family->word);
@@ -203,7 +204,7 @@ std::string nameOf(const Solid& solid) {
 
 SolidCounts countsOf(const Solid& solid) {
     // The prism over a polyhedron with v vertices, e edges and f faces has 2v vertices, 2e + v edges and f + 2 cells.
-    const ElementCounts prism = uniformPrismOver({solid.named, solid.sides, solid.antiprism}).recipe->counts();
+    const ElementCounts prism = uniformPrismOver({solid.named, solid.sides, solid.antiprism}).recipe->countElements();
     const std::uint64_t vertices = prism.vertices / 2;
     const SolidCounts own{vertices, (prism.edges - vertices) / 2, prism.cells - 2};
     return solid.dual ? SolidCounts{own.faces, own.edges, own.vertices} : own;
@@ -212,13 +213,13 @@ SolidCounts countsOf(const Solid& solid) {
 SolidMesh meshOf(const Solid& solid) {
     if (solid.dual) return dualOf(meshOf({solid.named, solid.sides, solid.antiprism}));
     if (solid.named == nullptr && !solid.antiprism) return prismMesh(solid.sides);
-    if (solid.named != nullptr && !solid.named->linearNotation.starts_with('s')) return baseOf(*solid.named);
-    const auto digit = [&](std::size_t i) { return Branch{solid.named->linearNotation[i] - '0', 1}; };
+    if (solid.named != nullptr && !solid.named->linearNotation.starts_with('s')) return polyhedronMeshOf(*solid.named);
+    const auto digit = [&](std::size_t i) { return DiagramBranch{solid.named->linearNotation[i] - '0', 1}; };
     PolyhedronWithOrbits snub = solid.antiprism ? snubOf({solid.sides, 1}, {2, 1}) : snubOf(digit(1), digit(3));
     return {std::move(snub.vertices), std::move(snub.faces)};
 }
 
-Design uniformPrismOver(const Solid& solid) {
+PolytopeDesign uniformPrismOver(const Solid& solid) {
     if (solid.named != nullptr) return prismOf(*solid.named);
     return solid.antiprism ? antiprismPrism(solid.sides) : duoprism({solid.sides, 1}, {4, 1});
 }

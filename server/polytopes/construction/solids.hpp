@@ -37,7 +37,7 @@ struct Solid {
 /// lower case. Returns an error if the words name a star, or a solid over a polygon of fewer than three sides. Returns
 /// an empty optional if the words name no polyhedron. All names of a solid give equal values: "dual of cube" gives the
 /// value of "octahedron".
-std::optional<std::variant<Solid, NameError>> solidNamed(const std::vector<std::string>& words);
+std::optional<std::variant<Solid, PolytopeNameError>> solidNamed(const std::vector<std::string>& words);
 
 /// Returns the name of the solid, such as "truncated cube", "pentagonal prism" or "rhombic dodecahedron".
 std::string nameOf(const Solid& solid);
@@ -54,6 +54,6 @@ struct SolidMesh {
 SolidMesh meshOf(const Solid& solid);
 
 /// Returns the design of the uniform prism over a solid. The caller must ensure that `solid` is not a dual.
-Design uniformPrismOver(const Solid& solid);
+PolytopeDesign uniformPrismOver(const Solid& solid);
 
 }  // namespace oval4d::polytopes

@@ -16,22 +16,23 @@ namespace {
 
 class TruncationOrRectificationRecipe : public Recipe {
   public:
-    TruncationOrRectificationRecipe(bool truncation, Design base) : truncation_(truncation), base_(std::move(base)) {}
+    TruncationOrRectificationRecipe(bool truncation, PolytopeDesign base)
+        : truncation_(truncation), base_(std::move(base)) {}
 
     // The number of vertices is exact. All points on the edges of the convex base are vertices of the hull, because for
     // each edge, some hyperplane touches the base only in this edge. The other numbers are estimates. They assume that
     // one cell replaces each vertex, and that each of the f 2-faces of the base has four corners. An edge replaces each
     // of these 4 f corners. After a truncation, a part of each of the e edges of the base also remains. Euler's
     // relation (vertices − edges + 2-faces − cells = 0) gives the number of 2-faces.
-    ElementCounts counts() const override {
-        const auto [v, e, f, c] = base_.recipe->counts();
+    ElementCounts countElements() const override {
+        const auto [v, e, f, c] = base_.recipe->countElements();
         const std::uint64_t corners = 4 * f;
         const std::uint64_t cells = c + v;
         if (truncation_) return {2 * e, corners + e, corners + e + cells - 2 * e, cells};
         return {e, corners, corners + cells - e, cells};
     }
     std::uint64_t symmetryOrder() const override { return kUnknownOrder; }
-    std::uint64_t hullPointCount() const override { return base_.recipe->hullPointCount() + counts().vertices; }
+    std::uint64_t hullPointCount() const override { return base_.recipe->hullPointCount() + countElements().vertices; }
 
     Polytope build(const std::string& name) const override {
         const Polytope base = buildRequiringConvex(base_);
@@ -50,12 +51,12 @@ class TruncationOrRectificationRecipe : public Recipe {
 
   private:
     bool truncation_;
-    Design base_;
+    PolytopeDesign base_;
 };
 
-bool isConvex(const Diagram& diagram) {
+bool isConvex(const CoxeterDiagram& diagram) {
     return std::ranges::all_of(diagram.branches, [](const auto& row) {
-        return std::ranges::all_of(row, [](const Branch& branch) { return branch.denominator == 1; });
+        return std::ranges::all_of(row, [](const DiagramBranch& branch) { return branch.denominator == 1; });
     });
 }
 
@@ -71,24 +72,24 @@ bool isConvex(const Diagram& diagram) {
 // The rectification of a regular polytope has the design of the rectified uniform polytope. The truncation of a regular
 // polytope whose 2-faces are triangles has the design of the truncated uniform polytope. For other 2-faces, the uniform
 // truncation does not cut the edges at their thirds.
-std::optional<DesignOrError> truncationOrRectificationNamed(const NameWords& text) {
+std::optional<PolytopeDesignOrError> truncationOrRectificationNamed(const PolytopeNameWords& text) {
     const bool truncation = text.words[0] == "truncation";
     if ((!truncation && text.words[0] != "rectification") || text.words.size() < 3 || text.words[1] != "of") return {};
-    const DesignOrError described = text.lookup(text.joinedFrom(2));
-    const auto* base = std::get_if<Design>(&described);
+    const PolytopeDesignOrError described = text.lookup(text.joinedFrom(2));
+    const auto* base = std::get_if<PolytopeDesign>(&described);
     if (base == nullptr) return described;
     if (auto regular = regularDiagram(*base); regular && isConvex(*regular)) {
-        const bool triangles = regular->branches[0][1] == Branch{3, 1};
+        const bool triangles = regular->branches[0][1] == DiagramBranch{3, 1};
         regular->ringed = {truncation, true, false, false};
         if (triangles || !truncation) return designOf(*regular);
     }
-    return Design{text.words[0] + " of " + base->name,
-                  std::make_shared<TruncationOrRectificationRecipe>(truncation, *base)};
+    return PolytopeDesign{text.words[0] + " of " + base->name,
+                          std::make_shared<TruncationOrRectificationRecipe>(truncation, *base)};
 }
 
 }  // namespace
 
-constinit const Notation kTruncationOrRectificationNotation{
+constinit const PolytopeNotation kTruncationOrRectificationNotation{
     .polytopes =
         "`truncation of X`, of a convex polytope: the convex hull of the points that divide the edges into thirds. "
         "For regular polytopes with triangles, this is the `truncated` polytope; the squares of a `truncated "

@@ -63,7 +63,7 @@ glm::dvec4 weightedSum(const std::vector<WeightedVertex>& vertices) {
 
 // Sets the weights to the barycentric coordinates of the point nearest to the origin in the simplex of the vertices.
 // Removes the vertices whose weight becomes 0. Returns false if the vertices become affinely dependent.
-bool moveToNearest(std::vector<WeightedVertex>& vertices) {
+bool moveToPointNearestOrigin(std::vector<WeightedVertex>& vertices) {
     std::array<double, 5> goal{};
     while (nearestWeights(vertices, goal)) {
         double step = 1;
@@ -107,7 +107,7 @@ bool liesInHull(const glm::dvec4& point, std::span<const glm::dvec4> others, con
                                        [&](const WeightedVertex& vertex) { return vertex.position == farthest; });
         if (known || vertices.size() == 5) return false;
         vertices.push_back({farthest, 0});
-        if (!moveToNearest(vertices)) return false;
+        if (!moveToPointNearestOrigin(vertices)) return false;
     }
     return false;
 }

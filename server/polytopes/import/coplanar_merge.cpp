@@ -24,7 +24,7 @@ constexpr double kAmbiguityFactor = 3;  // cells that would be merged with error
 constexpr int kMaxCorrections = 32;
 
 // Returns the triangle of the simplex that is opposite the vertex with this index, 0 … 3.
-Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
+Triangle triangleOpposite(std::size_t vertex, const SimplexFacet& simplex) {
     Triangle triangle{};
     std::size_t at = 0;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -34,7 +34,7 @@ Triangle oppositeTo(std::size_t vertex, const SimplexFacet& simplex) {
 }
 
 // Returns the corner of `triangle` that does not lie on `edge`, one of its edges.
-std::uint32_t cornerBeside(const Edge& edge, const Triangle& triangle) {
+std::uint32_t cornerOpposite(const Edge& edge, const Triangle& triangle) {
     return *std::find_if(triangle.begin(), triangle.end(),
                          [&](std::uint32_t v) { return v != edge.first && v != edge.second; });
 }
@@ -50,10 +50,10 @@ class SimplexMerger {
           signs_(simplices.size(), 0) {
         for (const SimplexFacet& simplex : simplices_)
             volumes_.push_back(HyperplaneThroughPoints(simplex.vertices, points_).parallelotopeVolume());
-        orient();
+        orientSimplices();
     }
 
-    MergedHull run() {
+    MergedHull merge() {
         mergeSimplices();
         collectTrianglesBetweenCells();
         unmerged_.assign(hyperplanes_.size(), false);
@@ -79,7 +79,7 @@ class SimplexMerger {
 
     // Sets signs_ such that all simplices are oriented coherently. A simplex with the sign +1 has the orientation in
     // which its vertices are in ascending order; a simplex with the sign −1 has the opposite orientation.
-    void orient() {
+    void orientSimplices() {
         std::vector<std::uint32_t> waiting{0};
         signs_[0] = 1;
         while (!waiting.empty()) {
@@ -106,13 +106,13 @@ class SimplexMerger {
             if (cellOf_[seed] != kNone) continue;
             HyperplaneThroughPoints hyperplane(simplices_[seed].vertices, points_);
             const auto growIn = [&](const HyperplaneThroughPoints& flat) {
-                return grow(seed, [&](std::uint32_t s, std::uint32_t fresh) {
+                return growRegion(seed, [&](std::uint32_t s, std::uint32_t fresh) {
                     return cellOf_[s] == kNone && flat.contains(points_[fresh], frame_);
                 });
             };
             const auto vertices = [&](const auto& some) { return verticesOf(some); };
             auto group = growAndRefit(hyperplane, simplices_[seed].vertices, growIn, vertices, points_, frame_);
-            makeConvex(seed, hyperplane, group);
+            shrinkGroupUntilConvex(seed, hyperplane, group);
             const auto cell = static_cast<std::uint32_t>(hyperplanes_.size());
             for (const std::uint32_t s : group) cellOf_[s] = cell;
             hyperplanes_.push_back(group.size() > 1 ? hyperplane
@@ -124,7 +124,7 @@ class SimplexMerger {
     // latestMark_. accepts(t, v) returns whether simplex t may join the group; v is the vertex of t that is not a
     // vertex of the neighbor from which t is reached.
     template <typename Accepts>
-    std::vector<std::uint32_t> grow(std::uint32_t seed, Accepts accepts) {
+    std::vector<std::uint32_t> growRegion(std::uint32_t seed, Accepts accepts) {
         ++latestMark_;
         std::vector<std::uint32_t> group{seed};
         mark_[seed] = latestMark_;
@@ -152,21 +152,22 @@ class SimplexMerger {
     }
 
     // Removes simplices from the group until it forms a convex cell; in the worst case, removes all but the seed.
-    void makeConvex(std::uint32_t seed, const HyperplaneThroughPoints& hyperplane, std::vector<std::uint32_t>& group) {
+    void shrinkGroupUntilConvex(std::uint32_t seed, const HyperplaneThroughPoints& hyperplane,
+                                std::vector<std::uint32_t>& group) {
         for (int i = 0; i < kMaxCorrections && group.size() > 1; ++i) {
             const auto faults = simplicesToRemove(seed, hyperplane, group);
             if (faults.empty()) return;
             std::vector<std::uint32_t> kept;
             std::set_difference(group.begin(), group.end(), faults.begin(), faults.end(), std::back_inserter(kept));
-            group = grow(seed, [&](std::uint32_t s, std::uint32_t /*fresh*/) {
+            group = growRegion(seed, [&](std::uint32_t s, std::uint32_t /*fresh*/) {
                 return std::binary_search(kept.begin(), kept.end(), s);
             });
         }
         if (group.size() > 1) group = {seed};
     }
 
-    // Returns simplices of the group whose removal may make the group convex, in ascending order. They do not include
-    // the seed. Returns an empty list if the group is convex. Sorts the group.
+    // Returns simplices of the group whose removal may make the group convex, in ascending order. The result does not
+    // include the seed. Returns an empty list if the group is convex. Sorts the group.
     std::vector<std::uint32_t> simplicesToRemove(std::uint32_t seed, const HyperplaneThroughPoints& hyperplane,
                                                  std::vector<std::uint32_t>& group) const {
         std::sort(group.begin(), group.end());
@@ -174,7 +175,8 @@ class SimplexMerger {
         for (const std::uint32_t s : group) {
             for (std::size_t i = 0; i < 4; ++i) {
                 if (mark_[simplices_[s].neighbors.at(i)] == latestMark_) continue;
-                triangles.push_back({oppositeTo(i, simplices_[s]), s, i % 2 == 0 ? 1.0 * signs_[s] : -1.0 * signs_[s]});
+                triangles.push_back(
+                    {triangleOpposite(i, simplices_[s]), s, i % 2 == 0 ? 1.0 * signs_[s] : -1.0 * signs_[s]});
             }
         }
         const auto& own = simplices_[seed].vertices;
@@ -243,7 +245,7 @@ class SimplexMerger {
             const glm::dvec3 q = place(from.corners[0]);
             height.normal = from.sign * glm::cross(place(from.corners[1]) - q, place(from.corners[2]) - q);
             const double size = glm::length(height.normal);
-            const std::uint32_t v = cornerBeside(edge, to.corners);
+            const std::uint32_t v = cornerOpposite(edge, to.corners);
             const glm::dvec3 third = place(v) - a;
             height.reach = glm::length(glm::cross(along, third)) / glm::length(along);
             if (!(size > 0)) {
@@ -252,8 +254,9 @@ class SimplexMerger {
             }
             height.normal /= size;
             height.height = glm::dot(height.normal, third);
-            const glm::dvec4 direction = height.normal.x * hyperplane.axis(0) + height.normal.y * hyperplane.axis(1) +
-                                         height.normal.z * hyperplane.axis(2);
+            const glm::dvec4 direction = height.normal.x * hyperplane.basisVector(0) +
+                                         height.normal.y * hyperplane.basisVector(1) +
+                                         height.normal.z * hyperplane.basisVector(2);
             height.uncertain = frame_.errorBound(direction) *
                                (1 + PlaneThroughPoints(from.corners, points_).cornerErrorFactor(points_[v]));
             return height;
@@ -271,7 +274,7 @@ class SimplexMerger {
             for (std::size_t i = 0; i < 4; ++i) {
                 const std::uint32_t other = cellOf_[simplices_[s].neighbors.at(i)];
                 if (cellOf_[s] < other)
-                    trianglesBetweenCells_.push_back({{cellOf_[s], other}, oppositeTo(i, simplices_[s])});
+                    trianglesBetweenCells_.push_back({{cellOf_[s], other}, triangleOpposite(i, simplices_[s])});
             }
         }
         std::sort(trianglesBetweenCells_.begin(), trianglesBetweenCells_.end(),
@@ -350,7 +353,7 @@ class SimplexMerger {
 
 MergedHull mergeCoplanar(std::span<const SimplexFacet> simplices, std::span<const glm::dvec4> points,
                          const HullFrame& frame) {
-    return SimplexMerger(simplices, points, frame).run();
+    return SimplexMerger(simplices, points, frame).merge();
 }
 
 }  // namespace oval4d::polytopes

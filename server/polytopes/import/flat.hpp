@@ -45,7 +45,7 @@ class Flat {
     /// Returns the volume of the simplex times the factorial of its dimension.
     double parallelotopeVolume() const { return volume_; }
     /// Returns one of the orthonormal vectors that span the flat; i is from 0 to Dimension − 1.
-    const glm::dvec4& axis(std::size_t i) const { return axes_.at(i); }
+    const glm::dvec4& basisVector(std::size_t i) const { return axes_.at(i); }
 
     /// Projects p onto the flat. Returns the coordinates of the projection along the axes of the flat, relative to the
     /// first corner.

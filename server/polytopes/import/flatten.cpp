@@ -73,7 +73,7 @@ struct FlatteningUnknowns {
         return sum;
     }
     /// Sets this to `factor` · this + `times` · `other`.
-    void combine(double factor, double times, const FlatteningUnknowns& other) {
+    void scaleAndAdd(double factor, double times, const FlatteningUnknowns& other) {
         for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = factor * moves[i] + times * other.moves[i];
         for (std::size_t i = 0; i < tilts.size(); ++i) {
             tilts[i] = factor * tilts[i] + times * other.tilts[i];
@@ -117,9 +117,9 @@ class Flattener {
         maxDeviation_ = std::max(kMaxDeviation * size, kMaxRounding * rounding);
         goalDeviation_ = std::max(kGoalDeviation * size, kGoalRounding * rounding);
         collectCells();
-        fitAll();
+        fitHyperplanes();
         collectFaces();
-        fitAll();
+        fitHyperplanes();
     }
 
     double deviation() const { return farthest_ == kNone ? 0 : constraints_[farthest_].deviation; }
@@ -129,7 +129,7 @@ class Flattener {
 
     /// Sets the entries in `faces` and `cells` of the 2-faces and cells that deviate by more than the permitted
     /// distance.
-    void markUneven(std::vector<bool>& faces, std::vector<bool>& cells) const {
+    void markNonFlat(std::vector<bool>& faces, std::vector<bool>& cells) const {
         for (const CohyperplanarityConstraint& constraint : constraints_) {
             if (constraint.deviation <= maxDeviation_) continue;
             if (constraint.face == kNone) {
@@ -143,7 +143,7 @@ class Flattener {
     /// Moves the vertices until the vertices of each CohyperplanarityConstraint lie in its hyperplane, within the
     /// permitted distance. Returns false if this fails, or if a vertex moves by more than `maxDistance`; the caller
     /// must then restore the vertices.
-    bool run(double maxDistance) {
+    bool flatten(double maxDistance) {
         const std::vector<glm::dvec4> before = soup_.vertices;
         double tolerance = kFirstTolerance, best = std::numeric_limits<double>::infinity();
         std::size_t work = 0;
@@ -151,12 +151,12 @@ class Flattener {
             if (deviation() <= goalDeviation_) return true;
             if (deviation() * kGoodProgress > best) tolerance = std::max(tolerance * kTighter, kLeastTolerance);
             best = std::min(best, deviation());
-            const FlatteningUnknowns change = solve(tolerance, work);
+            const FlatteningUnknowns change = solveForChange(tolerance, work);
             for (std::size_t v = 0; v < before.size(); ++v) {
                 soup_.vertices[v] += change.moves[v];
                 if (!(glm::distance(soup_.vertices[v], before[v]) <= maxDistance)) return false;
             }
-            fitAll();
+            fitHyperplanes();
         }
         return isFlat();
     }
@@ -200,12 +200,12 @@ class Flattener {
         }
     }
 
-    void fitAll() {
+    void fitHyperplanes() {
         offsets_.resize(corners_.items.size());
         distances_.resize(corners_.items.size());
         farthest_ = kNone;
         for (std::uint32_t i = 0; i < constraints_.size(); ++i) {
-            fit(i);
+            fitHyperplane(i);
             // A deviation that is NaN counts as the largest.
             if (farthest_ == kNone || !(constraints_[i].deviation <= deviation())) farthest_ = i;
         }
@@ -214,7 +214,7 @@ class Flattener {
     // Fits the hyperplane of a CohyperplanarityConstraint to its vertices: first to a few vertices that are far apart,
     // then to all vertices by least squares. The second fit changes the hyperplane only a little, so it adds only small
     // rounding errors.
-    void fit(std::uint32_t i) {
+    void fitHyperplane(std::uint32_t i) {
         CohyperplanarityConstraint& constraint = constraints_[i];
         const auto corners = corners_[i];
         const auto offsets = std::span(offsets_).subspan(corners_.begin[i], corners.size());
@@ -303,7 +303,7 @@ class Flattener {
     // Returns the least change of the unknowns that makes all distances_ 0, to the first order. `tolerance` is the
     // precision of the solution (see kFirstTolerance). Adds the number of equations and unknowns of each step to `work`
     // (see kMaxWork).
-    FlatteningUnknowns solve(double tolerance, std::size_t& work) const {
+    FlatteningUnknowns solveForChange(double tolerance, std::size_t& work) const {
         FlatteningUnknowns change(soup_.vertices.size(), constraints_.size()), gradient = change;
         std::vector<double> error(distances_.size()), image(distances_.size());
         std::transform(distances_.begin(), distances_.end(), error.begin(), std::negate<>());
@@ -318,11 +318,11 @@ class Flattener {
             for (const double value : image) steepness += value * value;
             if (!(steepness > 0)) break;
             const double length = square / steepness;
-            change.combine(1, length, direction);
+            change.scaleAndAdd(1, length, direction);
             for (std::size_t k = 0; k < error.size(); ++k) error[k] -= length * image[k];
             multiplyByTransposedJacobian(error, gradient);
             const double next = gradient.squaredLength();
-            direction.combine(next / square, 1, gradient);
+            direction.scaleAndAdd(next / square, 1, gradient);
             square = next;
         }
         return change;
@@ -351,9 +351,9 @@ FlatteningReport flattenOrSplit(PolygonSoup& soup, double size, double maxDistan
     result.leastFlatCell = cell < soup.cellSourcePositions.size() ? soup.cellSourcePositions[cell].number : cell;
     if (flattener.isFlat()) return result;
     std::vector<bool> faces(soup.faces.size(), false), cells(soup.cells.size(), false);
-    flattener.markUneven(faces, cells);
+    flattener.markNonFlat(faces, cells);
     const std::vector<glm::dvec4> before = soup.vertices;
-    if (flattener.run(maxDistance)) {
+    if (flattener.flatten(maxDistance)) {
         for (std::size_t v = 0; v < before.size(); ++v) {
             const double distance = glm::distance(soup.vertices[v], before[v]);
             result.moved += distance > rounding ? 1 : 0;

@@ -12,9 +12,9 @@ namespace oval4d::polytopes {
 struct FlatteningReport {
     /// The largest distance of a vertex from the best-fitting hyperplane of its cell or 2-face, before any change.
     double deviation = 0;
-    /// The cell whose hyperplane has this deviation, or one of the two cells of a 2-face with this deviation. It is the
-    /// number of the cell in the 4OFF file, counted from 0. For a polytope that is not from a 4OFF file, it is the
-    /// index of the cell in PolygonSoup::cells.
+    /// The cell whose hyperplane has this deviation, or one of the two cells of a 2-face with this deviation. The value
+    /// is the number of the cell in the 4OFF file, counted from 0. For a polytope that is not from a 4OFF file, the
+    /// value is the index of the cell in PolygonSoup::cells.
     std::uint32_t leastFlatCell = 0;
     std::size_t moved = 0;  ///< the number of vertices that were moved by more than the argument `rounding`
     double distance = 0;    ///< the largest distance by which a vertex was moved

@@ -62,7 +62,7 @@ class QhullRun {
     }
 
     int status() const { return status_; }
-    std::size_t size() const { return static_cast<std::size_t>(state_.num_facets); }
+    std::size_t facetCount() const { return static_cast<std::size_t>(state_.num_facets); }
     double perturbation() const { return state_.JOGGLEmax; }
 
     /// Returns the facets of the hull, each with its vertices in ascending order.
@@ -90,25 +90,25 @@ class QhullRun {
     }
 
   private:
-    static std::FILE* sink() {
+    static std::FILE* openMessageSink() {
         std::FILE* const memory = fmemopen(nullptr, kMessageBytes, "w");
         return memory != nullptr ? memory : stderr;
     }
 
     std::vector<double> coordinates_;
-    std::FILE* const sink_ = sink();
+    std::FILE* const sink_ = openMessageSink();
     qhT state_{};
     int status_ = 0;
 };
 
-[[noreturn]] void refuseRun(int status) {
+[[noreturn]] void throwQhullFailure(int status) {
     if (status == qh_ERRsingular) throwFileError(0, "all points lie in one hyperplane");
     if (status == qh_ERRprec || status == qh_ERRwide || status == qh_ERRtopology)
         throwFileError(0, "the convex hull cannot be determined at the precision of the points; give more decimals");
     throwFileError(0, "the convex hull of the points cannot be computed (Qhull status " + std::to_string(status) + ')');
 }
 
-[[noreturn]] void refuseSize(std::size_t maxCells) {
+[[noreturn]] void throwHullTooLarge(std::size_t maxCells) {
     throw FileError{0, "the hull has more than " + std::to_string(maxCells) + " cells, the maximum allowed", true};
 }
 
@@ -122,26 +122,26 @@ std::vector<SimplexFacet> simplicialHull(const Points& points, HullFrame& frame,
         const bool all = count == points.size();
         if (run.status() == qh_ERRmem) throw std::bad_alloc();
         // Ignore a failed run on a sample, because the sample may be flat although the set of all points is not.
-        if (run.status() != 0 && all) refuseRun(run.status());
+        if (run.status() != 0 && all) throwQhullFailure(run.status());
         if (run.status() != 0) continue;
         perturbation = run.perturbation();
-        if (run.size() > kMaxSimplicesPerCell * maxCells) {
+        if (run.facetCount() > kMaxSimplicesPerCell * maxCells) {
             throw FileError{0,
                             "the hull has more than " + std::to_string(kMaxSimplicesPerCell * maxCells) +
                                 " simplices, the maximum allowed before those in one hyperplane are merged into cells",
                             true};
         }
-        if (!all && run.size() <= maxCells) continue;
+        if (!all && run.facetCount() <= maxCells) continue;
         frame.allowForPerturbation(perturbation);
         auto simplices = run.simplices();
         if (all) return simplices;
-        if (mergeCoplanar(simplices, points, frame).cells.size() > maxCells) refuseSize(maxCells);
+        if (mergeCoplanar(simplices, points, frame).cells.size() > maxCells) throwHullTooLarge(maxCells);
     }
 }
 
 // Returns, for each point, its neighbors: the points that share an edge of a simplex with it. The list of a point that
 // is not on the hull is empty.
-std::vector<std::vector<std::uint32_t>> linksOf(std::span<const SimplexFacet> simplices, std::size_t points) {
+std::vector<std::vector<std::uint32_t>> neighborsByPoint(std::span<const SimplexFacet> simplices, std::size_t points) {
     std::vector<std::vector<std::uint32_t>> links(points);
     for (const SimplexFacet& simplex : simplices) {
         for (const std::uint32_t v : simplex.vertices) {
@@ -157,7 +157,7 @@ std::vector<std::vector<std::uint32_t>> linksOf(std::span<const SimplexFacet> si
     return links;
 }
 
-Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
+Points selectPoints(std::span<const std::uint32_t> which, const Points& points) {
     Points places;
     places.reserve(which.size());
     for (const std::uint32_t v : which) places.push_back(points[v]);
@@ -168,11 +168,11 @@ Points placesOf(std::span<const std::uint32_t> which, const Points& points) {
 // points by more than the error bounds. Points inside an edge, a 2-face or a cell are not vertices of the hull, even if
 // rounding or the perturbation made them vertices of simplices.
 std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Points& points, const HullFrame& frame) {
-    const auto links = linksOf(simplices, points.size());
+    const auto links = neighborsByPoint(simplices, points.size());
     std::vector<bool> vertex(points.size(), false), doubtful(points.size(), false), reached(points.size(), false);
     for (std::uint32_t v = 0; v < points.size(); ++v) {
         if (links[v].empty()) continue;
-        vertex[v] = !liesInHull(points[v], placesOf(links[v], points), frame);
+        vertex[v] = !liesInHull(points[v], selectPoints(links[v], points), frame);
         doubtful[v] = !vertex[v];
     }
     // A point is doubtful if it lies in the hull of its neighbors. Some of these neighbors may be doubtful, too, and be
@@ -192,7 +192,7 @@ std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Poi
         }
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
-        const Points places = placesOf(around, points);
+        const Points places = selectPoints(around, points);
         for (const std::uint32_t v : together) vertex[v] = !liesInHull(points[v], places, frame);
     }
     return vertex;
@@ -200,7 +200,7 @@ std::vector<bool> vertexFlags(std::span<const SimplexFacet> simplices, const Poi
 
 }  // namespace
 
-Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells) {
+ConvexHull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells) {
     if (points.size() <= kDimensions) {
         throwFileError(
             0, "a convex hull in four dimensions needs at least 5 points, not " + std::to_string(points.size()));
@@ -245,8 +245,8 @@ Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, 
     }
 
     MergedHull merged = mergeCoplanar(simplices, places, frame);
-    if (merged.cells.size() > maxCells) refuseSize(maxCells);
-    Hull hull{{}, std::move(merged.faces), std::move(merged.cells), merged.ambiguousCellPairs, rounding};
+    if (merged.cells.size() > maxCells) throwHullTooLarge(maxCells);
+    ConvexHull hull{{}, std::move(merged.faces), std::move(merged.cells), merged.ambiguousCellPairs, rounding};
     std::vector<std::uint32_t> used;
     for (const std::uint32_t v : hull.faces.items) used.push_back(v);
     std::sort(used.begin(), used.end());

@@ -12,7 +12,7 @@
 namespace oval4d::polytopes {
 
 /// A convex hull, as computed by convexHull().
-struct Hull {
+struct ConvexHull {
     std::vector<glm::dvec4> vertices;    ///< the points that are vertices of the hull, in the order of the input
     geometry::JaggedArray faces, cells;  ///< the vertex loop of each 2-face, and the 2-faces of each cell
     std::size_t ambiguousCellPairs = 0;  ///< see MergedHull::ambiguousCellPairs
@@ -27,6 +27,6 @@ struct Hull {
 ///
 /// Throws a FileError if the points do not span four dimensions, if they are too imprecise, if the hull has more than
 /// `maxCells` cells, or if it has more than 4 · `maxCells` simplices before merging.
-Hull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells);
+ConvexHull convexHull(std::span<const glm::dvec4> points, const glm::dvec4& rounding, std::size_t maxCells);
 
 }  // namespace oval4d::polytopes

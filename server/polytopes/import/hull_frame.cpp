@@ -22,7 +22,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // error is measured far from these points.
 constexpr double kTilt = 8;
 
-bool shorter(const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); }
+bool isShorter(const glm::dvec4& a, const glm::dvec4& b) { return glm::dot(a, a) < glm::dot(b, b); }
 
 }  // namespace
 
@@ -39,11 +39,11 @@ HullFrame::HullFrame(std::span<const glm::dvec4> points, const glm::dvec4& round
     rounding_ += 2 * kEpsilon * std::max({largest.x, largest.y, largest.z, largest.w});
 
     origin_ = *std::max_element(points.begin(), points.end(),
-                                [&](const auto& a, const auto& b) { return shorter(a - middle, b - middle); });
+                                [&](const auto& a, const auto& b) { return isShorter(a - middle, b - middle); });
     std::vector<glm::dvec4> rest(points.begin(), points.end());
     for (glm::dvec4& p : rest) p -= origin_;
     for (int k = 0; k < 4; ++k) {
-        const glm::dvec4 farthest = *std::max_element(rest.begin(), rest.end(), shorter);
+        const glm::dvec4 farthest = *std::max_element(rest.begin(), rest.end(), isShorter);
         const double extent = glm::length(farthest);
         const glm::dvec4 axis = extent > 0 ? farthest / extent : glm::dvec4(0);
         const double error = kTilt * (glm::dot(glm::abs(axis), rounding_) + kEpsilon * extents_[0]);

@@ -63,7 +63,7 @@ glm::dvec4 moveOrigin(std::vector<glm::dvec4>& points, const geometry::Centering
 // Makes the cells and 2-faces flat by flattenOrSplit(), and appends a warning for each kind of change. Does not warn of
 // moves by at most `rounding`, or by a tiny fraction of the size of the polytope. Returns whether cells or 2-faces were
 // divided.
-bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
+bool flattenFacesAndCells(PolygonSoup& soup, double rounding, std::vector<std::string>& warnings) {
     constexpr double kTiny = 1e-12;
     const double size = halfDiagonal(soup.vertices);
     const std::size_t faces = soup.faces.size();
@@ -86,26 +86,27 @@ bool makeFlat(PolygonSoup& soup, double rounding, std::vector<std::string>& warn
 }
 
 // A polytope, and whether some of its cells or 2-faces were divided, so that its elements are not those in the file.
-struct BuiltPolytope {
+struct PossiblyDividedPolytope {
     ImportedPolytope imported;
     bool divided = false;
 };
 
-BuiltPolytope repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name,
-                             const geometry::Centering& centering) {
-    BuiltPolytope result;
+PossiblyDividedPolytope repairAndBuild(const PolygonSoup& soup, double mergeDistance, const std::string& name,
+                                       const geometry::Centering& centering) {
+    PossiblyDividedPolytope result;
     PolygonSoup repaired = soup;
     repair(repaired, mergeDistance, result.imported.warnings);
     const double rounding = doublePrecisionErrorBound(repaired.vertices);
     const glm::dvec4 center = moveOrigin(repaired.vertices, centering);
     checkFlatnessAndDimension(repaired);
-    result.divided = makeFlat(repaired, rounding, result.imported.warnings);
+    result.divided = flattenFacesAndCells(repaired, rounding, result.imported.warnings);
     result.imported.polytope = build(std::move(repaired), name);
     result.imported.polytope.originInFile = center;
     return result;
 }
 
-BuiltPolytope buildOff4(const PolygonSoup& soup, const std::string& name, const geometry::Centering& centering) {
+PossiblyDividedPolytope buildOff4(const PolygonSoup& soup, const std::string& name,
+                                  const geometry::Centering& centering) {
     checkCells(soup);
     try {
         return repairAndBuild(soup, kMergeDistance * halfDiagonal(soup.vertices), name, centering);
@@ -145,15 +146,15 @@ ImportedPolytope importOff4(std::string_view text, const std::string& name, cons
 // that allows for rounding errors meets two conditions: it has no ambiguous cell pairs (see MergedHull), and at most
 // half as many cells as the hull of the exact points. A polytope that was scaled and then rounded to whole numbers
 // meets both conditions.
-Hull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
-            std::vector<std::string>& warnings) {
+ConvexHull hullOf(std::span<const glm::dvec4> points, const RoundingEstimator& precision, std::size_t maxCells,
+                  std::vector<std::string>& warnings) {
     // If `size` is less than kMinUnits units of the last digit, rounding by half a unit moves a vertex farther than
-    // makeFlat() could. Cells might therefore remain uneven, so the coordinates count as exact.
+    // flattenFacesAndCells() could. Cells might therefore remain uneven, so the coordinates count as exact.
     constexpr double kMinUnits = 0.5 / kFlatnessTolerance;
     const double size = halfDiagonal(points);
     const glm::dvec4 rounding = precision.maxRoundingError(size), rounded = precision.roundingErrorIfRounded();
     if (!precision.hasOnlyIntegers() && rounding != glm::dvec4(0)) return convexHull(points, rounding, maxCells);
-    Hull exact = convexHull(points, glm::dvec4(0), maxCells), coarse;
+    ConvexHull exact = convexHull(points, glm::dvec4(0), maxCells), coarse;
     if (size < kMinUnits * 2 * std::max({rounded.x, rounded.y, rounded.z, rounded.w})) return exact;
     try {
         coarse = convexHull(points, rounded, maxCells);
@@ -181,7 +182,7 @@ ImportedPolytope importPoints(std::string_view text, std::string name, const Imp
         points.push_back(row.point);
     };
     result.warnings = text_files::readPoints(text, {.maxPoints = limits.maxVertices}, add);
-    Hull hull = hullOf(points, precision, limits.maxHullCells, result.warnings);
+    ConvexHull hull = hullOf(points, precision, limits.maxHullCells, result.warnings);
     if (const std::size_t inside = points.size() - hull.vertices.size(); inside > 0) {
         const bool one = inside == 1;
         result.warnings.push_back(
@@ -201,7 +202,7 @@ ImportedPolytope importPoints(std::string_view text, std::string name, const Imp
     const double rounding = kAmplification * glm::length(hull.rounding) + kHullError * halfDiagonal(soup.vertices) +
                             doublePrecisionErrorBound(soup.vertices);
     const glm::dvec4 center = moveOrigin(soup.vertices, centering);
-    makeFlat(soup, rounding, result.warnings);
+    flattenFacesAndCells(soup, rounding, result.warnings);
     result.polytope =
         makePolytope(std::move(name), std::move(soup.vertices), std::move(soup.faces), std::move(soup.cells));
     result.polytope.originInFile = center;
@@ -210,22 +211,22 @@ ImportedPolytope importPoints(std::string_view text, std::string name, const Imp
 
 }  // namespace
 
-std::variant<ImportedPolytope, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                         const ImportLimits& limits,
+std::variant<ImportedPolytope, FileError> importPolytope(PolytopeFileFormat format, std::string_view text,
+                                                         std::string name, const ImportLimits& limits,
                                                          const geometry::Centering& centering) {
     try {
-        return importPlainText(format, text_files::plainText(text), std::move(name), limits, centering);
+        return importPlainText(format, text_files::decodePlainText(text), std::move(name), limits, centering);
     } catch (const FileError& error) {
         return error;
     }
 }
 
-std::variant<ImportedPolytope, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
-                                                          const ImportLimits& limits,
+std::variant<ImportedPolytope, FileError> importPlainText(PolytopeFileFormat format, std::string_view text,
+                                                          std::string name, const ImportLimits& limits,
                                                           const geometry::Centering& centering) {
     try {
-        return format == FileFormat::off4 ? importOff4(text, name, limits, centering)
-                                          : importPoints(text, std::move(name), limits, centering);
+        return format == PolytopeFileFormat::off4 ? importOff4(text, name, limits, centering)
+                                                  : importPoints(text, std::move(name), limits, centering);
     } catch (const FileError& error) {
         return error;
     } catch (const std::invalid_argument& unsound) {
@@ -233,6 +234,8 @@ std::variant<ImportedPolytope, FileError> importPlainText(FileFormat format, std
     }
 }
 
-FileFormat detectFileFormat(std::string_view text) { return isOff(text) ? FileFormat::off4 : FileFormat::points; }
+PolytopeFileFormat detectFileFormat(std::string_view text) {
+    return isOffFormat(text) ? PolytopeFileFormat::off4 : PolytopeFileFormat::points;
+}
 
 }  // namespace oval4d::polytopes

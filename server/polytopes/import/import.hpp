@@ -15,7 +15,7 @@
 namespace oval4d::polytopes {
 
 /// The formats of files; see importPolytope().
-enum class FileFormat : std::uint8_t {
+enum class PolytopeFileFormat : std::uint8_t {
     off4,    ///< 4OFF, which lists the elements of a polytope
     points,  ///< a point x y z w on each line; the polytope is their convex hull
 };
@@ -60,17 +60,17 @@ struct ImportedPolytope {
 /// stores this point. Apart from this shift, vertices that need not be moved keep the coordinates of the file. The
 /// memory use is bounded by the length of the text and by the limits: a short text that states large numbers of
 /// elements does not cause large allocations.
-std::variant<ImportedPolytope, FileError> importPolytope(FileFormat format, std::string_view text, std::string name,
-                                                         const ImportLimits& limits,
+std::variant<ImportedPolytope, FileError> importPolytope(PolytopeFileFormat format, std::string_view text,
+                                                         std::string name, const ImportLimits& limits,
                                                          const geometry::Centering& centering = {});
 
 /// Imports a polytope like importPolytope(), but `text` must be a result of text_files::plainText().
-std::variant<ImportedPolytope, FileError> importPlainText(FileFormat format, std::string_view text, std::string name,
-                                                          const ImportLimits& limits,
+std::variant<ImportedPolytope, FileError> importPlainText(PolytopeFileFormat format, std::string_view text,
+                                                          std::string name, const ImportLimits& limits,
                                                           const geometry::Centering& centering = {});
 
 /// Guesses the format of a file: 4OFF if its first word contains "OFF" in upper or lower case, else a list of points.
 /// `text` is the text of the file (see text_files::plainText()).
-FileFormat detectFileFormat(std::string_view text);
+PolytopeFileFormat detectFileFormat(std::string_view text);
 
 }  // namespace oval4d::polytopes

@@ -12,7 +12,7 @@
 namespace oval4d::polytopes {
 
 /// The contents of a 4OFF file.
-struct Off4 {
+struct Off4Contents {
     PolygonSoup soup;
     std::uint32_t edges = 0;  ///< the number of edges that the file states
     /// The fault of the first record whose line has too few words, in a file that has a line for each record. Such a
@@ -25,7 +25,7 @@ struct Off4 {
 /// without regard to lines, as Geomview does. Throws a FileError if the file is malformed, or has more than
 /// `maxVertices` vertices. If the file has a line for each record, the error names the first record whose line has too
 /// few words.
-Off4 readOff4(std::string_view text, std::size_t maxVertices);
+Off4Contents readOff4(std::string_view text, std::size_t maxVertices);
 
 /// Returns whether a 4OFF file has cells, that is, whether the fourth count in its header is greater than 0. A header
 /// with only three counts, as in files of Geomview, means that there are no cells. Reads only the header. Throws a
@@ -36,6 +36,6 @@ bool listsCells(std::string_view text);
 /// digits and letters of ST, C and N, as in 4OFF, COFF or nOFF. readOff4() does not accept all of them. The number of
 /// vertices may follow in the same word. Other words that begin with "off" are no keywords, because "offset" may name a
 /// column of a table.
-bool isOff(std::string_view text);
+bool isOffFormat(std::string_view text);
 
 }  // namespace oval4d::polytopes

@@ -81,7 +81,7 @@ bool isConvex(std::span<const std::uint32_t> loop, const PlaneThroughPoints& pla
         const double length = glm::length(across);
         if (!(length > 0)) return false;
         const double out = cross(corner, across) / length * (area < 0 ? -1 : 1);
-        const glm::dvec4 direction = (across.y * plane.axis(0) - across.x * plane.axis(1)) / length;
+        const glm::dvec4 direction = (across.y * plane.basisVector(0) - across.x * plane.basisVector(1)) / length;
         if (out < -2 * frame.errorBound(direction)) return false;
     }
     return true;

@@ -18,7 +18,7 @@ constexpr double kThin = 1e-6;  // the minimum extent of a polytope in each dire
 
 // Returns the largest distance of a point from a flat through some of the points. The flat is a plane if `dimension` is
 // 2, and a hyperplane if it is 3. The points that it passes through are chosen to be far apart.
-double deviation(std::vector<glm::dvec4> points, int dimension) {
+double deviationFromFlat(std::vector<glm::dvec4> points, int dimension) {
     if (points.empty()) return 0;  // no points: a cell that lost all its 2-faces, which build() will reject
     const glm::dvec4 origin = points.front();
     for (auto& p : points) p -= origin;
@@ -56,14 +56,14 @@ double doublePrecisionErrorBound(std::span<const glm::dvec4> points) {
 
 void checkFlatnessAndDimension(const PolygonSoup& soup) {
     const double size = halfDiagonal(soup.vertices);
-    if (soup.vertices.empty() || deviation(soup.vertices, 3) <= kThin * size)
+    if (soup.vertices.empty() || deviationFromFlat(soup.vertices, 3) <= kThin * size)
         throwFileError(0, "all vertices lie in one hyperplane");
     std::vector<glm::dvec4> points;
     for (std::size_t f = 0; f < soup.faces.size(); ++f) {
         points.clear();
         for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         const auto& position = soup.faceSourcePositions[f];
-        if (deviation(points, 2) > kFlatnessTolerance * size)
+        if (deviationFromFlat(points, 2) > kFlatnessTolerance * size)
             throwFileError(position.line, nameOf("2-face", position) + "is not flat");
     }
     for (std::size_t c = 0; c < soup.cells.size(); ++c) {
@@ -72,7 +72,7 @@ void checkFlatnessAndDimension(const PolygonSoup& soup) {
             for (const std::uint32_t v : soup.faces[f]) points.push_back(soup.vertices[v]);
         }
         const auto& position = soup.cellSourcePositions[c];
-        if (deviation(points, 3) > kFlatnessTolerance * size)
+        if (deviationFromFlat(points, 3) > kFlatnessTolerance * size)
             throwFileError(position.line, nameOf("cell", position) + "does not lie in a hyperplane");
     }
 }

@@ -18,14 +18,14 @@ namespace {
 
 using geometry::kNone;
 
-std::string counted(std::size_t count, const char* one, const char* many) {
+std::string countWithNoun(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
 // Groups points that coincide: two points are in one group if a chain of points joins them in which neighbors are
 // within `distance` of each other. Returns, for each point, the point with the least index in its group. Sorts the
 // points by their projections onto a line, so that only points with close projections are compared.
-std::vector<std::uint32_t> firstOfGroup(const std::vector<glm::dvec4>& points, double distance) {
+std::vector<std::uint32_t> clusterRepresentatives(const std::vector<glm::dvec4>& points, double distance) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0U);
     // The direction of a line onto which points with a coordinate in common have different projections.
@@ -81,19 +81,19 @@ std::vector<std::uint32_t> sorted(std::span<const std::uint32_t> list) {
     return result;
 }
 
-class Repairer {
+class PolygonSoupRepairer {
   public:
-    Repairer(PolygonSoup& soup, std::vector<std::string>& warnings) : soup_(soup), warnings_(warnings) {}
+    PolygonSoupRepairer(PolygonSoup& soup, std::vector<std::string>& warnings) : soup_(soup), warnings_(warnings) {}
 
     // Merges vertices within `distance` of each other: replaces each group of such vertices by its first vertex.
     void mergeVertices(double distance) {
-        const auto first = firstOfGroup(soup_.vertices, distance);
+        const auto first = clusterRepresentatives(soup_.vertices, distance);
         std::size_t doubled = 0;
         for (std::uint32_t v = 0; v < first.size(); ++v) doubled += first[v] != v ? 1 : 0;
         if (doubled == 0) return;
         for (std::uint32_t& v : soup_.faces.items) v = first[v];
-        warn(counted(doubled, "vertex coincides with another one and was merged with it",
-                     "vertices coincide with others and were merged with them"));
+        warn(countWithNoun(doubled, "vertex coincides with another one and was merged with it",
+                           "vertices coincide with others and were merged with them"));
         doubled_ = doubled;
     }
 
@@ -117,10 +117,11 @@ class Repairer {
             }
         }
         if (vanished > 0)
-            warn(counted(vanished, "2-face has no area and was left out", "2-faces have no area and were left out"));
+            warn(countWithNoun(vanished, "2-face has no area and was left out",
+                               "2-faces have no area and were left out"));
         if (compound > 0) {
-            warn(counted(compound, "2-face passes through a vertex twice and was split there",
-                         "2-faces pass through a vertex twice and were split there"));
+            warn(countWithNoun(compound, "2-face passes through a vertex twice and was split there",
+                               "2-faces pass through a vertex twice and were split there"));
         }
         if (vanished + compound == 0 && faces.items.size() == soup_.faces.items.size()) return;
         soup_.faces = std::move(faces);
@@ -129,7 +130,7 @@ class Repairer {
     }
 
     // Merges the two copies of a 2-face that the file lists twice, once for each of its cells.
-    void mergeCopies() {
+    void mergeDuplicateFaces() {
         std::vector<std::uint32_t> uses(soup_.faces.size(), 0);
         for (const std::uint32_t f : soup_.cells.items) ++uses[f];
         std::map<std::vector<std::uint32_t>, std::vector<std::uint32_t>> copies;
@@ -145,7 +146,7 @@ class Repairer {
         }
         if (joined_ == 0) return;
         renumberFaces(becomes);
-        warn(counted(joined_, "2-face is", "2-faces are") +
+        warn(countWithNoun(joined_, "2-face is", "2-faces are") +
              " given once for each of the two cells, and the copies were merged");
     }
 
@@ -155,7 +156,7 @@ class Repairer {
         std::vector<PolygonSoup::SourcePosition> positions;
         std::size_t compound = 0;
         for (std::size_t c = 0; c < soup_.cells.size(); ++c) {
-            const auto pieces = piecesOf(soup_.cells[c]);
+            const auto pieces = connectedComponentsOf(soup_.cells[c]);
             compound += pieces.size() > 1 ? 1 : 0;
             for (const auto& piece : pieces) {
                 cells.add(piece);
@@ -165,19 +166,20 @@ class Repairer {
         if (compound == 0) return;
         soup_.cells = std::move(cells);
         soup_.cellSourcePositions = std::move(positions);
-        warn(counted(compound, "cell consists of several pieces and was", "cells consist of several pieces and were") +
+        warn(countWithNoun(compound, "cell consists of several pieces and was",
+                           "cells consist of several pieces and were") +
              " split into one cell for each piece");
     }
 
     // Removes 2-faces in no cell and vertices on no 2-face.
-    void dropOneUnused() {
+    void dropUnusedFacesAndVertices() {
         std::vector<bool> used(soup_.faces.size(), false);
         for (const std::uint32_t f : soup_.cells.items) used[f] = true;
         const auto stray = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
         if (stray > 0) {
             if (stray > joined_) {
-                warn(counted(stray - joined_, "2-face lies in no cell and was left out",
-                             "2-faces lie in no cell and were left out"));
+                warn(countWithNoun(stray - joined_, "2-face lies in no cell and was left out",
+                                   "2-faces lie in no cell and were left out"));
             }
             geometry::JaggedArray faces;
             std::vector<PolygonSoup::SourcePosition> positions;
@@ -211,7 +213,7 @@ class Repairer {
     }
 
     // Returns the connected components of a cell, each as a list of 2-faces.
-    std::vector<std::vector<std::uint32_t>> piecesOf(std::span<const std::uint32_t> faces) const {
+    std::vector<std::vector<std::uint32_t>> connectedComponentsOf(std::span<const std::uint32_t> faces) const {
         std::vector<std::uint32_t> piece(faces.size());
         std::iota(piece.begin(), piece.end(), 0U);
         const auto root = [&](std::uint32_t i) {
@@ -250,8 +252,8 @@ class Repairer {
         }
         const std::size_t unused = soup_.vertices.size() - used - doubled_;
         if (unused > 0) {
-            warn(counted(unused, "vertex lies on no 2-face and was left out",
-                         "vertices lie on no 2-face and were left out"));
+            warn(countWithNoun(unused, "vertex lies on no 2-face and was left out",
+                               "vertices lie on no 2-face and were left out"));
         }
         soup_.vertices.resize(used);
         for (std::uint32_t& v : soup_.faces.items) v = number[v];
@@ -259,20 +261,21 @@ class Repairer {
 
     PolygonSoup& soup_;
     std::vector<std::string>& warnings_;
-    // The numbers of vertices (doubled_) and of 2-faces (joined_) that were merged into others. dropOneUnused() removes
-    // the merged elements, but does not count them in the warnings about unused elements.
+    // The numbers of vertices (doubled_) and of 2-faces (joined_) that were merged into others.
+    // dropUnusedFacesAndVertices() removes the merged elements, but does not count them in the warnings about unused
+    // elements.
     std::size_t doubled_ = 0, joined_ = 0;
 };
 
 }  // namespace
 
 void repair(PolygonSoup& soup, double mergeDistance, std::vector<std::string>& warnings) {
-    Repairer repairer(soup, warnings);
+    PolygonSoupRepairer repairer(soup, warnings);
     if (mergeDistance >= 0) repairer.mergeVertices(mergeDistance);
     repairer.simplifyFaces();
-    repairer.mergeCopies();
+    repairer.mergeDuplicateFaces();
     repairer.splitCells();
-    repairer.dropOneUnused();
+    repairer.dropUnusedFacesAndVertices();
 }
 
 }  // namespace oval4d::polytopes

@@ -45,8 +45,8 @@ class RoundingEstimator {
     int digits_ = 0;                                   // the maximum number of significant digits
     int lastPlace_ = std::numeric_limits<int>::max();  // the least exponent of ten of any last digit
     bool whole_ = true;
-    bool single_ = true;        // whether every coordinate is a single-precision number, to the digits written
-    glm::dvec4 fromSingle_{0};  // per axis: the largest distance of a coordinate from a single-precision number
+    bool single_ = true;         // whether every coordinate is a single-precision number, to the digits written
+    glm::dvec4 fromSingle_{0};   // per axis: the largest distance of a coordinate from a single-precision number
     double singleEvidence_ = 0;  // −log₂ of the probability that random decimals of these lengths would be as near to
                                  // single precision
 };

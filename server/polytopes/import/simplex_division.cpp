@@ -17,7 +17,7 @@ namespace {
 using geometry::kNone;
 using VertexPair = std::pair<std::uint32_t, std::uint32_t>;
 
-VertexPair pairOf(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
+VertexPair sortedPair(std::uint32_t a, std::uint32_t b) { return std::minmax(a, b); }
 
 // Divides 2-faces and cells of a soup. The caller must call divideFaces() first, then divideCells(), which replaces the
 // 2-faces and cells of the soup by the new ones. Each new element gets the source position of the divided element; a
@@ -89,7 +89,7 @@ class SimplexDivider {
             const auto loop = faces_[t];
             const auto at = static_cast<std::size_t>(std::find(loop.begin(), loop.end(), apex) - loop.begin());
             if (at < 3) {
-                upright.emplace(pairOf(loop[(at + 1) % 3], loop[(at + 2) % 3]), t);
+                upright.emplace(sortedPair(loop[(at + 1) % 3], loop[(at + 2) % 3]), t);
             } else {
                 bases.push_back({{loop[0], loop[1], loop[2]}, t});
             }
@@ -97,7 +97,7 @@ class SimplexDivider {
         for (const auto& [corners, base] : bases) {
             std::array<std::uint32_t, 4> tetrahedron{base, 0, 0, 0};
             for (std::size_t i = 0; i < 3; ++i) {
-                const VertexPair edge = pairOf(corners.at(i), corners.at((i + 1) % 3));
+                const VertexPair edge = sortedPair(corners.at(i), corners.at((i + 1) % 3));
                 const auto [known, isNew] = upright.try_emplace(edge, kNone);
                 if (isNew) {
                     const std::array<std::uint32_t, 3> triangle{apex, edge.first, edge.second};

@@ -9,10 +9,10 @@ namespace oval4d::polytopes {
 
 /// Divides 2-faces into triangles and cells into tetrahedra. `faces` and `cells` say for each 2-face and cell whether
 /// to divide it; all 2-faces of a divided cell are divided, too. The diagonals of a 2-face start at its vertex with the
-/// least index. The triangles that divide a cell join its vertex with the least index to its edges. This is a pulling
-/// triangulation (De Loera, Rambau and Santos, Triangulations, 4.3.2): neighboring cells divide their common 2-face in
-/// the same way. Each triangle of a 2-face is the base of at most one tetrahedron in each of the two cells of the
-/// 2-face.
+/// least index. The triangles that divide a cell join its vertex with the least index to its edges. The division is a
+/// pulling triangulation (De Loera, Rambau and Santos, Triangulations, 4.3.2): neighboring cells divide their common
+/// 2-face in the same way. Each triangle of a 2-face is the base of at most one tetrahedron in each of the two cells of
+/// the 2-face.
 void splitIntoSimplices(PolygonSoup& soup, std::vector<bool> faces, const std::vector<bool>& cells);
 
 }  // namespace oval4d::polytopes

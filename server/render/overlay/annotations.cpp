@@ -33,9 +33,9 @@ int wholePixels(double fraction, const scene::Scene& scene) {
     return std::max(1, static_cast<int>(std::lround(fraction * scene.viewport.height)));
 }
 
-void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, const Projection& projection,
+void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, const ViewProjection& projection,
               const scene::Scene& scene, Overlay& overlay) {
-    const scene::Style& style = scene.style();
+    const scene::PictureStyle& style = scene.style();
     const glm::vec3 at(toView * glm::dvec4(placement.labelAt, 1));
     if (at.z >= 0 || placement.label.empty()) return;
     const glm::vec2 pixel = projection.pixel(at);
@@ -57,7 +57,7 @@ void addLabel(const scene::SlicePlacement& placement, const glm::dmat4& toView, 
 /// Adds the text HistogramAxes::quantity, which says what the values of a field measure, in the upper left corner of
 /// the histogram. The text has a plate behind it that keeps it legible. Does nothing if the text is wider than the
 /// histogram.
-void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::Style& style,
+void addQuantity(const std::string& quantity, const PixelRect& histogram, int size, const scene::PictureStyle& style,
                  Overlay& overlay) {
     const auto digits = static_cast<float>(overlay.font().digitHeight(size));
     const auto width = static_cast<float>(overlay.font().width(size, quantity));
@@ -72,8 +72,8 @@ void addQuantity(const std::string& quantity, const PixelRect& histogram, int si
 /// Adds to the histogram of a field: the axes with their names, the text that says what the values measure, the lines
 /// of the levels, and a mark for the focus slice (the middle one) in the panel of w.
 void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
-    const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene.style();
+    const scene::ParallelCoordinatesLayout& layout = scene.coordinates;
+    const scene::PictureStyle& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
     const auto thickness = static_cast<float>(wholePixels(layout.lineWidth, scene));
     const auto bottom = static_cast<float>(std::round((layout.zero - layout.amplitude) * height));
@@ -96,7 +96,7 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
         const float left = leftOf(k);
         for (const scene::HistogramAxes::LevelLine& line : scene.histogram.levelLines) {
             const float at = std::round(
-                bottom + static_cast<float>(scene.histogram.height(line.value)) * (top - bottom) - thickness / 2);
+                bottom + static_cast<float>(scene.histogram.heightOf(line.value)) * (top - bottom) - thickness / 2);
             overlay.box({left, at, left + width, at + thickness}, line.color, kLevelOpacity);
         }
         const scene::Color color = style.axes[static_cast<std::size_t>(k)];
@@ -113,8 +113,8 @@ void addHistogramAxes(const scene::Scene& scene, Overlay& overlay) {
 /// element, and a mark for the focus slice (the middle one) on the w axis. The lines, and the mark over them, are added
 /// to `above` (see StrokeTargets).
 void addStripAxesAndLines(const scene::Scene& scene, Overlay& overlay, ShapeBatch* above) {
-    const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene.style();
+    const scene::ParallelCoordinatesLayout& layout = scene.coordinates;
+    const scene::PictureStyle& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
     const auto& colors = style.axes;
     const float thickness = std::max(1.0F, static_cast<float>(std::round(layout.lineWidth * height)));
@@ -166,17 +166,17 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
     // The symbol of the axes has its own projection. Its view axis meets the origin of the axes. Its eye is so far away
     // that the projection is nearly parallel. The unit of the following lengths is the length of an axis.
     constexpr float kFar = 16, kBar = 0.045f, kBall = 0.10f, kTip = 0.065f, kName = 1.28f;
-    const scene::Style& style = scene.style();
+    const scene::PictureStyle& style = scene.style();
     const auto width = static_cast<float>(scene.viewport.width), height = static_cast<float>(scene.viewport.height);
     const float length = static_cast<float>(scene.axes.length) * height;
     if (length < 1) return;
     const glm::vec2 center{static_cast<float>(scene.axes.x) * height, (1 - static_cast<float>(scene.axes.y)) * height};
-    const Projection projection{width,
-                                height,
-                                2 * length * kFar / width,
-                                2 * length * kFar / height,
-                                2 * center.x / width - 1,
-                                2 * center.y / height - 1};
+    const ViewProjection projection{width,
+                                    height,
+                                    2 * length * kFar / width,
+                                    2 * length * kFar / height,
+                                    2 * center.x / width - 1,
+                                    2 * center.y / height - 1};
     const glm::vec3 origin{0, 0, -kFar};
     const glm::mat3 turn(glm::dmat3(scene.camera.view()));
 
@@ -221,14 +221,14 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay) {
 
 void addLabels(const scene::Scene& scene, Overlay& overlay) {
     const glm::dmat4 toView = scene.camera.view();
-    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     for (const bool focus : {false, true})
         for (const scene::SlicePlacement& placement : scene.placements)
             if (!placement.label.empty() && placement.drawn && placement.focus == focus)
                 addLabel(placement, toView, projection, scene, overlay);
 }
 
-void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes) {
+void addCoordinatesOverlay(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes) {
     if (!scene.look.parts.coordinates) return;
     if (!scene.coordinates.hasLines()) {
         if (scene.coordinates.isDensityStrip) {
@@ -238,8 +238,8 @@ void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTar
         }
         return;
     }
-    const scene::CoordinatesLayout& layout = scene.coordinates;
-    const scene::Style& style = scene.style();
+    const scene::ParallelCoordinatesLayout& layout = scene.coordinates;
+    const scene::PictureStyle& style = scene.style();
     const auto height = static_cast<double>(scene.viewport.height);
     const auto& colors = style.axes;
     const auto count = static_cast<int>(scene.slices->rotatedVertices.size());

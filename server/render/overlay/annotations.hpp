@@ -16,20 +16,21 @@ void addAxes(const scene::Scene& scene, ShapeBatch& shapes, Overlay& overlay);
 /// one) is highlighted, and is added after the others.
 void addLabels(const scene::Scene& scene, Overlay& overlay);
 
-/// The lists to which addCoordinates() adds strokes. Strokes can be drawn without OpenGL, so long lines and large areas
-/// need only a fraction of the time. If a pointer is null, the overlay gets boxes and lines instead of strokes.
+/// The lists to which addCoordinatesOverlay() adds strokes. Strokes can be drawn without OpenGL, so long lines and
+/// large areas need only a fraction of the time. If a pointer is null, the overlay gets boxes and lines instead of
+/// strokes.
 struct StrokeTargets {
     ShapeBatch* below = nullptr;  ///< the strokes that are drawn before the overlay
     ShapeBatch* above = nullptr;  ///< the strokes that are drawn after everything else
 };
 
 /// Adds the parallel coordinates of the rotated vertices along the lower edge of the picture. If a density strip or the
-/// histogram of a field is shown instead, CoordinatesPlot draws it; this function then adds only its axes and marks
-/// and, over a density strip, the lines of the highlighted element. Does nothing if none of these is shown.
+/// histogram of a field is shown instead, ParallelCoordinatesPlot draws it; this function then adds only its axes and
+/// marks and, over a density strip, the lines of the highlighted element. Does nothing if none of these is shown.
 ///
 /// Adds to `strokes` what marks the vertices of the highlighted element. For parallel coordinates, these are the bands
 /// behind the lines of the vertices, and the lines of zero behind the bands. Over a density strip, these are the lines
 /// of the vertices, and the mark over these lines.
-void addCoordinates(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes);
+void addCoordinatesOverlay(const scene::Scene& scene, Overlay& overlay, const StrokeTargets& strokes);
 
 }  // namespace oval4d::render

@@ -34,11 +34,11 @@ void main() { pixel = vec4(color, 1.0) * texture(density, texel).r; }
 
 }  // namespace
 
-CoordinatesPlot::CoordinatesPlot()
+ParallelCoordinatesPlot::ParallelCoordinatesPlot()
     : program_(kVertexSource, kFragmentSource, sizeof(PlotVertex),
-               std::to_array<Attribute>({{2, GL_FLOAT, offsetof(PlotVertex, at)},
-                                         {2, GL_FLOAT, offsetof(PlotVertex, texel)},
-                                         {4, GL_UNSIGNED_BYTE, offsetof(PlotVertex, color)}})) {
+               std::to_array<VertexAttribute>({{2, GL_FLOAT, offsetof(PlotVertex, at)},
+                                               {2, GL_FLOAT, offsetof(PlotVertex, texel)},
+                                               {4, GL_UNSIGNED_BYTE, offsetof(PlotVertex, color)}})) {
     glGenTextures(1, &texture_);
     glBindTexture(GL_TEXTURE_2D, texture_);
     for (const GLenum direction : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
@@ -47,16 +47,16 @@ CoordinatesPlot::CoordinatesPlot()
         glTexParameteri(GL_TEXTURE_2D, filter, GL_LINEAR);
 }
 
-CoordinatesPlot::~CoordinatesPlot() { glDeleteTextures(1, &texture_); }
+ParallelCoordinatesPlot::~ParallelCoordinatesPlot() { glDeleteTextures(1, &texture_); }
 
-void CoordinatesPlot::draw(const scene::Scene& scene) {
+void ParallelCoordinatesPlot::draw(const scene::Scene& scene) {
     using scene::DensityPlot, slicing::CoordinateValueHistograms;
     const bool showsHistogram = scene.showsHistogram();
     if (!showsHistogram && !scene.showsDensity()) return;
     uploadTones(scene.plotTones, showsHistogram ? CoordinateValueHistograms::kColumns : DensityPlot::kColumns);
     corners_.clear();
     indices_.clear();
-    const scene::CoordinatesLayout& layout = scene.coordinates;
+    const scene::ParallelCoordinatesLayout& layout = scene.coordinates;
     for (int k = 0; k < 4; ++k) {
         const scene::Color color = scene.style().axes[static_cast<std::size_t>(k)];
         const double x = layout.left + k * layout.lineStep;
@@ -73,7 +73,7 @@ void CoordinatesPlot::draw(const scene::Scene& scene) {
     program_.draw(corners_.data(), corners_.size(), indices_);
 }
 
-void CoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int columns) {
+void ParallelCoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int columns) {
     const int rows = static_cast<int>(tones.size()) / columns;
     glBindTexture(GL_TEXTURE_2D, texture_);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -88,7 +88,7 @@ void CoordinatesPlot::uploadTones(const std::vector<std::uint8_t>& tones, int co
 
 // Adds the two ends of a vertical side of a quadrilateral, at x (in viewport heights from the left). The side shows the
 // center of column `column` of the texture: from the last row at the lower end to the first row at the upper end.
-void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color) {
+void ParallelCoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, double column, scene::Color color) {
     const double aspect = static_cast<double>(scene.viewport.width) / scene.viewport.height;
     for (const bool above : {false, true}) {
         const double y = scene.coordinates.zero + (above ? 1 : -1) * scene.coordinates.amplitude;
@@ -98,7 +98,7 @@ void CoordinatesPlot::addVerticalSide(const scene::Scene& scene, double x, doubl
 }
 
 // Adds the quadrilateral between the last two sides that addVerticalSide() has added.
-void CoordinatesPlot::addQuadBetweenLastSides() {
+void ParallelCoordinatesPlot::addQuadBetweenLastSides() {
     const auto first = static_cast<std::uint32_t>(corners_.size()) - 4;
     for (const std::uint32_t corner : {0U, 2U, 1U, 1U, 2U, 3U}) indices_.push_back(first + corner);
 }

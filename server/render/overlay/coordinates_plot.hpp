@@ -15,12 +15,12 @@ namespace oval4d::render {
 /// Draws the density strip or the histogram of a scene, as textures. The colors of a strip are interpolated between the
 /// colors of the axes. Each panel of a histogram has the color of its axis. Requires a current GL context throughout
 /// its lifetime.
-class CoordinatesPlot {
+class ParallelCoordinatesPlot {
   public:
-    CoordinatesPlot();
-    ~CoordinatesPlot();
-    CoordinatesPlot(const CoordinatesPlot&) = delete;
-    CoordinatesPlot& operator=(const CoordinatesPlot&) = delete;
+    ParallelCoordinatesPlot();
+    ~ParallelCoordinatesPlot();
+    ParallelCoordinatesPlot(const ParallelCoordinatesPlot&) = delete;
+    ParallelCoordinatesPlot& operator=(const ParallelCoordinatesPlot&) = delete;
 
     /// Draws the density strip or the histogram. Does nothing if the scene shows neither.
     void draw(const scene::Scene& scene);

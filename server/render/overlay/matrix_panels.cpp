@@ -27,13 +27,13 @@ constexpr double kFocusWidth = 0.0028;
 
 // Draws the panels that show sections. Each section has two panels: one with the section's first axis to the right, and
 // one with its second axis to the right.
-class SectionPainter {
+class SectionPanelPainter {
   public:
-    SectionPainter(const scene::Scene& scene, Overlay& overlay)
+    SectionPanelPainter(const scene::Scene& scene, Overlay& overlay)
         : scene_(scene),
           overlay_(overlay),
           height_(scene.viewport.height),
-          pixelsPerUnit_(scene.matrix.scale(scene.circumradius) * height_) {}
+          pixelsPerUnit_(scene.matrix.panelScale(scene.circumradius) * height_) {}
 
     void paint(std::size_t section, bool transposed) {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
@@ -41,7 +41,7 @@ class SectionPainter {
         const auto [row, column] =
             transposed ? std::pair(from.axes[0], from.axes[1]) : std::pair(from.axes[1], from.axes[0]);
         center_ = scene_.matrix.center(row, column) * height_;
-        overlay_.box(panel(), scene_.style().zeroLine, kPanelOpacity,
+        overlay_.box(panelRect(), scene_.style().zeroLine, kPanelOpacity,
                      static_cast<float>(0.03 * scene_.matrix.panel * height_));
         points_.clear();
         for (const glm::dvec2& p : from.points) points_.push_back(pixelOf(p));
@@ -52,20 +52,20 @@ class SectionPainter {
         if (scene_.look.parts.balls || !from.ballScale.empty()) paintPoints(section);
     }
 
-    void paintName(int axis) {
+    void paintAxisName(int axis) {
         const glm::vec2 at = scene_.matrix.center(axis, axis) * height_;
         const int size = static_cast<int>(std::lround(kNameHeight * scene_.matrix.panel * height_));
         if (size < 1) return;
         const auto digits = static_cast<float>(overlay_.font().digitHeight(size));
         const auto index = static_cast<std::size_t>(axis);
         overlay_.text(at.x, at.y - digits / 2, size, std::string_view("xyzw").substr(index, 1), colorOfAxis(axis));
-        paintUnit(scene_.axisUnits.at(index).text, {at.x, at.y - digits / 2}, colorOfAxis(axis));
+        paintAxisUnit(scene_.axisUnits.at(index).text, {at.x, at.y - digits / 2}, colorOfAxis(axis));
     }
 
   private:
     // Draws the unit of an axis below the name of the axis. Does nothing if the unit is unknown, or if its text is
     // wider than a panel. `name` is the middle of the baseline of the axis name, in pixels.
-    void paintUnit(const std::string& unit, const glm::vec2& name, Color color) const {
+    void paintAxisUnit(const std::string& unit, const glm::vec2& name, Color color) const {
         const int size = static_cast<int>(std::lround(kUnitHeight * scene_.matrix.panel * height_));
         if (unit.empty() || size < 1) return;
         const auto digits = static_cast<float>(overlay_.font().digitHeight(size));
@@ -81,7 +81,7 @@ class SectionPainter {
 
     Color colorOfAxis(int axis) const { return scene_.style().axes[static_cast<std::size_t>(axis)]; }
 
-    PixelRect panel() const {
+    PixelRect panelRect() const {
         const double half = scene_.matrix.panel / 2 * height_;
         return {static_cast<float>(std::round(center_.x - half)), static_cast<float>(std::round(center_.y - half)),
                 static_cast<float>(std::round(center_.x + half)), static_cast<float>(std::round(center_.y + half))};
@@ -95,7 +95,7 @@ class SectionPainter {
     void paintFocusLines(int row, int column) const {
         const glm::dvec4& point = scene_.sectionMatrix.point;
         const glm::vec2 at = center_ + pixelsPerUnit_ * glm::dvec2(point[column], point[row]);
-        const PixelRect box = panel();
+        const PixelRect box = panelRect();
         const float half = std::max(0.5F, static_cast<float>(std::round(0.0011 * height_)) / 2);
         if (at.y > box.bottom && at.y < box.top)
             overlay_.box({box.left, at.y - half, box.right, at.y + half}, colorOfAxis(column), kAxisOpacity);
@@ -136,7 +136,7 @@ class SectionPainter {
     void paintPoints(std::size_t section) const {
         const PlanarSection& from = scene_.sectionMatrix.sections[section];
         const scene::SectionMatrix::SectionStyle& styles = scene_.sectionMatrix.styles[section];
-        const scene::Style& style = scene_.style();
+        const scene::PictureStyle& style = scene_.style();
         const bool isCloud = !from.ballScale.empty();
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const double opacity = slicing::opacityOf(styles.points[i]) * (isCloud ? from.ballOpacity[i] : 1);
@@ -160,7 +160,7 @@ class SectionPainter {
 // Marks the focus point in the focus slice (the middle one) by lines through the point along the axes x, y and z.
 // Leaves out a line that has an end behind the eye.
 void addFocusPoint(const scene::Scene& scene, const scene::SlicePlacement& placement, Overlay& overlay) {
-    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const auto width = static_cast<float>(std::max(1.0, kFocusWidth * scene.viewport.height));
     const std::array<scene::ViewSegment, 3> lines = scene::focusLines(scene, placement);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -176,8 +176,8 @@ void addMatrixAndFocusLines(const scene::Scene& scene, Overlay& overlay) {
     if (!scene.matrix.shown) return;
     for (const scene::SlicePlacement& placement : scene.placements)
         if (placement.focus) addFocusPoint(scene, placement, overlay);
-    SectionPainter painter(scene, overlay);
-    for (int axis = 0; axis < 4; ++axis) painter.paintName(axis);
+    SectionPanelPainter painter(scene, overlay);
+    for (int axis = 0; axis < 4; ++axis) painter.paintAxisName(axis);
     for (std::size_t i = 0; i < scene.sectionMatrix.sections.size(); ++i) {
         painter.paint(i, false);
         painter.paint(i, true);

@@ -45,11 +45,11 @@ void main() {
 }
 )";
 
-constexpr Attribute kAttributes[] = {{2, GL_FLOAT, offsetof(OverlayVertex, at)},
-                                     {2, GL_FLOAT, offsetof(OverlayVertex, fromCenter)},
-                                     {3, GL_FLOAT, offsetof(OverlayVertex, box)},
-                                     {2, GL_FLOAT, offsetof(OverlayVertex, texel)},
-                                     {4, GL_UNSIGNED_BYTE, offsetof(OverlayVertex, color)}};
+constexpr VertexAttribute kAttributes[] = {{2, GL_FLOAT, offsetof(OverlayVertex, at)},
+                                           {2, GL_FLOAT, offsetof(OverlayVertex, fromCenter)},
+                                           {3, GL_FLOAT, offsetof(OverlayVertex, box)},
+                                           {2, GL_FLOAT, offsetof(OverlayVertex, texel)},
+                                           {4, GL_UNSIGNED_BYTE, offsetof(OverlayVertex, color)}};
 
 // Half the width and half the height of the box of a glyph or polygon, in pixels. The box is larger than the picture,
 // so that it cuts off nothing.

@@ -10,7 +10,7 @@ namespace oval4d::render {
 
 void ConvexShapeCollector::collect(const scene::Scene& scene, ShapeBatch& out, const std::function<void()>& painted) {
     const glm::dmat4 toView = scene.camera.view();
-    out.setProjection(Projection::of(scene.camera, scene.viewport));
+    out.setProjection(ViewProjection::fromCamera(scene.camera, scene.viewport));
     placementOrder_.clear();
     for (std::uint32_t i = 0; i < scene.placements.size(); ++i)
         if (scene.placements[i].drawn && scene.slices->vertexBegin[i] < scene.slices->vertexBegin[i + 1])
@@ -34,7 +34,7 @@ void ConvexShapeCollector::paintSlice(const SliceRef& slice, ShapeBatch& out) {
     transformVertices(slice);
     classifyFrontAndBack(slice);
     sortVerticesAndEdgesByDepth(slice);
-    for (const Side side : {Side::away, Side::toward}) {
+    for (const FacingDirection side : {FacingDirection::away, FacingDirection::toward}) {
         if (slice.scene.look.parts.faces) paintFaces(slice, side, out);
         paintSkeleton(slice, side, out);
     }
@@ -49,23 +49,23 @@ void ConvexShapeCollector::transformVertices(const SliceRef& slice) {
 
 /// Finds which faces are turned toward the eye, and which edges and vertices belong to at least one of these faces.
 void ConvexShapeCollector::classifyFrontAndBack(const SliceRef& slice) {
-    vertexSide_.assign(slice.vertices(), Side::away);
-    edgeSide_.assign(slice.edges(), Side::away);
+    vertexSide_.assign(slice.vertices(), FacingDirection::away);
+    edgeSide_.assign(slice.edges(), FacingDirection::away);
     faceSide_.resize(slice.faces());
     normals_.resize(slice.faces());
     for (std::size_t f = 0; f < slice.faces(); ++f) {
-        const auto [begin, end] = slice.loop(f);
+        const auto [begin, end] = slice.faceLoopRange(f);
         const glm::vec3& first = points_[slice.set.corners[begin]];
         glm::vec3 area(0);
         for (std::size_t i = begin + 2; i < end; ++i)
             area += glm::cross(points_[slice.set.corners[i - 1]] - first, points_[slice.set.corners[i]] - first);
         const float length = glm::length(area);
         normals_[f] = length > 0 ? area / length : glm::vec3(0, 0, 1);
-        faceSide_[f] = glm::dot(area, first) < 0 ? Side::toward : Side::away;
-        if (faceSide_[f] == Side::away) continue;
+        faceSide_[f] = glm::dot(area, first) < 0 ? FacingDirection::toward : FacingDirection::away;
+        if (faceSide_[f] == FacingDirection::away) continue;
         for (std::size_t i = begin; i < end; ++i) {
-            vertexSide_[slice.set.corners[i]] = Side::toward;
-            edgeSide_[slice.set.cornerEdges[i]] = Side::toward;
+            vertexSide_[slice.set.corners[i]] = FacingDirection::toward;
+            edgeSide_[slice.set.cornerEdges[i]] = FacingDirection::toward;
         }
     }
 }
@@ -91,21 +91,21 @@ void ConvexShapeCollector::sortVerticesAndEdgesByDepth(const SliceRef& slice) {
     for (std::size_t e = slice.edges(); e-- > 0;) edgeOrder_[--edgeBegin_[farther(e)]] = static_cast<std::uint32_t>(e);
 }
 
-void ConvexShapeCollector::paintFaces(const SliceRef& slice, Side side, ShapeBatch& out) {
+void ConvexShapeCollector::paintFaces(const SliceRef& slice, FacingDirection side, ShapeBatch& out) {
     const auto opacity = static_cast<float>(slice.scene.faceOpacity);
     const bool soft = !slice.scene.look.parts.bars;
     for (std::size_t f = 0; f < slice.faces(); ++f) {
         if (faceSide_[f] != side) continue;
         const float visibility = slice.faceVisibilityFactor(f);
         if (visibility == 0) continue;
-        const auto [begin, end] = slice.loop(f);
+        const auto [begin, end] = slice.faceLoopRange(f);
         corners_.clear();
         for (std::size_t i = begin; i < end; ++i) corners_.push_back(points_[slice.set.corners[i]]);
         out.addFace(corners_, normals_[f], slice.faceColor(f), opacity * visibility, soft);
     }
 }
 
-void ConvexShapeCollector::paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out) {
+void ConvexShapeCollector::paintSkeleton(const SliceRef& slice, FacingDirection side, ShapeBatch& out) {
     const SkeletonStyle skeleton(slice.scene);
     for (std::size_t i = 0; i < order_.size(); ++i) {
         const std::uint32_t v = order_[i];

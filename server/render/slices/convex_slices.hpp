@@ -29,19 +29,19 @@ class ConvexShapeCollector {
 
   private:
     /// The side of a face, edge or vertex: turned away from the eye, or toward it.
-    enum class Side : std::uint8_t { away, toward };
+    enum class FacingDirection : std::uint8_t { away, toward };
 
     void paintSlice(const SliceRef& slice, ShapeBatch& out);
     void transformVertices(const SliceRef& slice);
     void classifyFrontAndBack(const SliceRef& slice);
     void sortVerticesAndEdgesByDepth(const SliceRef& slice);
-    void paintFaces(const SliceRef& slice, Side side, ShapeBatch& out);
-    void paintSkeleton(const SliceRef& slice, Side side, ShapeBatch& out);
+    void paintFaces(const SliceRef& slice, FacingDirection side, ShapeBatch& out);
+    void paintSkeleton(const SliceRef& slice, FacingDirection side, ShapeBatch& out);
 
     std::vector<std::uint32_t> placementOrder_;  // the indices of the visible slices, from far to near
     // The points and normals of the current slice and the corners of the current face, in view coordinates.
     std::vector<glm::vec3> points_, corners_, normals_;
-    std::vector<Side> faceSide_, edgeSide_, vertexSide_;
+    std::vector<FacingDirection> faceSide_, edgeSide_, vertexSide_;
     // order_: the vertices from far to near. rank_: per vertex, its index in order_.
     std::vector<std::uint32_t> order_, rank_;
     std::vector<std::uint32_t> edgeBegin_, edgeOrder_;  // the edges, grouped by the rank of their farther vertex

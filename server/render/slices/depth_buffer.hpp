@@ -15,13 +15,13 @@ namespace oval4d::render {
 inline constexpr std::uint32_t kCoverageBits = 255;
 
 /// Returns the value of the depth buffer for a pixel that a shape with the nearness `nearness` covers completely.
-inline float packFullyCovered(float nearness) {
+inline float packFullyCoveredDepth(float nearness) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearness) | kCoverageBits);
 }
 
 /// Returns the part of a pixel, from 0 to 1, that solid shapes leave uncovered. `depth` is the value of the pixel in
 /// the depth buffer.
-inline float unpackUncoveredPart(float depth) {
+inline float unpackUncoveredFraction(float depth) {
     return 1 - static_cast<float>(std::bit_cast<std::uint32_t>(depth) & kCoverageBits) / kCoverageBits;
 }
 

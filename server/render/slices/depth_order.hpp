@@ -12,7 +12,7 @@
 namespace oval4d::render {
 
 /// Sorts shapes from far to near with a radix sort. Reuses its memory.
-class DepthOrder {
+class DepthSorter {
   public:
     /// A shape of a list, with the key by which it is sorted.
     struct KeyedShape {
@@ -24,10 +24,10 @@ class DepthOrder {
     /// of a shape is its member `depth`, a float. Shapes at the same depth keep the order of the list. The result is
     /// valid until the next call.
     template <typename Shapes>
-    std::span<const KeyedShape> farToNear(const Shapes& shapes) {
+    std::span<const KeyedShape> sortedFarToNear(const Shapes& shapes) {
         entries_.clear();
         for (const auto& shape : shapes)
-            entries_.push_back({keyOf(shape.depth), static_cast<std::uint32_t>(entries_.size())});
+            entries_.push_back({sortKeyOf(shape.depth), static_cast<std::uint32_t>(entries_.size())});
         sort();
         return entries_;
     }
@@ -40,7 +40,7 @@ class DepthOrder {
 
     // Returns a number that increases as `depth` decreases. The bits of floats with the same sign are ordered as their
     // absolute values. 0 is added so that −0 becomes 0, which it equals.
-    static std::uint32_t keyOf(float depth) {
+    static std::uint32_t sortKeyOf(float depth) {
         constexpr std::uint32_t kSign = 1U << 31;
         const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0F);
         return (bits & kSign) != 0 ? bits : ~(bits | kSign);

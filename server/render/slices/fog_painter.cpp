@@ -119,7 +119,7 @@ constexpr std::array<std::uint32_t, 36> kBoxTriangles{0, 4, 6, 0, 6, 2, 1, 3, 7,
 
 FogPainter::FogPainter()
     : program_(kVertexSource, kFragmentSource, sizeof(BoxCorner),
-               std::to_array<Attribute>(
+               std::to_array<VertexAttribute>(
                    {{3, GL_FLOAT, offsetof(BoxCorner, clip)}, {3, GL_FLOAT, offsetof(BoxCorner, place)}})) {
     const auto at = [&](const char* name) { return program_.uniformLocation(name); };
     uniforms_ = {at("toDepth"),   at("isBehind"), at("eye"),  at("walls"),
@@ -141,7 +141,7 @@ FogPainter::~FogPainter() {
 }
 
 void FogPainter::begin(const scene::Scene& scene, DepthRange range) {
-    projection_ = Projection::of(scene.camera, scene.viewport);
+    projection_ = ViewProjection::fromCamera(scene.camera, scene.viewport);
     toView_ = scene.camera.view();
     std::array<glm::vec4, scene::kFogEntries> looks{};
     std::ranges::transform(scene.fog, looks.begin(), [](std::uint32_t entry) {
@@ -175,7 +175,7 @@ void FogPainter::deleteLattices() {
         glDeleteTextures(static_cast<GLsizei>(textures.size()), textures.data());
 }
 
-void FogPainter::copyDepths(scene::Viewport viewport, FogOccluders occluders) {
+void FogPainter::copyOccluderDepths(scene::Viewport viewport, FogOccluders occluders) {
     const bool isFrame = occluders == FogOccluders::frame;
     glActiveTexture(GL_TEXTURE0 + (isFrame ? kFrameUnit : kSurfaceUnit));
     glBindTexture(GL_TEXTURE_2D, isFrame ? frameDepths_ : surfaceDepths_);
@@ -197,7 +197,7 @@ void FogPainter::uploadLattice(const slicing::SliceFog& fog) {
 
 // Writes one byte for each block of a fog lattice to the 3-D texture that is bound: 255 if the block contains fog, else
 // 0.
-void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table) {
+void FogPainter::uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTransferTable& table) {
     const glm::ivec3 size = scene::findFogBlocks(fog, table, blockTexels_);
     glTexImage3D(GL_TEXTURE_3D, 0, GL_R8, size.x, size.y, size.z, 0, GL_RED, GL_UNSIGNED_BYTE, blockTexels_.data());
 }

@@ -40,14 +40,14 @@ class FogPainter {
     enum class FogOccluders : std::uint8_t { frame, surfaces };
     /// Copies the depth buffer to a texture for later calls of draw(). All shapes of the kind `occluders`, and no
     /// shapes of the other kind, must have been drawn to the depth buffer.
-    void copyDepths(scene::Viewport viewport, FogOccluders occluders);
+    void copyOccluderDepths(scene::Viewport viewport, FogOccluders occluders);
 
     /// A part of the fog between the eye and the nearest surface. `behind` is the fog behind the nearest ball or bar.
     /// This part must be drawn before balls and bars are drawn, so that it is visible through their antialiased edges.
     /// `in_front` is the fog in front of the nearest ball or bar; where there is no ball or bar, it is all of the fog.
     enum class FogPart : std::uint8_t { behind, in_front };
-    /// Blends the part `part` of the fog of one slice with the picture. The caller must first call copyDepths() for
-    /// both kinds of occluders, and must draw the slices from far to near. Leaves the depth test enabled.
+    /// Blends the part `part` of the fog of one slice with the picture. The caller must first call copyOccluderDepths()
+    /// for both kinds of occluders, and must draw the slices from far to near. Leaves the depth test enabled.
     void draw(const scene::Scene& scene, std::uint32_t slice, FogPart part);
 
     /// Frees the memory that is kept for the next picture. Keeps the textures of the last picture, because deleting
@@ -63,7 +63,7 @@ class FogPainter {
         glm::vec3 place;  // the coordinates of the corner in the slice, in circumradii
     };
     void uploadLattice(const slicing::SliceFog& fog);
-    void uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTable& table);
+    void uploadBlockMask(const slicing::SliceFog& fog, const scene::FogTransferTable& table);
     void deleteLattices();
 
     ShaderProgram program_;
@@ -73,7 +73,7 @@ class FogPainter {
     GLuint table_ = 0, frameDepths_ = 0, surfaceDepths_ = 0;
     // Per slice: the texture of its lattice, and that of its blocks; 0 if the slice has no fog.
     std::vector<GLuint> lattices_, blocks_;
-    Projection projection_;
+    ViewProjection projection_;
     glm::dmat4 toView_{1};
     std::vector<std::uint8_t> texels_, blockTexels_;
 };

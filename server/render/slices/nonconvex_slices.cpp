@@ -38,7 +38,7 @@ void NonconvexShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     std::sort(faces_.begin(), faces_.end(), nearer);
     std::sort(skeleton_.begin(), skeleton_.end(), farther);
     std::sort(faded_.begin(), faded_.end(), farther);
-    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const SkeletonStyle skeleton(scene);
     const auto paintAll = [&](const std::vector<SortedShape>& items, ShapeBatch& shapes) {
         shapes.begin(scene.style());
@@ -61,23 +61,23 @@ void NonconvexShapeCollector::collectShapesOf(const SliceRef& slice, DepthRange&
         points[v] = transform(slice.set.vertices[slice.firstVertex() + v]);
         const float depth = -points[v].z;
         depths = {std::min(depths.from, depth), std::max(depths.to, depth)};
-        if (skeleton.balls) add({depth, ShapeKind::ball, number, v}, slice.vertexVisibility(v));
+        if (skeleton.balls) addUnlessHidden({depth, ShapeKind::ball, number, v}, slice.vertexVisibility(v));
     }
     for (std::uint32_t e = 0; skeleton.bars && e < slice.edges(); ++e) {
         const auto& [a, b] = slice.edge(e);
         // A bar is sorted by the depth of its far end, so that it is drawn after everything that is farther away than
         // this end.
-        add({-std::min(points[a].z, points[b].z), ShapeKind::bar, number, e}, slice.edgeVisibility(e));
+        addUnlessHidden({-std::min(points[a].z, points[b].z), ShapeKind::bar, number, e}, slice.edgeVisibility(e));
     }
     const slicing::FilledFaces& fill = scene.fill;
     if (fill.empty()) return;
     for (std::uint32_t f = fill.faceBegin[number]; f < fill.faceBegin[number + 1]; ++f) {
         const glm::vec3 corner = transform(fill.corners[fill.cornerBegin[fill.pieceBegin[f]]]);
-        add({-corner.z, ShapeKind::face, number, f}, scene.visibilities.face(fill.faces[f].source));
+        addUnlessHidden({-corner.z, ShapeKind::face, number, f}, scene.visibilities.face(fill.faces[f].source));
     }
 }
 
-void NonconvexShapeCollector::add(const SortedShape& item, Visibility visibility) {
+void NonconvexShapeCollector::addUnlessHidden(const SortedShape& item, Visibility visibility) {
     if (visibility == Visibility::faded) faded_.push_back(item);
     if (visibility == Visibility::full) (item.kind == ShapeKind::face ? faces_ : skeleton_).push_back(item);
 }

@@ -37,7 +37,7 @@ class NonconvexShapeCollector {
     };
 
     void collectShapesOf(const SliceRef& slice, DepthRange& depths);
-    void add(const SortedShape& item, slicing::Visibility visibility);
+    void addUnlessHidden(const SortedShape& item, slicing::Visibility visibility);
     void addShape(const SliceRef& slice, const SortedShape& item, const SkeletonStyle& skeleton, ShapeBatch& out);
     void addFace(const SliceRef& slice, std::uint32_t number, ShapeBatch& out);
 

@@ -38,24 +38,24 @@ struct PatchShading {
 };
 
 // Returns the numbers of the eight lanes: 0 … 7.
-OVAL4D_AVX2 inline __m256i lanes() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
+OVAL4D_AVX2 inline __m256i laneIndices() { return _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7); }
 
 // Returns a mask for eight pixels of a row, whose first pixel is in column `at`. All bits of a pixel are set if its
 // column is in begin … end − 1.
-OVAL4D_AVX2 inline __m256i between(int begin, int end, int at) {
-    const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(at), lanes());
+OVAL4D_AVX2 inline __m256i columnRangeMask(int begin, int end, int at) {
+    const __m256i x = _mm256_add_epi32(_mm256_set1_epi32(at), laneIndices());
     return _mm256_andnot_si256(_mm256_cmpgt_epi32(_mm256_set1_epi32(begin), x),
                                _mm256_cmpgt_epi32(_mm256_set1_epi32(end), x));
 }
 
 // Returns a register with `first` in lanes 0 … 3, and `second` in lanes 4 … 7.
-OVAL4D_AVX2 inline __m256i inHalves(int first, int second) {
+OVAL4D_AVX2 inline __m256i setHalves(int first, int second) {
     return _mm256_set_m128i(_mm_set1_epi32(second), _mm_set1_epi32(first));
 }
 
 // Returns the parts of eight pixels that solid shapes leave uncovered, from 0 to 1. `depths` has the values of the
 // pixels in the depth buffer.
-OVAL4D_AVX2 inline __m256 uncoveredParts(__m256 depths) {
+OVAL4D_AVX2 inline __m256 uncoveredFractions(__m256 depths) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
     const __m256i bits = _mm256_andnot_si256(_mm256_castps_si256(depths), mask);
     return _mm256_mul_ps(_mm256_cvtepi32_ps(bits), _mm256_set1_ps(1.0F / kCoverageBits));
@@ -63,7 +63,7 @@ OVAL4D_AVX2 inline __m256 uncoveredParts(__m256 depths) {
 
 // Returns the values of the depth buffer for eight pixels, from the nearnesses of the pixels and their uncovered parts
 // (from 0 to 1).
-OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) {
+OVAL4D_AVX2 inline __m256 packDepths(__m256 nearness, __m256 uncovered) {
     const __m256i mask = _mm256_set1_epi32(kCoverageBits);
     const __m256i bits =
         _mm256_sub_epi32(mask, _mm256_cvtps_epi32(_mm256_mul_ps(uncovered, _mm256_set1_ps(kCoverageBits))));
@@ -72,14 +72,14 @@ OVAL4D_AVX2 inline __m256 withUncoveredParts(__m256 nearness, __m256 uncovered) 
 
 /// The values of the linear functions of a PatchShading at the first pixels of two rows. Lanes 0 … 3 have the values in
 /// the first row, and lanes 4 … 7 those in the second row.
-struct StartValues {
+struct RowStartValues {
     __m256 u, v, halfRadius, nearness;
 };
 
 // Returns the values of the linear functions of `paint` at the pixels (x1, y1) and (x2, y2). Returns 0 for functions
 // that a patch of this form does not need.
 template <Form form, DepthUse depth>
-OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, int y1, int x2, int y2) {
+OVAL4D_AVX2 inline RowStartValues startValues(const PatchShading& paint, int x1, int y1, int x2, int y2) {
     const auto of = [&](const LinearFunction& f) OVAL4D_AVX2 {
         const auto at = [&](int x, int y) {
             return f.origin + f.y * static_cast<float>(y) + f.x * static_cast<float>(x);
@@ -87,7 +87,7 @@ OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, in
         return _mm256_set_m128(_mm_set1_ps(at(x2, y2)), _mm_set1_ps(at(x1, y1)));
     };
     constexpr bool isRound = form == Form::strip || form == Form::disk;
-    StartValues values;
+    RowStartValues values;
     values.u = isRound ? of(paint.u) : _mm256_setzero_ps();
     values.v = form == Form::disk ? of(paint.v) : _mm256_setzero_ps();
     values.halfRadius = form == Form::rim ? of(paint.halfRadius) : _mm256_setzero_ps();
@@ -99,9 +99,9 @@ OVAL4D_AVX2 inline StartValues startValues(const PatchShading& paint, int x1, in
 struct PixelsOfOneRow {
     std::ptrdiff_t index;  ///< the index in the picture of the first of the eight pixels
 
-    OVAL4D_AVX2 __m256 depths(const float* nearness) const { return _mm256_loadu_ps(nearness + index); }
+    OVAL4D_AVX2 __m256 loadDepths(const float* nearness) const { return _mm256_loadu_ps(nearness + index); }
     OVAL4D_AVX2 void setDepths(float* nearness, __m256 depths) const { _mm256_storeu_ps(nearness + index, depths); }
-    OVAL4D_AVX2 __m256i colors(const std::uint32_t* pixels) const {
+    OVAL4D_AVX2 __m256i loadColors(const std::uint32_t* pixels) const {
         return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(pixels + index));
     }
     OVAL4D_AVX2 void setColors(std::uint32_t* pixels, __m256i colors) const {
@@ -113,14 +113,14 @@ struct PixelsOfOneRow {
 struct PixelsOfTwoRows {
     std::ptrdiff_t first, second;  ///< the indices in the picture of the first pixel in each of the two rows
 
-    OVAL4D_AVX2 __m256 depths(const float* nearness) const {
+    OVAL4D_AVX2 __m256 loadDepths(const float* nearness) const {
         return _mm256_set_m128(_mm_loadu_ps(nearness + second), _mm_loadu_ps(nearness + first));
     }
     OVAL4D_AVX2 void setDepths(float* nearness, __m256 depths) const {
         _mm_storeu_ps(nearness + first, _mm256_castps256_ps128(depths));
         _mm_storeu_ps(nearness + second, _mm256_extractf128_ps(depths, 1));
     }
-    OVAL4D_AVX2 __m256i colors(const std::uint32_t* pixels) const {
+    OVAL4D_AVX2 __m256i loadColors(const std::uint32_t* pixels) const {
         return _mm256_set_m128i(_mm_loadu_si128(reinterpret_cast<const __m128i*>(pixels + second)),
                                 _mm_loadu_si128(reinterpret_cast<const __m128i*>(pixels + first)));
     }
@@ -135,7 +135,7 @@ struct PixelsOfTwoRows {
 // The formulas are those of the fragment shader in shape_batch.cpp.
 template <Form form, DepthUse depth, typename Pixels>
 OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading& paint, const Pixels& pixels,
-                                   const StartValues& start, __m256i offsets, __m256 inside) {
+                                   const RowStartValues& start, __m256i offsets, __m256 inside) {
     constexpr bool isRound = form == Form::strip || form == Form::disk;
     const __m256 zero = _mm256_setzero_ps(), one = _mm256_set1_ps(1), most = _mm256_set1_ps(255);
     const __m256 offset = _mm256_cvtepi32_ps(offsets);
@@ -168,14 +168,14 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
         // nearness is 1 / (d − r·n), which is almost (1 + n·r/d) / d. Here, 1/d is `patch`, and r/d is paint.bulge.
         const __m256 patch = valueOf(paint.nearness, start.nearness);
         const __m256 nearness = _mm256_fmadd_ps(_mm256_mul_ps(patch, _mm256_set1_ps(paint.bulge)), n, patch);
-        const __m256 old = pixels.depths(canvas.nearness), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
-        const __m256 uncovered = uncoveredParts(old), rest = _mm256_fnmadd_ps(alpha, uncovered, uncovered);
+        const __m256 old = pixels.loadDepths(canvas.nearness), isNearer = _mm256_cmp_ps(nearness, old, _CMP_GT_OQ);
+        const __m256 uncovered = uncoveredFractions(old), rest = _mm256_fnmadd_ps(alpha, uncovered, uncovered);
         alpha = _mm256_mul_ps(alpha, _mm256_blendv_ps(uncovered, one, isNearer));
         inside = _mm256_and_ps(inside, _mm256_cmp_ps(alpha, zero, _CMP_GT_OQ));
         if (_mm256_testz_ps(inside, inside) != 0) return;
         alpha = _mm256_and_ps(alpha, inside);
         if constexpr (depth == DepthUse::written) {
-            const __m256 written = withUncoveredParts(_mm256_max_ps(nearness, old), rest);
+            const __m256 written = packDepths(_mm256_max_ps(nearness, old), rest);
             pixels.setDepths(canvas.nearness, _mm256_blendv_ps(old, written, inside));
         }
     }
@@ -191,7 +191,7 @@ OVAL4D_AVX2 inline void fillPixels(const PatchCanvas& canvas, const PatchShading
     if constexpr (isRound)
         shine = _mm256_mul_ps(power(product(paint.specular), canvas.shininess), _mm256_set1_ps(canvas.gloss));
     const __m256 kept = _mm256_sub_ps(one, alpha);
-    const __m256i old = pixels.colors(canvas.pixels);
+    const __m256i old = pixels.loadColors(canvas.pixels);
     const auto over = [&](const __m256& above, const __m256& below) OVAL4D_AVX2 {
         return _mm256_cvtps_epi32(_mm256_fmadd_ps(above, alpha, _mm256_mul_ps(below, kept)));
     };
@@ -219,9 +219,9 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
         if (isNarrow(y) && y + 1 < rows.end && isNarrow(y + 1)) {
             const int leftAbove = canvas.left[y + 1], rightAbove = canvas.right[y + 1];
             const int at = std::min(left, canvas.width - kHalf), atAbove = std::min(leftAbove, canvas.width - kHalf);
-            const __m256i x = _mm256_add_epi32(inHalves(at, atAbove), inHalf);
-            const __m256i inside = _mm256_andnot_si256(_mm256_cmpgt_epi32(inHalves(left, leftAbove), x),
-                                                       _mm256_cmpgt_epi32(inHalves(right, rightAbove), x));
+            const __m256i x = _mm256_add_epi32(setHalves(at, atAbove), inHalf);
+            const __m256i inside = _mm256_andnot_si256(_mm256_cmpgt_epi32(setHalves(left, leftAbove), x),
+                                                       _mm256_cmpgt_epi32(setHalves(right, rightAbove), x));
             fillPixels<form, depth>(canvas, paint, PixelsOfTwoRows{row + at, row + canvas.width + atAbove},
                                     startValues<form, depth>(paint, at, y, atAbove, y + 1), inHalf,
                                     _mm256_castsi256_ps(inside));
@@ -231,8 +231,8 @@ OVAL4D_AVX2 void fillShape(const PatchCanvas& canvas, const RowRange& rows, cons
         for (int x = left; x < right; x += kLanes) {
             const int at = std::min(x, canvas.width - kLanes);
             fillPixels<form, depth>(canvas, paint, PixelsOfOneRow{row + at},
-                                    startValues<form, depth>(paint, at, y, at, y), lanes(),
-                                    _mm256_castsi256_ps(between(x, right, at)));
+                                    startValues<form, depth>(paint, at, y, at, y), laneIndices(),
+                                    _mm256_castsi256_ps(columnRangeMask(x, right, at)));
         }
     }
 }
@@ -258,22 +258,24 @@ OVAL4D_AVX2 void fillFace(const PatchCanvas& canvas, const RowRange& rows, const
         for (int x = canvas.left[y]; x < end; x += kLanes) {
             const int at = std::min(x, canvas.width - kLanes);
             const PixelsOfOneRow pixels{static_cast<std::ptrdiff_t>(y) * canvas.width + at};
-            const __m256i inside = between(x, end, at);
+            const __m256i inside = columnRangeMask(x, end, at);
             if constexpr (depth == DepthUse::tested) {
                 const auto start = startValues<Form::face, depth>(paint, at, y, at, y);
-                const __m256 column = _mm256_cvtepi32_ps(lanes()), bulge = _mm256_set1_ps(paint.bulge);
+                const __m256 column = _mm256_cvtepi32_ps(laneIndices()), bulge = _mm256_set1_ps(paint.bulge);
                 const __m256 patch = _mm256_fmadd_ps(column, _mm256_set1_ps(paint.nearness.x), start.nearness);
-                const __m256 nearness = _mm256_fmadd_ps(patch, bulge, patch), solid = pixels.depths(canvas.nearness);
+                const __m256 nearness = _mm256_fmadd_ps(patch, bulge, patch),
+                             solid = pixels.loadDepths(canvas.nearness);
                 const __m256i coverage = _mm256_and_si256(_mm256_castps_si256(solid), _mm256_set1_epi32(kCoverageBits));
                 const __m256 isVisible = _mm256_or_ps(_mm256_cmp_ps(nearness, solid, _CMP_GT_OQ),
                                                       _mm256_castsi256_ps(_mm256_cmpeq_epi32(coverage, zero)));
                 // Somewhere in the face, a solid shape is nearer.
                 if (_mm256_testc_ps(isVisible, _mm256_castsi256_ps(inside)) == 0) {
-                    fillPixels<Form::face, depth>(canvas, paint, pixels, start, lanes(), _mm256_castsi256_ps(inside));
+                    fillPixels<Form::face, depth>(canvas, paint, pixels, start, laneIndices(),
+                                                  _mm256_castsi256_ps(inside));
                     continue;
                 }
             }
-            const __m256i old = pixels.colors(canvas.pixels);
+            const __m256i old = pixels.loadColors(canvas.pixels);
             __m256i low = _mm256_unpacklo_epi8(old, zero), high = _mm256_unpackhi_epi8(old, zero);
             low = _mm256_add_epi16(_mm256_add_epi16(_mm256_mullo_epi16(low, kept), added), rounder);
             high = _mm256_add_epi16(_mm256_add_epi16(_mm256_mullo_epi16(high, kept), added), rounder);
@@ -293,7 +295,8 @@ OVAL4D_AVX2 inline int firstRow(float y, const RowRange& rows) {
 // Finds the pixels whose centers are in a convex polygon. Returns the rows of these pixels, and sets the entries of
 // canvas.left and canvas.right for these rows. Polygons with a common edge have no common pixels and leave no gap,
 // because the pixels at an edge depend only on the ends of the edge.
-OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCorner> corners, bool counterclockwise) {
+OVAL4D_AVX2 RowRange findCoveredRows(const PatchCanvas& canvas, std::span<const PatchCorner> corners,
+                                     bool counterclockwise) {
     RowRange rows{corners[0].row, corners[0].row};
     for (const PatchCorner& corner : corners) rows = {std::min(rows.begin, corner.row), std::max(rows.end, corner.row)};
     const __m256i mostLeft = _mm256_setzero_si256(), mostRight = _mm256_set1_epi32(canvas.width);
@@ -312,7 +315,7 @@ OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCo
         const __m256 slopes = _mm256_set1_ps(slope);
         const __m256 start = _mm256_set1_ps(from.x - 0.5F + slope * (0.5F - from.y));
         for (int y = from.row; y < to.row; y += kLanes) {
-            const __m256i row = _mm256_add_epi32(_mm256_set1_epi32(y), lanes());
+            const __m256i row = _mm256_add_epi32(_mm256_set1_epi32(y), laneIndices());
             const __m256 x = _mm256_ceil_ps(_mm256_fmadd_ps(_mm256_cvtepi32_ps(row), slopes, start));
             const __m256i pixel = _mm256_cvttps_epi32(_mm256_min_ps(_mm256_max_ps(x, zero), width));
             auto* const bounds = reinterpret_cast<__m256i*>((isRight ? canvas.right : canvas.left) + y);
@@ -328,7 +331,7 @@ OVAL4D_AVX2 RowRange findRows(const PatchCanvas& canvas, std::span<const PatchCo
 // Returns the nearness of a face as a linear function. A fan of triangles divides the face. The gradient of the
 // function is the mean of the gradients in these triangles, weighted by their areas. `area` is twice the signed area of
 // the polygon.
-OVAL4D_AVX2 LinearFunction nearnessOf(std::span<const PatchCorner> corners, float area) {
+OVAL4D_AVX2 LinearFunction nearnessPlaneOf(std::span<const PatchCorner> corners, float area) {
     const PatchCorner& first = corners[0];
     float x = 0, y = 0, sumX = first.x, sumY = first.y, sum = first.nearness;
     for (std::size_t i = 1; i < corners.size(); ++i) {
@@ -353,7 +356,7 @@ OVAL4D_AVX2 void fill(const PatchCanvas& canvas, const RowRange& rows, const Pat
     fillShape<form, DepthUse::written>(canvas, rows, paint);
 }
 
-OVAL4D_AVX2 PatchShading paintOf(const ShapeVertex& look, float pixelSize) {
+OVAL4D_AVX2 PatchShading shadingOf(const ShapeVertex& look, float pixelSize) {
     PatchShading paint{.diffuse = look.diffuse,
                        .specular = look.specular,
                        .color = {look.color & 255, look.color >> 8 & 255, look.color >> 16 & 255},
@@ -372,11 +375,11 @@ OVAL4D_AVX2 void drawFace(const PatchCanvas& canvas, std::span<const PatchCorner
         area += (b.x - first.x) * (c.y - first.y) - (c.x - first.x) * (b.y - first.y);
     }
     if (area == 0) return;
-    const RowRange rows = findRows(canvas, corners, area > 0);
+    const RowRange rows = findCoveredRows(canvas, corners, area > 0);
     if (rows.begin >= rows.end) return;
-    PatchShading paint = paintOf(look, pixelSize);
+    PatchShading paint = shadingOf(look, pixelSize);
     if (depth == DepthUse::unused) return fillFace<DepthUse::unused>(canvas, rows, paint);
-    paint.nearness = nearnessOf(corners, area);
+    paint.nearness = nearnessPlaneOf(corners, area);
     if (depth == DepthUse::tested) return fillFace<DepthUse::tested>(canvas, rows, paint);
     paint.bulge = 0;
     fillShape<Form::face, DepthUse::written>(canvas, rows, paint);
@@ -393,7 +396,7 @@ OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner
     const float x1 = c.x - a.x, y1 = c.y - a.y, x2 = d.x - b.x, y2 = d.y - b.y;
     const float area = x1 * y2 - x2 * y1;
     if (area == 0) return;
-    const RowRange rows = findRows(canvas, corners, area > 0);
+    const RowRange rows = findCoveredRows(canvas, corners, area > 0);
     if (rows.begin >= rows.end) return;
     const float inverse = 1 / area, middleX = 0.25F * (a.x + b.x + c.x + d.x) - 0.5F,
                 middleY = 0.25F * (a.y + b.y + c.y + d.y) - 0.5F;
@@ -402,7 +405,7 @@ OVAL4D_AVX2 void drawQuad(const PatchCanvas& canvas, std::span<const PatchCorner
         const float x = (first * y2 - second * y1) * inverse, y = (second * x1 - first * x2) * inverse;
         return LinearFunction{0.25F * (atA + atB + atC + atD) - x * middleX - y * middleY, x, y};
     };
-    PatchShading paint = paintOf(look, pixelSize);
+    PatchShading paint = shadingOf(look, pixelSize);
     if (depth != DepthUse::unused) paint.nearness = functionOf(a.nearness, b.nearness, c.nearness, d.nearness);
     if (form == Form::rim) {
         paint.halfRadius = functionOf(a.place.z, b.place.z, c.place.z, d.place.z);

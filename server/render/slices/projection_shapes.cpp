@@ -36,8 +36,9 @@ void ProjectionShapeCollector::collect(const scene::Scene& scene, Layers& out) {
     for (std::uint32_t part = 0; part < projection.parts.size(); ++part) collectPart(scene, part);
     for (auto& [items, shapes] : {std::tie(solid_, out.solid), std::tie(translucent_, out.translucent)}) {
         shapes.begin(scene.style());
-        shapes.setProjection(Projection::of(scene.camera, scene.viewport));
-        for (const DepthOrder::KeyedShape& entry : order_.farToNear(items)) addShape(scene, items[entry.index], shapes);
+        shapes.setProjection(ViewProjection::fromCamera(scene.camera, scene.viewport));
+        for (const DepthSorter::KeyedShape& entry : order_.sortedFarToNear(items))
+            addShape(scene, items[entry.index], shapes);
     }
 }
 

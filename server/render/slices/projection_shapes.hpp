@@ -53,7 +53,7 @@ class ProjectionShapeCollector {
     // current polygon.
     std::vector<glm::vec3> points_, fillPoints_, corners_;
     std::vector<ProjectedShape> solid_, translucent_;  // shapes, each given by its part, its kind and its number
-    DepthOrder order_;
+    DepthSorter order_;
 };
 
 }  // namespace oval4d::render

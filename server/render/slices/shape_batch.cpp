@@ -46,7 +46,7 @@ ClampedRadius clampedRadius(float pixels, int dimensions) {
 
 }  // namespace
 
-void ShapeBatch::begin(const scene::Style& style) {
+void ShapeBatch::begin(const scene::PictureStyle& style) {
     light_ = glm::normalize(glm::vec3(style.light));
     halfVector_ = glm::normalize(light_ + glm::vec3(0, 0, 1));
     ambient_ = static_cast<float>(style.ambient);
@@ -251,7 +251,7 @@ constexpr std::string_view kSurfaceDepth = R"(
     gl_FragDepth = 0.5 + 0.5 * (toDepth.x + toDepth.y * gl_FragCoord.w / (1.0 - toDepth.z * place.z * n.z));
 )";
 
-std::string fragmentSource(const scene::Style& style, ShapeProgram::DepthSource depth) {
+std::string fragmentSource(const scene::PictureStyle& style, ShapeProgram::DepthSource depth) {
     return R"(
 uniform vec3 toDepth;
 noperspective in vec3 place;
@@ -271,15 +271,15 @@ void main() {
            "}\n";
 }
 
-constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(ShapeVertex, clip)},
-                                     {3, GL_FLOAT, offsetof(ShapeVertex, place)},
-                                     {3, GL_FLOAT, offsetof(ShapeVertex, diffuse)},
-                                     {3, GL_FLOAT, offsetof(ShapeVertex, specular)},
-                                     {4, GL_UNSIGNED_BYTE, offsetof(ShapeVertex, color)}};
+constexpr VertexAttribute kAttributes[] = {{3, GL_FLOAT, offsetof(ShapeVertex, clip)},
+                                           {3, GL_FLOAT, offsetof(ShapeVertex, place)},
+                                           {3, GL_FLOAT, offsetof(ShapeVertex, diffuse)},
+                                           {3, GL_FLOAT, offsetof(ShapeVertex, specular)},
+                                           {4, GL_UNSIGNED_BYTE, offsetof(ShapeVertex, color)}};
 
 }  // namespace
 
-ShapeProgram::ShapeProgram(const scene::Style& style, DepthSource depth)
+ShapeProgram::ShapeProgram(const scene::PictureStyle& style, DepthSource depth)
     : program_(kVertexSource, fragmentSource(style, depth), sizeof(ShapeVertex), kAttributes),
       toDepth_(program_.uniformLocation("toDepth")) {}
 

@@ -56,17 +56,17 @@ struct Patch {
 };
 
 /// A list of shapes, converted to patches (flat polygons). The caller must add the shapes in drawing order. Positions
-/// and radii are in view coordinates (see Projection); opacities are from 0 to 1.
+/// and radii are in view coordinates (see ViewProjection); opacities are from 0 to 1.
 class ShapeBatch {
   public:
     /// Starts an empty list of shapes. Their light is that of `style`.
-    void begin(const scene::Style& style);
+    void begin(const scene::PictureStyle& style);
 
     /// Removes all shapes. Keeps the light and the projection.
     void clear();
 
     /// Sets the projection of the shapes that are added after this call.
-    void setProjection(const Projection& projection) { projection_ = projection; }
+    void setProjection(const ViewProjection& projection) { projection_ = projection; }
 
     /// Adds a ball. Does nothing if the ball is not entirely in front of the eye, or if it is almost transparent.
     void addBall(const glm::vec3& center, float radius, scene::Color color, float opacity = 1);
@@ -88,7 +88,7 @@ class ShapeBatch {
     /// size of the picture matters. Does nothing if `from` and `to` are equal.
     void addStroke(glm::vec2 from, glm::vec2 to, float width, scene::Color color, float opacity = 1);
 
-    const Projection& projection() const { return projection_; }
+    const ViewProjection& projection() const { return projection_; }
     std::span<const ShapeVertex> vertices() const { return vertices_; }
     std::span<const Patch> patches() const { return patches_; }
 
@@ -97,7 +97,7 @@ class ShapeBatch {
     void addPatch(std::uint32_t first, Patch::Form form);
     void antialiasFace(std::uint32_t first, std::uint32_t count);
 
-    Projection projection_;
+    ViewProjection projection_;
     glm::vec3 light_{0}, halfVector_{0};
     float ambient_ = 0, diffuse_ = 0;
     std::vector<ShapeVertex> vertices_;
@@ -127,7 +127,7 @@ class ShapeProgram {
         /// by the size of a pixel.
         surface,
     };
-    ShapeProgram(const scene::Style& style, DepthSource depth);
+    ShapeProgram(const scene::PictureStyle& style, DepthSource depth);
 
     /// Draws the shapes in their order. The depth test must be disabled, because all shapes get the same depth.
     void draw(const ShapeBatch& shapes);

@@ -83,7 +83,8 @@ bool ShapeRasterizer::isSupported() {
     return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
 }
 
-void ShapeRasterizer::begin(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels) {
+void ShapeRasterizer::begin(scene::Viewport viewport, const scene::PictureStyle& style,
+                            std::span<std::uint8_t> pixels) {
     impl_->canvas = {.width = viewport.width,
                      .height = viewport.height,
                      .pixels = reinterpret_cast<std::uint32_t*>(pixels.data()),
@@ -97,7 +98,8 @@ void ShapeRasterizer::begin(scene::Viewport viewport, const scene::Style& style,
     impl_->layers.clear();
 }
 
-void ShapeRasterizer::beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels) {
+void ShapeRasterizer::beginOverPicture(scene::Viewport viewport, const scene::PictureStyle& style,
+                                       std::span<std::uint8_t> pixels) {
     begin(viewport, style, pixels);
     impl_->keepsPicture = true;
 }
@@ -122,7 +124,7 @@ void ShapeRasterizer::setDepthArea(const PixelArea& area) {
     m.canvas.nearness = m.nearness.data();
 }
 
-void ShapeRasterizer::finish(parallel::ForkJoin* forkJoin) {
+void ShapeRasterizer::drawAdded(parallel::ForkJoin* forkJoin) {
     Impl& m = *impl_;
     const int height = m.canvas.height;
     if (forkJoin == nullptr) return m.drawRows({0, height}, m.workspaces[0]);
@@ -210,16 +212,16 @@ struct ShapeRasterizer::Impl {};
 
 ShapeRasterizer::ShapeRasterizer() = default;
 bool ShapeRasterizer::isSupported() { return false; }
-void ShapeRasterizer::begin(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
+void ShapeRasterizer::begin(scene::Viewport /*viewport*/, const scene::PictureStyle& /*style*/,
                             std::span<std::uint8_t> /*pixels*/) {}
-void ShapeRasterizer::beginOver(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
-                                std::span<std::uint8_t> /*pixels*/) {}
+void ShapeRasterizer::beginOverPicture(scene::Viewport /*viewport*/, const scene::PictureStyle& /*style*/,
+                                       std::span<std::uint8_t> /*pixels*/) {}
 void ShapeRasterizer::add(const ShapeBatch& /*shapes*/, DepthUse /*depth*/) {}
 void ShapeRasterizer::add(const SurfaceRasterizer& /*surfaces*/, std::span<const std::uint32_t> /*indices*/,
                           SurfaceRasterizer::Blending /*blending*/) {}
 void ShapeRasterizer::setDepthArea(const PixelArea& /*area*/) {}
 void ShapeRasterizer::addDepthClearing(const PixelArea& /*area*/) {}
-void ShapeRasterizer::finish(parallel::ForkJoin* /*forkJoin*/) {}
+void ShapeRasterizer::drawAdded(parallel::ForkJoin* /*forkJoin*/) {}
 void ShapeRasterizer::freeMemory() {}
 
 #endif

@@ -49,19 +49,19 @@ class ShapeRasterizer {
     ShapeRasterizer& operator=(const ShapeRasterizer&) = delete;
 
     /// Starts a picture with the background of `style`. The picture will be drawn to `pixels`, which have the layout of
-    /// image::Image, multiplied by alpha, and must remain valid until finish() returns. The viewport must be at least
-    /// kMinWidth wide.
-    void begin(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
+    /// image::Image, multiplied by alpha, and must remain valid until drawAdded() returns. The viewport must be at
+    /// least kMinWidth wide.
+    void begin(scene::Viewport viewport, const scene::PictureStyle& style, std::span<std::uint8_t> pixels);
 
     /// Starts a picture like begin(), but draws over the picture that is in `pixels`, instead of the background.
-    void beginOver(scene::Viewport viewport, const scene::Style& style, std::span<std::uint8_t> pixels);
+    void beginOverPicture(scene::Viewport viewport, const scene::PictureStyle& style, std::span<std::uint8_t> pixels);
 
-    /// Adds the patches (flat polygons) of `shapes`, which must remain valid and unchanged until finish() returns. The
-    /// patches are drawn in their order, after everything that was added before.
+    /// Adds the patches (flat polygons) of `shapes`, which must remain valid and unchanged until drawAdded() returns.
+    /// The patches are drawn in their order, after everything that was added before.
     void add(const ShapeBatch& shapes, DepthUse depth);
 
     /// Adds triangles of surfaces, each given by three indices of vertices. SurfaceRasterizer::projectAndLight() must
-    /// have prepared `surfaces` for this picture. `surfaces` and `indices` must remain valid until finish() returns.
+    /// have prepared `surfaces` for this picture. `surfaces` and `indices` must remain valid until drawAdded() returns.
     /// The triangles are drawn in their order, after everything that was added before.
     void add(const SurfaceRasterizer& surfaces, std::span<const std::uint32_t> indices,
              SurfaceRasterizer::Blending blending);
@@ -76,7 +76,7 @@ class ShapeRasterizer {
 
     /// Draws everything that was added. If `forkJoin` is not null, draws the upper and the lower part of the picture in
     /// parallel, on two threads.
-    void finish(parallel::ForkJoin* forkJoin);
+    void drawAdded(parallel::ForkJoin* forkJoin);
 
     /// Frees the memory that is kept for the next picture.
     void freeMemory();

@@ -31,7 +31,7 @@ struct SliceRef {
     const std::array<std::uint32_t, 2>& edge(std::size_t e) const { return set.edges[firstEdge() + e]; }
 
     /// Returns the loop of face f as a half-open range of indices into SliceSet::corners.
-    std::pair<std::size_t, std::size_t> loop(std::size_t f) const {
+    std::pair<std::size_t, std::size_t> faceLoopRange(std::size_t f) const {
         return {set.cornerBegin[firstFace() + f], set.cornerBegin[firstFace() + f + 1]};
     }
 

@@ -32,7 +32,7 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
     order_.clear();
     translucentEnds_.clear();
     if (scene.surfaces.empty() && scene.fog.empty()) return;
-    projection_ = Projection::of(scene.camera, scene.viewport);
+    projection_ = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
     if (selection != Selection::projection) {
         for (std::uint32_t slice = 0; slice < scene.placements.size(); ++slice)
@@ -41,11 +41,12 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
         const auto& [slice, scale] = *scene.projection.focusSurface;
         order_.push_back({static_cast<std::uint32_t>(slice), scene.projectionPlacement.position, scale});
     }
-    const auto depth = [&](const Place& place) { return -(toView * glm::dvec4(place.position, 1)).z; };
+    const auto depth = [&](const SurfacePlacement& place) { return -(toView * glm::dvec4(place.position, 1)).z; };
     std::ranges::sort(order_, std::greater<>(),
-                      [&](const Place& place) { return std::tuple(depth(place), place.slice); });
-    if (selection == Selection::nearer_slices || selection == Selection::farther_slices) keepHalf(scene, selection);
-    const auto add = [&](const Place& place, bool opaque) {
+                      [&](const SurfacePlacement& place) { return std::tuple(depth(place), place.slice); });
+    if (selection == Selection::nearer_slices || selection == Selection::farther_slices)
+        keepOnlySlicesIn(scene, selection);
+    const auto add = [&](const SurfacePlacement& place, bool opaque) {
         const std::uint32_t slice = place.slice;
         const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
         if (!scene.placements[slice].drawn || surface.triangles.empty()) return;
@@ -64,25 +65,25 @@ void SurfaceBatch::collect(const scene::Scene& scene, DepthRange& depths, Select
         }
     };
     if (!scene.surfaces.empty()) {
-        for (const Place& place : order_ | std::views::reverse) add(place, true);
+        for (const SurfacePlacement& place : order_ | std::views::reverse) add(place, true);
     }
     fringesBegin_ = opaqueIndices_.size();
     opaqueIndices_.insert(opaqueIndices_.end(), fringes_.begin(), fringes_.end());
     const bool isOpaque =
         std::ranges::all_of(scene.surfaces.levels, [](const auto& level) { return level.opacity == 1; });
-    for (const Place& place : order_) {
+    for (const SurfacePlacement& place : order_) {
         if (!isOpaque) add(place, false);
         translucentEnds_.push_back(translucentIndices_.size());
     }
 }
 
 // Removes from order_ the slices that do not belong to the half `half`: to the nearer or to the farther slices.
-void SurfaceBatch::keepHalf(const scene::Scene& scene, Selection half) {
-    const auto triangles = [&](const Place& place) {
+void SurfaceBatch::keepOnlySlicesIn(const scene::Scene& scene, Selection half) {
+    const auto triangles = [&](const SurfacePlacement& place) {
         return scene.placements[place.slice].drawn ? scene.slices->surfaces[place.slice].triangles.size() : 0;
     };
     std::size_t all = 0, farther = 0;
-    for (const Place& place : order_) all += triangles(place);
+    for (const SurfacePlacement& place : order_) all += triangles(place);
     auto middle = order_.begin();
     while (middle != order_.end() && 2 * farther < all) farther += triangles(*middle++);
     if (half == Selection::nearer_slices) {
@@ -147,7 +148,7 @@ void SurfaceBatch::addLevel(const scene::Scene& scene, std::size_t slice, const 
         }
     }
     out.insert(out.end(), facing_.begin(), facing_.end());
-    if (skipsBack) addFringesOfLastLevel(scene, slice, level);
+    if (skipsBack) addAntialiasingFringes(scene, slice, level);
 }
 
 std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice,
@@ -161,8 +162,8 @@ std::uint32_t SurfaceBatch::colorOf(const scene::Scene& scene, std::size_t slice
 }
 
 // Adds the fringes of the level of a slice that addLevel() has just added.
-void SurfaceBatch::addFringesOfLastLevel(const scene::Scene& scene, std::size_t slice,
-                                         const scene::SurfaceLook::LevelLook& level) {
+void SurfaceBatch::addAntialiasingFringes(const scene::Scene& scene, std::size_t slice,
+                                          const scene::SurfaceLook::LevelLook& level) {
     const slicing::SliceSurface& surface = scene.slices->surfaces[slice];
     findSilhouette(surface);
     outward_.resize(surface.points.size());
@@ -207,7 +208,7 @@ void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
     }
     // An edge between two triangles that face the eye is in the list twice, once in each direction. Such edges do not
     // belong to the silhouette, and are removed.
-    const auto ends = [](const RimEdge& edge) {
+    const auto ends = [](const SilhouetteEdge& edge) {
         return std::pair(std::min(edge.from, edge.to), std::max(edge.from, edge.to));
     };
     std::ranges::sort(silhouette_, {}, ends);
@@ -222,7 +223,7 @@ void SurfaceBatch::findSilhouette(const slicing::SliceSurface& surface) {
 
 namespace {
 
-std::string vertexSource(const scene::Style& style) {
+std::string vertexShaderSource(const scene::PictureStyle& style) {
     const glm::dvec3 half = glm::normalize(style.light + glm::dvec3(0, 0, 1));
     const auto vector = [](const glm::dvec3& v) {
         return "vec3(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
@@ -254,26 +255,27 @@ out vec4 pixel;
 void main() { pixel = color; }
 )";
 
-constexpr Attribute kAttributes[] = {{3, GL_FLOAT, offsetof(SurfaceVertex, clip)},
-                                     {3, GL_FLOAT, offsetof(SurfaceVertex, normal)},
-                                     {4, GL_UNSIGNED_BYTE, offsetof(SurfaceVertex, color)}};
+constexpr VertexAttribute kAttributes[] = {{3, GL_FLOAT, offsetof(SurfaceVertex, clip)},
+                                           {3, GL_FLOAT, offsetof(SurfaceVertex, normal)},
+                                           {4, GL_UNSIGNED_BYTE, offsetof(SurfaceVertex, color)}};
 
 }  // namespace
 
-SurfaceProgram::SurfaceProgram(const scene::Style& style)
-    : program_(vertexSource(style), kFragmentSource, sizeof(SurfaceVertex), kAttributes),
+SurfaceProgram::SurfaceProgram(const scene::PictureStyle& style)
+    : program_(vertexShaderSource(style), kFragmentSource, sizeof(SurfaceVertex), kAttributes),
       toDepth_(program_.uniformLocation("toDepth")) {}
 
 void SurfaceProgram::draw(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices) {
-    load(range, surfaces, indices);
-    drawPart(0, indices.size());
+    uploadTriangles(range, surfaces, indices);
+    drawIndexRange(0, indices.size());
 }
 
-void SurfaceProgram::load(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices) {
+void SurfaceProgram::uploadTriangles(DepthRange range, const SurfaceBatch& surfaces,
+                                     const std::vector<std::uint32_t>& indices) {
     const glm::vec2 toDepth = range.toDepth();
     program_.use();
     glUniform2f(toDepth_, toDepth.x, toDepth.y);
-    program_.load(surfaces.vertices().data(), surfaces.vertices().size(), indices);
+    program_.uploadTriangles(surfaces.vertices().data(), surfaces.vertices().size(), indices);
 }
 
 }  // namespace oval4d::render

@@ -30,7 +30,7 @@ class SurfaceBatch {
     enum class Selection : std::uint8_t { slices, nearer_slices, farther_slices, projection };
 
     /// The place of one slice, with its surfaces, in the picture.
-    struct Place {
+    struct SurfacePlacement {
         std::uint32_t slice;  ///< the index of the slice
         glm::dvec3 position;  ///< the origin of the slice, in world coordinates
         double scale;         ///< the number of world units per unit of the object
@@ -48,14 +48,14 @@ class SurfaceBatch {
 
     const std::vector<SurfaceVertex>& vertices() const { return vertices_; }
     /// Returns the corners of the opaque triangles: three indices of vertices for each triangle. The entries from
-    /// fringesBegin() on belong to the triangles of the fringes.
+    /// antialiasingFringesBegin() on belong to the triangles of the fringes.
     const std::vector<std::uint32_t>& opaqueIndices() const { return opaqueIndices_; }
-    std::size_t fringesBegin() const { return fringesBegin_; }
+    std::size_t antialiasingFringesBegin() const { return fringesBegin_; }
     const std::vector<std::uint32_t>& translucentIndices() const { return translucentIndices_; }
     /// Returns the places of the collected slices, from the farthest to the nearest. The list is empty if the scene has
     /// neither surfaces nor fog, or if the projection was selected and shows no surfaces.
-    const std::vector<Place>& placesFarToNear() const { return order_; }
-    /// Returns, for each entry of placesFarToNear(), the index in translucentIndices() at which the triangles of this
+    const std::vector<SurfacePlacement>& slicesFarToNear() const { return order_; }
+    /// Returns, for each entry of slicesFarToNear(), the index in translucentIndices() at which the triangles of this
     /// slice end.
     const std::vector<std::size_t>& translucentEnds() const { return translucentEnds_; }
 
@@ -63,20 +63,20 @@ class SurfaceBatch {
     // An edge of a triangle that faces the eye. Seen from the eye, the triangle is on the left of the edge. Both ends
     // of the edge also belong to triangles that face away from the eye. `from` and `to` are indices of points, and
     // `triangle` is the index of the triangle.
-    struct RimEdge {
+    struct SilhouetteEdge {
         std::uint32_t from, to, triangle;
     };
 
-    void keepHalf(const scene::Scene& scene, Selection half);
+    void keepOnlySlicesIn(const scene::Scene& scene, Selection half);
     void addLevel(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level);
-    void addFringesOfLastLevel(const scene::Scene& scene, std::size_t slice,
-                               const scene::SurfaceLook::LevelLook& level);
+    void addAntialiasingFringes(const scene::Scene& scene, std::size_t slice,
+                                const scene::SurfaceLook::LevelLook& level);
     void findSilhouette(const slicing::SliceSurface& surface);
     std::uint32_t colorOf(const scene::Scene& scene, std::size_t slice, const scene::SurfaceLook::LevelLook& level,
                           bool ofCap, std::uint32_t point, float alpha) const;
 
-    Projection projection_;
-    std::vector<Place> order_;  // the places of the slices, from the farthest to the nearest
+    ViewProjection projection_;
+    std::vector<SurfacePlacement> order_;  // the places of the slices, from the farthest to the nearest
     std::vector<std::size_t> translucentEnds_;
     std::vector<glm::vec3> points_, normals_;  // the points and normals of the current slice, in view coordinates
     // Per point of the slice: the index in vertices_ of the vertex made for the point, or kNone.
@@ -91,7 +91,7 @@ class SurfaceBatch {
     std::vector<std::uint32_t> front_;  // the indices of the triangles of the current slice and level that face the eye
     // Per point: 1 if the point belongs to a triangle that faces away from the eye, else 0.
     std::vector<std::uint8_t> touchesBack_;
-    std::vector<RimEdge> silhouette_;  // the edges of the silhouette of the current level in the current slice
+    std::vector<SilhouetteEdge> silhouette_;  // the edges of the silhouette of the current level in the current slice
     // Per point of the silhouette: a vector that points away from the surface, in the picture.
     std::vector<glm::vec2> outward_;
 };
@@ -99,17 +99,17 @@ class SurfaceBatch {
 /// The shader program that draws surfaces with diffuse and specular light.
 class SurfaceProgram {
   public:
-    explicit SurfaceProgram(const scene::Style& style);
+    explicit SurfaceProgram(const scene::PictureStyle& style);
 
     /// Draws triangles of `surfaces`, given by three indices of vertices each. The depth buffer covers `range`. The
     /// depth test must be enabled.
     void draw(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices);
 
-    /// Copies triangles of `surfaces`, given by three indices of vertices each, for later calls of drawPart().
-    void load(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices);
+    /// Copies triangles of `surfaces`, given by three indices of vertices each, for later calls of drawIndexRange().
+    void uploadTriangles(DepthRange range, const SurfaceBatch& surfaces, const std::vector<std::uint32_t>& indices);
     /// Draws the triangles whose corners are the entries `begin` … `end` − 1 of the indices that were loaded last. The
     /// depth test must be enabled.
-    void drawPart(std::size_t begin, std::size_t end) { program_.drawPart(begin, end); }
+    void drawIndexRange(std::size_t begin, std::size_t end) { program_.drawIndexRange(begin, end); }
 
   private:
     ShaderProgram program_;

@@ -226,7 +226,7 @@ OVAL4D_AVX2 TriangleMasks setUpTriangles(const SurfaceCanvas& canvas, const LitV
 }
 
 // Converts a color with numbers from 0 to 255, the upper half of a LitVertex, to an RGBA pixel.
-OVAL4D_AVX2 inline std::uint32_t pixelOf(__m128 color) {
+OVAL4D_AVX2 inline std::uint32_t packPixel(__m128 color) {
     const __m128i numbers = _mm_cvtps_epi32(color), words = _mm_packus_epi32(numbers, numbers);
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(_mm_packus_epi16(words, words)));
 }
@@ -269,11 +269,11 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s
                 __m128 color = _mm256_extractf128_ps(at, 1);
                 if constexpr (blending == Blending::none) {
                     if (!isNearer) continue;
-                    stored[k] = packFullyCovered(nearness);
-                    pixels[k] = pixelOf(color);
+                    stored[k] = packFullyCoveredDepth(nearness);
+                    pixels[k] = packPixel(color);
                 } else {
                     if (!isNearer) {
-                        const float uncovered = unpackUncoveredPart(stored[k]);
+                        const float uncovered = unpackUncoveredFraction(stored[k]);
                         if (!(uncovered > 0)) continue;
                         color = _mm_mul_ps(color, _mm_set1_ps(uncovered));
                     }
@@ -281,7 +281,7 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s
                         _mm_cvtepi32_ps(_mm_cvtepu8_epi32(_mm_cvtsi32_si128(static_cast<std::int32_t>(pixels[k]))));
                     const __m128 alpha = _mm_permute_ps(color, 0xff);
                     const __m128 kept = _mm_fnmadd_ps(alpha, _mm_set1_ps(1.0F / 255), _mm_set1_ps(1));
-                    pixels[k] = pixelOf(_mm_fmadd_ps(old, kept, color));
+                    pixels[k] = packPixel(_mm_fmadd_ps(old, kept, color));
                 }
             }
         }
@@ -293,8 +293,8 @@ OVAL4D_AVX2 inline void fill(const SurfaceCanvas& canvas, const TriangleSetup& s
 // Draws the triangles of `wanted` (one bit for each of eight triangles) that come before the first triangle that must
 // be clipped. Returns, as bits, all triangles of `wanted` that must be clipped.
 template <Blending blending>
-OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const LitVertex* points, const std::uint32_t* indices,
-                               unsigned wanted, TriangleSetup& lanes) {
+OVAL4D_AVX2 unsigned drawEightTriangles(const SurfaceCanvas& canvas, const LitVertex* points,
+                                        const std::uint32_t* indices, unsigned wanted, TriangleSetup& lanes) {
     const TriangleMasks masks = setUpTriangles(canvas, points, indices, lanes);
     const unsigned clipped = masks.clipped & wanted;
     // Triangles must be drawn in order. So a later call draws the triangles after a clipped triangle.
@@ -310,7 +310,7 @@ OVAL4D_AVX2 unsigned drawEight(const SurfaceCanvas& canvas, const LitVertex* poi
 
 }  // namespace
 
-void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::Style& style,
+void SurfaceRasterizer::projectAndLight(scene::Viewport viewport, const scene::PictureStyle& style,
                                         const SurfaceBatch& surfaces) {
     viewport_ = viewport;
     surfaces_ = &surfaces;
@@ -351,7 +351,7 @@ void drawTriangles(const SurfaceCanvas& canvas, const LitVertex* points, std::sp
         for (std::size_t next = at + kAhead; next < std::min(at + kAhead + 3 * kLanes, indices.size()); next += 3)
             __builtin_prefetch(points + indices[next]);
         unsigned wanted = 0xff;
-        while (const unsigned clipped = drawEight<blending>(canvas, points, eight, wanted, lanes)) {
+        while (const unsigned clipped = drawEightTriangles<blending>(canvas, points, eight, wanted, lanes)) {
             const auto i = static_cast<unsigned>(std::countr_zero(clipped));
             drawClipped(eight + std::size_t{3} * i);
             wanted &= 0xfeU << i;
@@ -423,7 +423,7 @@ double SurfaceRasterizer::estimateMeanScreenY(std::span<const std::uint32_t> ind
 
 #else
 
-void SurfaceRasterizer::projectAndLight(scene::Viewport /*viewport*/, const scene::Style& /*style*/,
+void SurfaceRasterizer::projectAndLight(scene::Viewport /*viewport*/, const scene::PictureStyle& /*style*/,
                                         const SurfaceBatch& /*surfaces*/) {}
 void SurfaceRasterizer::draw(const SurfaceCanvas& /*canvas*/, std::span<const std::uint32_t> /*indices*/,
                              Blending /*blending*/) const {}

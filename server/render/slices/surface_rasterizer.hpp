@@ -37,7 +37,7 @@ class SurfaceRasterizer {
     /// Projects and lights the vertices of `surfaces`, which must not change until its triangles are drawn. The light
     /// is computed per vertex, as in SurfaceProgram: triangles are so small that the light is almost linear in each of
     /// them.
-    void projectAndLight(scene::Viewport viewport, const scene::Style& style, const SurfaceBatch& surfaces);
+    void projectAndLight(scene::Viewport viewport, const scene::PictureStyle& style, const SurfaceBatch& surfaces);
 
     /// Draws triangles one after another, each given by three consecutive indices of vertices. Several threads may draw
     /// different rows at the same time.

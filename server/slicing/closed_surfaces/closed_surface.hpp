@@ -12,7 +12,7 @@
 namespace oval4d::slicing {
 
 /// The boundary of a body in one slice of a field: a closed surface of triangles, oriented outward. The body is the
-/// region where the function is below a level, or above it (see fields::Inside).
+/// region where the function is below a level, or above it (see fields::BodySide).
 struct ClosedSurface {
     std::vector<glm::dvec3> points;  ///< the corners of the triangles, in the units of the object
     /// Indices into `points`, counterclockwise as seen from outside the surface.

@@ -17,7 +17,7 @@ namespace {
 
 // Returns a bit mask in which bit i is set if values[i] fulfills `condition`.
 template <typename Values, typename Condition>
-unsigned bitsOf(const Values& values, Condition condition) {
+unsigned bitmaskWhere(const Values& values, Condition condition) {
     unsigned bits = 0;
     for (std::size_t i = 0; i < values.size(); ++i) bits |= static_cast<unsigned>(condition(values[i])) << i;
     return bits;
@@ -36,7 +36,7 @@ Result<std::monostate> ClosedSurfaceSlicer::slice(double w, const IsosurfaceOpti
     out.clear();
     out_ = &out;
     options_ = options;
-    sign_ = options.inside == fields::Inside::below ? 1 : -1;
+    sign_ = options.inside == fields::BodySide::below ? 1 : -1;
     level_ = sign_ * options.level;
     status_ = RunStatus::working;
     numbers_.clear();
@@ -161,7 +161,7 @@ void ClosedSurfaceSlicer::cutBrick(const CellRange& range) {
 
 void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>& heights,
                                   const std::array<double, 16>& values) {
-    const unsigned inside = bitsOf(values, [&](double value) { return value < level_; });
+    const unsigned inside = bitmaskWhere(values, [&](double value) { return value < level_; });
     if (inside == 0) return;
     const bool atBoundary = touchesBoundary({cell, cell + 1});
     if (inside == 0xffffU && !atBoundary) return;
@@ -173,11 +173,11 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
             cut.heights[i] = heights[shape.corners[i]];
             cut.values[i] = values[shape.corners[i]];
         }
-        const unsigned above = bitsOf(cut.heights, [](double height) { return height >= 0; });
+        const unsigned above = bitmaskWhere(cut.heights, [](double height) { return height >= 0; });
         if (above == 0 || above == 31U) continue;
         cut.shape = &shape;
         cut.positive = shape.positive == lattice_.isPositivelyOriented();
-        const unsigned holes = bitsOf(cut.values, [](double value) { return std::isnan(value); });
+        const unsigned holes = bitmaskWhere(cut.values, [](double value) { return std::isnan(value); });
         if (holes != 0) {
             if (std::has_single_bit(holes)) {
                 findCrossings(cut, above);
@@ -191,7 +191,7 @@ void ClosedSurfaceSlicer::cutCell(glm::ivec4 cell, const std::array<double, 16>&
         // inside the cell.
         const unsigned upper = cell[shape.axisToNextCorner(0)] == last[shape.axisToNextCorner(0)] ? 1U : 0U;
         const unsigned lower = cell[shape.axisToNextCorner(3)] == 0 ? 1U << 4U : 0U;
-        const unsigned within = bitsOf(cut.values, [&](double value) { return value < level_; });
+        const unsigned within = bitmaskWhere(cut.values, [&](double value) { return value < level_; });
         if (within == 0 || (within == 31U && (upper | lower) == 0)) continue;
         findCrossings(cut, above);
         cutPentatope(cut, above, upper | lower);
@@ -221,8 +221,8 @@ void ClosedSurfaceSlicer::findCrossings(CutPentatope& cut, unsigned above) const
 // of `boundaryFacets` is set if the facet opposite to corner i lies on the boundary of the domain.
 void ClosedSurfaceSlicer::cutPentatope(const CutPentatope& cut, unsigned above, unsigned boundaryFacets) {
     const std::size_t first = out_->triangles.size();
-    for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
-        const unsigned inside = bitsOf(
+    for (const SectionTetrahedron& tetrahedron : pentatopeSection(above, cut.positive)) {
+        const unsigned inside = bitmaskWhere(
             tetrahedron.edges, [&](const PentatopeEdge& edge) { return cut.crossings[edge[0]][edge[1]].inside; });
         if (inside == 0) continue;
         addLevelSet(cut, tetrahedron, inside);
@@ -243,7 +243,7 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
     if (glm::any(glm::lessThan(other, glm::ivec4(0))) || glm::any(glm::greaterThanEqual(other, lattice_.pointCounts())))
         return;
     if (std::isnan(signedValueOrNan(lattice_.sample(other)))) return;
-    for (const SectionTetrahedron& tetrahedron : sectionOf(above, cut.positive)) {
+    for (const SectionTetrahedron& tetrahedron : pentatopeSection(above, cut.positive)) {
         for (std::size_t face = 0; face < 4; ++face) {
             if (tetrahedron.facets[face] == hole) addCap(cut, tetrahedron, face, true);
         }
@@ -255,7 +255,7 @@ void ClosedSurfaceSlicer::addCapAtNanCorner(const CutPentatope& cut, unsigned ab
 // empty.
 void ClosedSurfaceSlicer::addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside) {
     const auto& edges = tetrahedron.edges;
-    const auto between = [&](std::uint8_t a, std::uint8_t b) { return pointBetween(cut, edges[a], edges[b]); };
+    const auto between = [&](std::uint8_t a, std::uint8_t b) { return findOrAddPointBetween(cut, edges[a], edges[b]); };
     const int count = std::popcount(inside);
     if (count == 1) {
         const auto [i, j, k, l] = kWithFirst[static_cast<std::size_t>(std::countr_zero(inside))];
@@ -306,19 +306,19 @@ void ClosedSurfaceSlicer::addCap(const CutPentatope& cut, const SectionTetrahedr
         const PentatopeEdge& from = tetrahedron.edges[corners[i]];
         const PentatopeEdge& to = tetrahedron.edges[corners[(i + 1) % 3]];
         const bool fromInside = cut.crossings[from[0]][from[1]].inside, toInside = cut.crossings[to[0]][to[1]].inside;
-        if (fromInside) loop[size++] = pointOn(cut, from);
+        if (fromInside) loop[size++] = findOrAddPointOn(cut, from);
         if (fromInside != toInside)
-            loop[size++] = fromInside ? pointBetween(cut, from, to) : pointBetween(cut, to, from);
+            loop[size++] = fromInside ? findOrAddPointBetween(cut, from, to) : findOrAddPointBetween(cut, to, from);
     }
     for (std::size_t i = 2; i < size; ++i) caps_.push_back({loop[0], loop[i - 1], loop[i]});
 }
 
 // Returns the index of the surface point where the hyperplane crosses an edge of the pentatope. Adds the point if it is
 // new.
-std::uint32_t ClosedSurfaceSlicer::pointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
-    const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, 1U << edge[0] | 1U << edge[1]));
+std::uint32_t ClosedSurfaceSlicer::findOrAddPointOn(const CutPentatope& cut, const PentatopeEdge& edge) {
+    const auto [number, isNew] = numbers_.findOrAdd(simplexKeyOf(cut, 1U << edge[0] | 1U << edge[1]));
     if (isNew) {
-        out_->points.push_back(position(cut, edge));
+        out_->points.push_back(crossingPosition(cut, edge));
         if (options_.pointData)
             out_->values.push_back(static_cast<float>(sign_ * cut.crossings[edge[0]][edge[1]].value));
     }
@@ -328,20 +328,20 @@ std::uint32_t ClosedSurfaceSlicer::pointOn(const CutPentatope& cut, const Pentat
 // Returns the index of the point of the level set between two points: those where the hyperplane crosses the edges
 // `inner` and `outer`. The first must be inside the body, and the second outside. Adds the point of the level set if it
 // is new.
-std::uint32_t ClosedSurfaceSlicer::pointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
-                                                const PentatopeEdge& outer) {
+std::uint32_t ClosedSurfaceSlicer::findOrAddPointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
+                                                         const PentatopeEdge& outer) {
     const unsigned corners = 1U << inner[0] | 1U << inner[1] | 1U << outer[0] | 1U << outer[1];
-    const auto [number, isNew] = numbers_.findOrAdd(keyOf(cut, corners));
+    const auto [number, isNew] = numbers_.findOrAdd(simplexKeyOf(cut, corners));
     if (isNew) {
         const double from = cut.crossings[inner[0]][inner[1]].value, to = cut.crossings[outer[0]][outer[1]].value;
-        out_->points.push_back(
-            glm::mix(position(cut, inner), position(cut, outer), std::clamp((level_ - from) / (to - from), 0.0, 1.0)));
+        out_->points.push_back(glm::mix(crossingPosition(cut, inner), crossingPosition(cut, outer),
+                                        std::clamp((level_ - from) / (to - from), 0.0, 1.0)));
         if (options_.pointData) out_->values.push_back(static_cast<float>(options_.level));
     }
     return number;
 }
 
-glm::dvec3 ClosedSurfaceSlicer::position(const CutPentatope& cut, const PentatopeEdge& edge) const {
+glm::dvec3 ClosedSurfaceSlicer::crossingPosition(const CutPentatope& cut, const PentatopeEdge& edge) const {
     const auto corner = [&](std::size_t i) {
         const unsigned bits = cut.shape->corners[i];
         return glm::dvec3(
@@ -353,7 +353,7 @@ glm::dvec3 ClosedSurfaceSlicer::position(const CutPentatope& cut, const Pentatop
 // Returns a key that identifies a lattice simplex. Its corners are the corners i of the pentatope for which bit i of
 // `corners` is set. The key contains the lattice index of the first corner and, for each other corner, the axes along
 // which this corner is above the first.
-std::uint64_t ClosedSurfaceSlicer::keyOf(const CutPentatope& cut, unsigned corners) const {
+std::uint64_t ClosedSurfaceSlicer::simplexKeyOf(const CutPentatope& cut, unsigned corners) const {
     const auto& chain = cut.shape->corners;
     const unsigned first = chain[static_cast<std::size_t>(std::countr_zero(corners))];
     std::uint64_t key =

@@ -26,8 +26,8 @@ namespace oval4d::slicing {
 /// Slices a field, interpolated on a lattice, by one hyperplane at a time. The interpolated function is linear in each
 /// pentatope (4-simplex) of the lattice (see kuhn_sections.hpp). The section of a pentatope by the hyperplane is
 /// divided into tetrahedra. The body is the region where the function is below the level, or above it (see
-/// fields::Inside). In a tetrahedron, the body is bounded by at most two triangles of the level set and by parts of the
-/// faces of the tetrahedron. The parts of faces that lie on the boundary of the domain become caps.
+/// fields::BodySide). In a tetrahedron, the body is bounded by at most two triangles of the level set and by parts of
+/// the faces of the tetrahedron. The parts of faces that lie on the boundary of the domain become caps.
 ///
 /// The surface is closed in spite of rounding errors, for two reasons. First, each point of the surface is the
 /// intersection of a lattice simplex with the hyperplane and the level set, and is identified by this simplex. Second,
@@ -50,7 +50,7 @@ class ClosedSurfaceSlicer {
     /// Says which surface to extract, and limits the work.
     struct IsosurfaceOptions {
         double level = 0;  ///< the value of the function on the surface
-        fields::Inside inside = fields::Inside::below;
+        fields::BodySide inside = fields::BodySide::below;
         std::size_t maxTriangles = 5'000'000;  ///< the maximum number of triangles, including those of the caps
         bool pointData = false;  ///< whether ClosedSurface::values and ClosedSurface::gradients are needed
         /// A function that slice() calls often, on the calling thread. It may read the triangles found so far in `out`.
@@ -113,10 +113,11 @@ class ClosedSurfaceSlicer {
     void addLevelSet(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, unsigned inside);
     void addGradients(const CutPentatope& cut, std::size_t first);
     void addCap(const CutPentatope& cut, const SectionTetrahedron& tetrahedron, std::size_t face, bool reversed);
-    std::uint32_t pointOn(const CutPentatope& cut, const PentatopeEdge& edge);
-    std::uint32_t pointBetween(const CutPentatope& cut, const PentatopeEdge& inner, const PentatopeEdge& outer);
-    glm::dvec3 position(const CutPentatope& cut, const PentatopeEdge& edge) const;
-    std::uint64_t keyOf(const CutPentatope& cut, unsigned corners) const;
+    std::uint32_t findOrAddPointOn(const CutPentatope& cut, const PentatopeEdge& edge);
+    std::uint32_t findOrAddPointBetween(const CutPentatope& cut, const PentatopeEdge& inner,
+                                        const PentatopeEdge& outer);
+    glm::dvec3 crossingPosition(const CutPentatope& cut, const PentatopeEdge& edge) const;
+    std::uint64_t simplexKeyOf(const CutPentatope& cut, unsigned corners) const;
     double signedValueOrNan(float sample) const;
 
     FieldLattice lattice_;

@@ -16,7 +16,7 @@ class KeyNumbering {
     /// Returns the number of `key`, and true if this is the first lookup of `key`. A new key gets the next number.
     std::pair<std::uint32_t, bool> findOrAdd(std::uint64_t key) {
         if (2 * (count_ + 1) > slots_.size()) grow();
-        KeySlot& slot = slotOf(key);
+        KeySlot& slot = findSlot(key);
         if (slot.key == key) return {slot.number, false};
         slot = {key, static_cast<std::uint32_t>(count_++)};
         return {slot.number, true};
@@ -34,7 +34,7 @@ class KeyNumbering {
         std::uint32_t number = 0;
     };
 
-    KeySlot& slotOf(std::uint64_t key) {
+    KeySlot& findSlot(std::uint64_t key) {
         const std::size_t mask = slots_.size() - 1;
         const std::uint64_t hash = key * 0x9e3779b97f4a7c15ULL;
         for (std::size_t i = (hash ^ hash >> 32U) & mask;; i = (i + 1) & mask) {
@@ -45,7 +45,7 @@ class KeyNumbering {
         std::vector<KeySlot> old(slots_.empty() ? 1024 : 2 * slots_.size());
         std::swap(old, slots_);
         for (const KeySlot& slot : old) {
-            if (slot.key != kFree) slotOf(slot.key) = slot;
+            if (slot.key != kFree) findSlot(slot.key) = slot;
         }
     }
 

@@ -12,7 +12,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-using Section = std::vector<SectionTetrahedron>;
+using TetrahedralizedSection = std::vector<SectionTetrahedron>;
 
 std::array<Pentatope, 24> makePentatopes() {
     std::array<Pentatope, 24> pentatopes;
@@ -43,7 +43,7 @@ glm::dvec4 referenceCorner(std::size_t i) {
 // is positive. Its sign is that of det(b − a, c − a, d − a, u), where a, b, c and d are the corners of the tetrahedron,
 // and u points to the upper side of the hyperplane. Bit i of `above` says whether corner i of the pentatope is on the
 // upper side. The middles of the cut edges serve as the corners a, b, c and d.
-bool isPositive(const SectionTetrahedron& tetrahedron, unsigned above) {
+bool hasPositiveVolume(const SectionTetrahedron& tetrahedron, unsigned above) {
     const auto middle = [&](const PentatopeEdge& edge) {
         return 0.5 * (referenceCorner(edge[0]) + referenceCorner(edge[1]));
     };
@@ -70,8 +70,8 @@ void findFacets(SectionTetrahedron& tetrahedron) {
     }
 }
 
-// Computes the result of sectionOf() for these arguments.
-Section makeSection(unsigned above, bool positive) {
+// Computes the result of pentatopeSection() for these arguments.
+TetrahedralizedSection makePentatopeSection(unsigned above, bool positive) {
     // `few` has the corners on the side of the hyperplane that has fewer corners, and `many` has the corners on the
     // other side.
     std::vector<std::uint8_t> few, many;
@@ -81,7 +81,7 @@ Section makeSection(unsigned above, bool positive) {
         const auto [low, high] = std::minmax(few[i], many[j]);
         return PentatopeEdge{low, high};
     };
-    Section section;
+    TetrahedralizedSection section;
     if (few.size() == 1) section.push_back({{edge(0, 0), edge(0, 1), edge(0, 2), edge(0, 3)}, {}});
     if (few.size() == 2) {  // the staircase triangulation of the product of an edge and a triangle
         section.push_back({{edge(0, 0), edge(1, 0), edge(1, 1), edge(1, 2)}, {}});
@@ -89,7 +89,7 @@ Section makeSection(unsigned above, bool positive) {
         section.push_back({{edge(0, 0), edge(0, 1), edge(0, 2), edge(1, 2)}, {}});
     }
     for (SectionTetrahedron& tetrahedron : section) {
-        if (isPositive(tetrahedron, above) != positive) std::swap(tetrahedron.edges[2], tetrahedron.edges[3]);
+        if (hasPositiveVolume(tetrahedron, above) != positive) std::swap(tetrahedron.edges[2], tetrahedron.edges[3]);
         findFacets(tetrahedron);
     }
     return section;
@@ -115,12 +115,12 @@ const std::array<Pentatope, 24>& kuhnPentatopes() {
     return kPentatopes;
 }
 
-std::span<const SectionTetrahedron> sectionOf(unsigned above, bool positive) {
-    static const std::array<std::array<Section, 32>, 2> kSections = [] {
-        std::array<std::array<Section, 32>, 2> sections;
+std::span<const SectionTetrahedron> pentatopeSection(unsigned above, bool positive) {
+    static const std::array<std::array<TetrahedralizedSection, 32>, 2> kSections = [] {
+        std::array<std::array<TetrahedralizedSection, 32>, 2> sections;
         for (unsigned corners = 0; corners < 32; ++corners) {
-            sections[0][corners] = makeSection(corners, false);
-            sections[1][corners] = makeSection(corners, true);
+            sections[0][corners] = makePentatopeSection(corners, false);
+            sections[1][corners] = makePentatopeSection(corners, true);
         }
         return sections;
     }();

@@ -47,8 +47,8 @@ struct SectionTetrahedron {
     std::array<std::uint8_t, 4> facets{};
 };
 
-/// The corners of each face of a tetrahedron with a positive signed volume (see sectionOf()). Face k is opposite to
-/// corner k, and its corners are counterclockwise as seen from outside.
+/// The corners of each face of a tetrahedron with a positive signed volume (see pentatopeSection()). Face k is opposite
+/// to corner k, and its corners are counterclockwise as seen from outside.
 inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
     {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
@@ -66,6 +66,6 @@ inline constexpr std::array<std::array<std::uint8_t, 3>, 4> kTetrahedronFaces{
 /// pentatope, in coordinates (x, y, z, h). Here, x, y and z are coordinates in the hyperplane, and h is the height
 /// above it. For both values of `positive`, each tetrahedron with the corners a0 … a3 has a positive signed volume
 /// det(a1 − a0, a2 − a0, a3 − a0) / 6, in coordinates (x, y, z).
-std::span<const SectionTetrahedron> sectionOf(unsigned above, bool positive);
+std::span<const SectionTetrahedron> pentatopeSection(unsigned above, bool positive);
 
 }  // namespace oval4d::slicing

@@ -11,16 +11,16 @@ namespace oval4d::slicing {
 
 namespace {
 
-// The offset of the points of a difference quotient, in units of PlacedFunction::radius.
+// The offset of the points of a difference quotient, in units of TransformedFunction::radius.
 constexpr double kDifference = 2e-3;
 constexpr double kDamping = 1e-6;  // the damping, relative to the mean diagonal entry of J Jᵀ, where J is the Jacobian
 constexpr int kIterations = 30;
 // Upper bounds of three values at a point that counts as critical. kSmallStep bounds the length of the next step.
 // kTangent bounds the part of the gradient in the hyperplane, relative to the gradient. kOnLevel bounds the distance
-// from the level set. The unit of length is PlacedFunction::radius.
+// from the level set. The unit of length is TransformedFunction::radius.
 constexpr double kSmallStep = 1e-5, kTangent = 1e-3, kOnLevel = 1e-5;
 
-/// The value and the derivatives of the function at a point. The unit of length is PlacedFunction::radius.
+/// The value and the derivatives of the function at a point. The unit of length is TransformedFunction::radius.
 struct TaylorExpansion {
     double value = 0;
     glm::dvec4 gradient{0};
@@ -28,7 +28,7 @@ struct TaylorExpansion {
 };
 
 // Computes the value at `point`, its gradient, and second derivatives by difference quotients.
-TaylorExpansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
+TaylorExpansion taylorExpansionAt(const TransformedFunction& placed, const glm::dvec4& point) {
     // Point 0 of the batch is `point` itself. Points 1 … 8 are the two neighbors of `point` along each axis. The
     // remaining points repeat point 0 to fill the batch.
     constexpr std::size_t kPoints = 16;
@@ -57,14 +57,14 @@ TaylorExpansion expand(const PlacedFunction& placed, const glm::dvec4& point) {
 
 }  // namespace
 
-std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double level, const glm::dvec4& start,
+std::optional<glm::dvec4> findCriticalPoint(const TransformedFunction& placed, double level, const glm::dvec4& start,
                                             double reach) {
     const glm::dvec4 first = start / placed.radius;
     const double most = reach / placed.radius;
     glm::dvec4 point = first;
     double scale = 0;
     for (int i = 0; i < kIterations; ++i) {
-        const TaylorExpansion f = expand(placed, point);
+        const TaylorExpansion f = taylorExpansionAt(placed, point);
         if (scale == 0) scale = glm::length(f.gradient);
         const glm::dvec4 residual = glm::dvec4(f.gradient.x, f.gradient.y, f.gradient.z, f.value - level) / scale;
         // The gradients of the functions to be made 0 are the rows of the Jacobian. The GLM constructor takes columns,

@@ -12,7 +12,7 @@
 namespace oval4d::slicing {
 
 /// A function f of the coordinates p of a rotated object: f(p) = function(center + toFunction · p).
-struct PlacedFunction {
+struct TransformedFunction {
     const fields::ScalarFunction& function;
     glm::dmat4 toFunction;
     glm::dvec4 center;
@@ -23,7 +23,7 @@ struct PlacedFunction {
 /// and ∂f/∂x = ∂f/∂y = ∂f/∂z = 0. Uses Newton's method with damped least squares, which converges even if such points
 /// are not isolated. All lengths are in the units of the object. Returns an empty optional if the iteration does not
 /// converge within the distance `reach` of `start`, or if ∂f/∂w is also 0 at the point.
-std::optional<glm::dvec4> findCriticalPoint(const PlacedFunction& placed, double level, const glm::dvec4& start,
+std::optional<glm::dvec4> findCriticalPoint(const TransformedFunction& placed, double level, const glm::dvec4& start,
                                             double reach);
 
 }  // namespace oval4d::slicing

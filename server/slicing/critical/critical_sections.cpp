@@ -60,17 +60,17 @@ class SectionCutter {
 
     /// Returns whether a part of the section with this volume is too small to count. Such a part may not exist in
     /// reality: sampling on a lattice may separate the tip of a sharp corner from the rest of the section.
-    bool isSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
+    bool isTooSmall(double volume) const { return std::abs(volume) < 8 * cube_ * cube_ * cube_; }
 
     /// Returns, for each level, the topology of its body in the section at `w`. Leaves out the parts of the body that
     /// are too small to count.
-    TopologyByLevel topologies(double w) {
+    TopologyByLevel topologyByLevel(double w) {
         const SliceSurface& surface = cut(w, true);
         TopologyByLevel result;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             SectionTopology& topology = result.emplace_back();
-            for (const auto& [volume, euler] : findParts(surface, level).parts) {
-                if (isSmall(volume)) continue;
+            for (const auto& [volume, euler] : findConnectedParts(surface, level).parts) {
+                if (isTooSmall(volume)) continue;
                 ++(volume > 0 ? topology.components : topology.cavities);
                 topology.euler += euler;
             }
@@ -93,13 +93,13 @@ struct SearchInterval {
     TopologyByLevel atFrom, atTo;
 
     double width() const { return to - from; }
-    bool differs() const { return atFrom != atTo; }
+    bool hasDifferentEnds() const { return atFrom != atTo; }
     bool operator<(const SearchInterval& other) const { return width() < other.width(); }
 };
 
 /// Returns the change between sections with two different topologies, as far as the numbers of components and cavities
 /// determine it.
-SectionChange changeOf(const SectionTopology& before, const SectionTopology& after) {
+SectionChange topologyChangeBetween(const SectionTopology& before, const SectionTopology& after) {
     if (before.components == 0 && after.components > 0) return SectionChange::appearance;
     if (after.components == 0 && before.components > 0) return SectionChange::disappearance;
     if (after.components < before.components) return SectionChange::merge;
@@ -109,60 +109,63 @@ SectionChange changeOf(const SectionTopology& before, const SectionTopology& aft
 
 /// Pairs the parts of the surfaces in two sections at close values of w, to find which parts appear, vanish, merge or
 /// split.
-class PartMatching {
+class SurfacePartMatching {
   public:
     /// Pairs the parts of the surfaces `a` and `b`. A part has a partner in the other section if most of its points are
     /// close to points of that section: at a distance of at most twice the side of a lattice cube.
-    PartMatching(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
-        : cutter_(cutter), reach_(2 * cutter.cubeSide()), partsA_(findParts(a, level)), partsB_(findParts(b, level)) {
-        toB_ = partners(a, partsA_, b, partsB_);
-        toA_ = partners(b, partsB_, a, partsA_);
+    SurfacePartMatching(const SliceSurface& a, const SliceSurface& b, std::size_t level, const SectionCutter& cutter)
+        : cutter_(cutter),
+          reach_(2 * cutter.cubeSide()),
+          partsA_(findConnectedParts(a, level)),
+          partsB_(findConnectedParts(b, level)) {
+        toB_ = findPartners(a, partsA_, b, partsB_);
+        toA_ = findPartners(b, partsB_, a, partsA_);
     }
 
     /// Returns the change from the first section to the second. `before` and `after` are the topologies of these
     /// sections, and must differ.
     SectionChange change(const SectionTopology& before, const SectionTopology& after) const {
-        if (count(partsB_, toA_) > 0) return SectionChange::appearance;
-        if (count(partsA_, toB_) > 0) return SectionChange::disappearance;
-        return changeOf(before, after);
+        if (countMissingPartners(partsB_, toA_) > 0) return SectionChange::appearance;
+        if (countMissingPartners(partsA_, toB_) > 0) return SectionChange::disappearance;
+        return topologyChangeBetween(before, after);
     }
 
   private:
-    using HasPartner = std::vector<bool>;  // per part: whether it has a partner in the other section
+    using PartnerFlags = std::vector<bool>;  // per part: whether it has a partner in the other section
 
     // Returns the number of components in `parts` that have no partner and are not too small (see
-    // SectionCutter::isSmall()).
-    std::size_t count(const SurfaceParts& parts, const HasPartner& partners) const {
+    // SectionCutter::isTooSmall()).
+    std::size_t countMissingPartners(const SurfaceComponents& parts, const PartnerFlags& partners) const {
         std::size_t lonely = 0;
         for (std::size_t i = 0; i < partners.size(); ++i) {
             const double volume = parts.parts[i].volume;
-            lonely += volume > 0 && !cutter_.isSmall(volume) && !partners[i] ? 1 : 0;
+            lonely += volume > 0 && !cutter_.isTooSmall(volume) && !partners[i] ? 1 : 0;
         }
         return lonely;
     }
 
     // Returns a number that identifies the grid cell `cell`. The grid, into which points are sorted, has cells with
     // sides of length reach_.
-    std::uint64_t cellOf(glm::ivec3 cell) const {
+    std::uint64_t gridCellKey(glm::ivec3 cell) const {
         constexpr int kBias = 1 << 20;
         const glm::u64vec3 c(cell + kBias);
         return c.x | c.y << 21U | c.z << 42U;
     }
-    glm::ivec3 cellAt(const glm::vec3& point) const { return glm::ivec3(glm::floor(glm::dvec3(point) / reach_)); }
+    glm::ivec3 gridCellAt(const glm::vec3& point) const { return glm::ivec3(glm::floor(glm::dvec3(point) / reach_)); }
 
     // Returns, for each part of the surface `own`, whether it has a partner in the surface `other`.
-    HasPartner partners(const SliceSurface& own, const SurfaceParts& parts, const SliceSurface& other,
-                        const SurfaceParts& otherParts) const {
+    PartnerFlags findPartners(const SliceSurface& own, const SurfaceComponents& parts, const SliceSurface& other,
+                              const SurfaceComponents& otherParts) const {
         std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells;
         for (std::uint32_t i = 0; i < other.points.size(); ++i) {
             const std::uint32_t part = otherParts.ofPoint[i];
-            if (part == SurfaceParts::kNone || cutter_.isSmall(otherParts.parts[part].volume)) continue;
-            cells[cellOf(cellAt(other.points[i]))].push_back(i);
+            if (part == SurfaceComponents::kNone || cutter_.isTooSmall(otherParts.parts[part].volume)) continue;
+            cells[gridCellKey(gridCellAt(other.points[i]))].push_back(i);
         }
         const auto isNear = [&](const glm::vec3& point) {
-            const glm::ivec3 center = cellAt(point);
+            const glm::ivec3 center = gridCellAt(point);
             for (int i = 0; i < 27; ++i) {
-                const auto cell = cells.find(cellOf(center + glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
+                const auto cell = cells.find(gridCellKey(center + glm::ivec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)));
                 if (cell == cells.end()) continue;
                 for (const std::uint32_t near : cell->second) {
                     if (glm::distance(glm::dvec3(point), glm::dvec3(other.points[near])) <= reach_) return true;
@@ -173,19 +176,19 @@ class PartMatching {
         std::vector<std::size_t> points(parts.parts.size()), near(parts.parts.size());
         for (std::size_t i = 0; i < own.points.size(); ++i) {
             const std::uint32_t part = parts.ofPoint[i];
-            if (part == SurfaceParts::kNone) continue;
+            if (part == SurfaceComponents::kNone) continue;
             ++points[part];
             if (isNear(own.points[i])) ++near[part];
         }
-        HasPartner result;
+        PartnerFlags result;
         for (std::size_t i = 0; i < points.size(); ++i) result.push_back(2 * near[i] > points[i]);
         return result;
     }
 
     const SectionCutter& cutter_;
     double reach_;
-    SurfaceParts partsA_, partsB_;
-    HasPartner toB_, toA_;
+    SurfaceComponents partsA_, partsB_;
+    PartnerFlags toB_, toA_;
 };
 
 /// An interval of w in which the topology of the body of one level changes.
@@ -215,8 +218,8 @@ class CriticalSearch {
 
     Result<CriticalSections> run() {
         if (limits_.stop.stop_requested()) return kCanceled;
-        findIntervals();
-        for (const TopologyChangeInterval& change : combined()) {
+        findChangeIntervals();
+        for (const TopologyChangeInterval& change : combinedChanges()) {
             if (limits_.stop.stop_requested()) break;
             found_.all.push_back(criticalSectionOf(change));
         }
@@ -231,33 +234,33 @@ class CriticalSearch {
 
     // Finds the intervals of w in which the topology changes. Always halves the widest interval, so that the range of w
     // is covered evenly even if the search ends early.
-    void findIntervals() {
+    void findChangeIntervals() {
         const double gap = width() / kCriticalSections;
         // Leaves out the ends of the range of w. There, the domain may be a wedge that is thinner than a lattice cube.
         const double margin = width() / 80;
         const double from = found_.least + margin, to = found_.greatest - margin;
         std::priority_queue<SearchInterval> open;
-        open.push({from, to, cutter_.topologies(from), cutter_.topologies(to)});
+        open.push({from, to, cutter_.topologyByLevel(from), cutter_.topologyByLevel(to)});
         while (!open.empty()) {
             const SearchInterval widest = open.top();
             open.pop();
-            const bool fine = widest.width() <= (widest.differs() ? found_.tolerance : gap);
+            const bool fine = widest.width() <= (widest.hasDifferentEnds() ? found_.tolerance : gap);
             if (!fine && !mustEnd() && intervals_.size() + open.size() < kMaxChanges + kCriticalSections) {
                 const double middle = (widest.from + widest.to) / 2;
-                const TopologyByLevel between = cutter_.topologies(middle);
+                const TopologyByLevel between = cutter_.topologyByLevel(middle);
                 open.push({widest.from, middle, widest.atFrom, between});
                 open.push({middle, widest.to, between, widest.atTo});
                 continue;
             }
             if (!fine) found_.tolerance = std::max(found_.tolerance, widest.width());
-            if (widest.differs()) intervals_.push_back(widest);
+            if (widest.hasDifferentEnds()) intervals_.push_back(widest);
         }
         std::ranges::sort(intervals_, {}, &SearchInterval::from);
     }
 
     // Returns the changes of each level. Combines changes that are close to each other in w, because the lattice shows
     // several changes where a surface touches itself along a curve.
-    std::vector<TopologyChangeInterval> combined() const {
+    std::vector<TopologyChangeInterval> combinedChanges() const {
         std::vector<TopologyChangeInterval> all;
         for (std::size_t level = 0; level < settings_.levels.size(); ++level) {
             const std::size_t first = all.size();
@@ -280,7 +283,7 @@ class CriticalSearch {
         if (Clock::now() > end_ + (end_ - begin_) / 2) {
             // The time limit of the search has passed, so the sections are not compared.
             return {(change.from + change.to) / 2,
-                    changeOf(change.before, change.after),
+                    topologyChangeBetween(change.before, change.after),
                     0,
                     change.level,
                     change.before,
@@ -290,7 +293,7 @@ class CriticalSearch {
         const SliceSurface& after = cutter_.cut(change.to);
         CriticalSection result{
             (change.from + change.to) / 2, SectionChange::handle, 0, change.level, change.before, change.after};
-        result.change = PartMatching(before, after, change.level, cutter_).change(change.before, change.after);
+        result.change = SurfacePartMatching(before, after, change.level, cutter_).change(change.before, change.after);
         if (mustEnd()) return result;
         std::optional<double> best;
         if (field_.formula.empty()) {
@@ -310,8 +313,8 @@ class CriticalSearch {
     void searchNearTangentPoints(const TopologyChangeInterval& change, const SliceSurface& surface, double w,
                                  std::optional<double>& best) const {
         constexpr std::size_t kStarts = 24;
-        const PlacedFunction placed{*field_.function, field_.toFunction * orientation_.inverse().matrix(),
-                                    field_.center, field_.circumradius};
+        const TransformedFunction placed{*field_.function, field_.toFunction * orientation_.inverse().matrix(),
+                                         field_.center, field_.circumradius};
         const double middle = (change.from + change.to) / 2;
         const double cube = cutter_.cubeSide();
         for (const std::uint32_t i : tangentPoints(surface, change.level, 4 * cube, kStarts)) {
@@ -335,8 +338,8 @@ class CriticalSearch {
         const bool becomesMore = ofBody ? kind == SectionChange::appearance || kind == SectionChange::split
                                         : change.after.cavities > change.before.cavities;
         const double cube = cutter_.cubeSide();
-        LocalChangeSearch search(field_, orientation_, settings_.levels[change.level], settings_.inside,
-                                 [this] { return mustEnd(); });
+        LocalTopologyChangeSearch search(field_, orientation_, settings_.levels[change.level], settings_.inside,
+                                         [this] { return mustEnd(); });
         for (const SliceSurface* surface : {becomesMore ? &after : &before, becomesMore ? &before : &after}) {
             for (const std::uint32_t i : tangentPoints(*surface, change.level, 4 * cube, kStarts)) {
                 const auto w =

@@ -95,8 +95,8 @@ struct CriticalSearchLimits {
 /// At a critical point of a smooth function f inside the domain, f equals the level, and the derivatives along x, y and
 /// z are 0. If the field is a formula, Newton's method solves these equations to refine each critical w; a w at which
 /// the method does not converge stays as it is. If the field is an array, finer lattices around a change refine the
-/// critical w (see LocalChangeSearch). This refinement applies if parts of the body appear, vanish, merge or split
-/// there, or if cavities open or close. The lattices are up to 256 times finer. The refined w is that of the
+/// critical w (see LocalTopologyChangeSearch). This refinement applies if parts of the body appear, vanish, merge or
+/// split there, or if cavities open or close. The lattices are up to 256 times finer. The refined w is that of the
 /// interpolated function, with an error of about kCriticalTolerance of the range of w.
 ///
 /// Error: `canceled` if a stop is requested. Throws std::runtime_error if the samples of a field are in a file that can

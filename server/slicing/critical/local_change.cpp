@@ -12,7 +12,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-constexpr int kWindowSide = LocalChangeSearch::kSide, kWindowMiddle = kWindowSide / 2;
+constexpr int kWindowSide = LocalTopologyChangeSearch::kSide, kWindowMiddle = kWindowSide / 2;
 constexpr std::size_t kWindowLayer = static_cast<std::size_t>(kWindowSide) * kWindowSide,
                       kWindowPoints = kWindowLayer * kWindowSide;
 constexpr int kMaxSamplings = 600;  // how often one search may sample a window
@@ -45,8 +45,9 @@ double leastStepAlongW(const fields::Box& box, const glm::dvec4& normal) {
 
 }  // namespace
 
-LocalChangeSearch::LocalChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
-                                     fields::Inside inside, std::function<bool()> mustEnd)
+LocalTopologyChangeSearch::LocalTopologyChangeSearch(const fields::Field& field, const geometry::Rotation& orientation,
+                                                     double level, fields::BodySide inside,
+                                                     std::function<bool()> mustEnd)
     : field_(field),
       toFunction_(field.toFunction * orientation.inverse().matrix()),
       level_(level),
@@ -62,39 +63,40 @@ LocalChangeSearch::LocalChangeSearch(const fields::Field& field, const geometry:
       z_(kWindowLayer),
       w_(kWindowLayer) {}
 
-std::optional<double> LocalChangeSearch::find(const PartCountChange& change, const SearchStart& start) {
+std::optional<double> LocalTopologyChangeSearch::find(const PartCountChange& change, const SearchStart& start) {
     change_ = change;
     tolerance_ = start.tolerance;
     samplings_ = 0;
-    return findIn({start.point, start.half}, start.w, start.reach, 1);
+    return findInWindow({start.point, start.half}, start.w, start.reach, 1);
 }
 
 // Returns the w of the change in a window (a cube in the section), refined in smaller windows around the points that
 // enter or leave the body (the region inside the level). `number` is 1 for the first, largest window.
-std::optional<double> LocalChangeSearch::findIn(const SearchWindow& window, double w, double reach, int number) {
-    const std::optional<LocalEvent> event = eventIn(window, w, reach, number);
+std::optional<double> LocalTopologyChangeSearch::findInWindow(const SearchWindow& window, double w, double reach,
+                                                              int number) {
+    const std::optional<PartCountEvent> event = changeInWindow(window, w, reach, number);
     if (!event) return std::nullopt;
     if (number == kWindows) return event->w;
     for (std::size_t i = 0; i < std::min(kMaxTriedPoints, event->points.size()); ++i) {
         if (const auto finer =
-                findIn({event->points[i], window.half / kZoom}, event->w, reach / kReachShrink, number + 1))
+                findInWindow({event->points[i], window.half / kZoom}, event->w, reach / kReachShrink, number + 1))
             return finer;
     }
     return number >= kNeededWindows ? std::optional(event->w) : std::nullopt;
 }
 
 // Finds the change in the window whose w is nearest to `w`, at a distance of at most `reach`.
-std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const SearchWindow& window, double w,
-                                                                        double reach, int number) {
+std::optional<LocalTopologyChangeSearch::PartCountEvent> LocalTopologyChangeSearch::changeInWindow(
+    const SearchWindow& window, double w, double reach, int number) {
     double from = w, to = w;
     std::size_t before = 0, after = 0;
     for (double distance = std::min(tolerance_, reach);; distance = std::min(2 * distance, reach)) {
         if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
         from = w - distance;
         to = w + distance;
-        before = partsAt(window, from);
-        after = partsAt(window, to);
-        if (isChange(before, after)) break;
+        before = countSoughtPartsAt(window, from);
+        after = countSoughtPartsAt(window, to);
+        if (isSoughtChange(before, after)) break;
         if (distance >= reach) return std::nullopt;
     }
     // On a finer lattice, more points enter or leave the body (the region inside the level) in an interval of w of the
@@ -103,11 +105,11 @@ std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Se
     while (to - from > precision) {
         if (samplings_ > kMaxSamplings || mustEnd_()) return std::nullopt;
         const double middle = (from + to) / 2;
-        (isChange(before, partsAt(window, middle)) ? to : from) = middle;
+        (isSoughtChange(before, countSoughtPartsAt(window, middle)) ? to : from) = middle;
     }
-    sample(window, from, flags_);
-    sample(window, to, otherFlags_);
-    LocalEvent event{(from + to) / 2, {}};
+    sampleWindow(window, from, flags_);
+    sampleWindow(window, to, otherFlags_);
+    PartCountEvent event{(from + to) / 2, {}};
     const double step = window.half / kWindowMiddle;
     for (int z = kWindowMargin; z < kSide - kWindowMargin; ++z) {
         for (int y = kWindowMargin; y < kSide - kWindowMargin; ++y) {
@@ -122,17 +124,17 @@ std::optional<LocalChangeSearch::LocalEvent> LocalChangeSearch::eventIn(const Se
     return event;
 }
 
-std::size_t LocalChangeSearch::partsAt(const SearchWindow& window, double w) {
-    sample(window, w, flags_);
-    return countParts(flags_);
+std::size_t LocalTopologyChangeSearch::countSoughtPartsAt(const SearchWindow& window, double w) {
+    sampleWindow(window, w, flags_);
+    return countSoughtParts(flags_);
 }
 
 // Sets `inside` to whether each lattice point of the window, in the section at `w`, is in the body. Points outside the
 // domain and points without a value are not in the body.
-void LocalChangeSearch::sample(const SearchWindow& window, double w, PointFlags& inside) {
+void LocalTopologyChangeSearch::sampleWindow(const SearchWindow& window, double w, InBodyFlags& inside) {
     ++samplings_;
     const double step = window.half / kWindowMiddle;
-    const bool isBelow = inside_ == fields::Inside::below;
+    const bool isBelow = inside_ == fields::BodySide::below;
     for (int z = 0; z < kSide; ++z) {
         const auto flags = inside.begin() + static_cast<std::ptrdiff_t>(z * kWindowLayer);
         std::size_t i = 0;
@@ -159,7 +161,7 @@ void LocalChangeSearch::sample(const SearchWindow& window, double w, PointFlags&
 
 // Returns the number of connected parts of the body (the region inside the level) in the window. If change_.ofBody is
 // false, returns that of the rest of the window.
-std::size_t LocalChangeSearch::countParts(const PointFlags& inside) {
+std::size_t LocalTopologyChangeSearch::countSoughtParts(const InBodyFlags& inside) {
     std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
     const auto rootOf = [&](std::uint32_t point) {
         while (parents_[point] != point) point = parents_[point] = parents_[parents_[point]];

@@ -32,7 +32,7 @@ namespace oval4d::slicing {
 /// the point must lie in the interior of the window, and the next windows must have the same change.
 ///
 /// Reuses its memory. Only one thread at a time may use an object of this class.
-class LocalChangeSearch {
+class LocalTopologyChangeSearch {
   public:
     static constexpr int kSide = 33;    // the number of lattice points along each side of a window
     static constexpr int kWindows = 4;  // the number of successive windows, each smaller than the one before
@@ -55,8 +55,8 @@ class LocalChangeSearch {
     /// Prepares a search in `field`, rotated by `orientation`, for changes at `level`. `inside` says which side of the
     /// level is the body. `mustEnd` is called often; if it returns true, find() ends without a result. `field` must
     /// outlive this object.
-    LocalChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
-                      fields::Inside inside, std::function<bool()> mustEnd);
+    LocalTopologyChangeSearch(const fields::Field& field, const geometry::Rotation& orientation, double level,
+                              fields::BodySide inside, std::function<bool()> mustEnd);
 
     /// Returns the w of the change nearest to `start.w`. Returns an empty optional if there is no change in the first
     /// window, or if the smaller windows do not have the same change.
@@ -69,34 +69,35 @@ class LocalChangeSearch {
         double half;  // half the width of the window
     };
     // A change of the number of parts, at a value of w.
-    struct LocalEvent {
+    struct PartCountEvent {
         double w;
         // The lattice points in the interior of the window that move from one side of the level to the other; at least
         // one.
         std::vector<glm::dvec3> points;
     };
-    using PointFlags = std::vector<std::uint8_t>;  // per lattice point of a window: 1 if it is inside the level, else 0
+    using InBodyFlags =
+        std::vector<std::uint8_t>;  // per lattice point of a window: 1 if it is inside the level, else 0
 
-    std::optional<double> findIn(const SearchWindow& window, double w, double reach, int number);
-    std::optional<LocalEvent> eventIn(const SearchWindow& window, double w, double reach, int number);
-    void sample(const SearchWindow& window, double w, PointFlags& inside);
-    std::size_t countParts(const PointFlags& inside);
-    std::size_t partsAt(const SearchWindow& window, double w);
-    bool isChange(std::size_t before, std::size_t after) const {
+    std::optional<double> findInWindow(const SearchWindow& window, double w, double reach, int number);
+    std::optional<PartCountEvent> changeInWindow(const SearchWindow& window, double w, double reach, int number);
+    void sampleWindow(const SearchWindow& window, double w, InBodyFlags& inside);
+    std::size_t countSoughtParts(const InBodyFlags& inside);
+    std::size_t countSoughtPartsAt(const SearchWindow& window, double w);
+    bool isSoughtChange(std::size_t before, std::size_t after) const {
         return change_.becomesMore ? after > before : after < before;
     }
 
     const fields::Field& field_;
     const glm::dmat4 toFunction_;
     const double level_;
-    const fields::Inside inside_;
+    const fields::BodySide inside_;
     const std::function<bool()> mustEnd_;
     // The result of leastStepAlongW(): bisection stops when the interval of w is at most this long.
     double leastStep_ = 0;
     PartCountChange change_;
     double tolerance_ = 0;
     int samplings_ = 0;  // how often a window was sampled in the current search
-    PointFlags flags_, otherFlags_;
+    InBodyFlags flags_, otherFlags_;
     std::vector<std::uint32_t> parents_;
     std::vector<float> values_;
     std::vector<float> x_, y_, z_, w_;  // the coordinates of one layer of the window's lattice points

@@ -13,10 +13,10 @@ namespace oval4d::slicing {
 /// The shortest step from the current point to a point where up to three functions are zero, as if the functions were
 /// linear. Ignores a function whose gradient is almost a linear combination of the gradients of the functions added
 /// before.
-class ConstrainedStep {
+class MinimumNormStep {
   public:
     /// Adds a function, by its gradient and its value at the current point. The gradient must be a unit vector.
-    void add(const glm::dvec3& gradient, double value) {
+    void addConstraint(const glm::dvec3& gradient, double value) {
         // Gram–Schmidt: basis_ is an orthonormal basis of the gradients. targets_ are the components of the step along
         // the vectors of basis_.
         constexpr double kIndependent = 0.05;

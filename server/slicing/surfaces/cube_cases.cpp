@@ -7,17 +7,17 @@ namespace oval4d::slicing {
 
 namespace {
 
-struct Face {
+struct CubeFace {
     // The corners and edges of the face in cyclic order; edge i joins corners i and i + 1.
     std::array<std::uint8_t, 4> corners, edges;
 };
 
-std::array<Face, 6> makeFaces() {
-    std::array<Face, 6> faces{};
+std::array<CubeFace, 6> makeCubeFaces() {
+    std::array<CubeFace, 6> faces{};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const unsigned first = axis == 0 ? 2 : 1, second = axis == 2 ? 2 : 4;
         for (unsigned side = 0; side < 2; ++side) {
-            Face& face = faces[2 * axis + side];
+            CubeFace& face = faces[2 * axis + side];
             const unsigned origin = side << axis;
             const std::array<unsigned, 4> cycle{origin, origin + first, origin + first + second, origin + second};
             std::ranges::copy(cycle, face.corners.begin());
@@ -34,7 +34,7 @@ std::array<Face, 6> makeFaces() {
 // Returns the case of a cube. Bit c of `inside` is set if corner c is inside the body. On the face with the index
 // `joined`, if its corners are alternately inside and outside, joins the inside corners. On all other faces, separates
 // them.
-CubeCase makeCase(unsigned inside, const std::array<Face, 6>& faces, std::size_t joined) {
+CubeCase makeCubeCase(unsigned inside, const std::array<CubeFace, 6>& faces, std::size_t joined) {
     const auto isInside = [&](std::uint8_t corner) { return (inside >> corner & 1U) != 0; };
     // loop[e] is the least number of an edge that is in the same loop as edge e.
     std::array<std::uint8_t, 12> loop{};
@@ -81,14 +81,14 @@ struct CubeCaseTables {
     std::array<CubeCase, 256> usual, joined;
 };
 
-const CubeCaseTables& cases() {
+const CubeCaseTables& cubeCaseTables() {
     static const CubeCaseTables all = [] {
-        const std::array<Face, 6> faces = makeFaces();
+        const std::array<CubeFace, 6> faces = makeCubeFaces();
         CubeCaseTables made;
         for (unsigned inside = 0; inside < 256; ++inside) {
-            made.usual[inside] = made.joined[inside] = makeCase(inside, faces, CubeCase::kNoFace);
+            made.usual[inside] = made.joined[inside] = makeCubeCase(inside, faces, CubeCase::kNoFace);
             const std::uint8_t merging = made.usual[inside].mergingFace;
-            if (merging != CubeCase::kNoFace) made.joined[inside] = makeCase(inside, faces, merging);
+            if (merging != CubeCase::kNoFace) made.joined[inside] = makeCubeCase(inside, faces, merging);
         }
         return made;
     }();
@@ -97,8 +97,8 @@ const CubeCaseTables& cases() {
 
 }  // namespace
 
-const CubeCase& cubeCase(std::uint8_t inside) { return cases().usual[inside]; }
+const CubeCase& cubeCase(std::uint8_t inside) { return cubeCaseTables().usual[inside]; }
 
-const CubeCase& joinedCubeCase(std::uint8_t inside) { return cases().joined[inside]; }
+const CubeCase& joinedCubeCase(std::uint8_t inside) { return cubeCaseTables().joined[inside]; }
 
 }  // namespace oval4d::slicing

@@ -15,7 +15,7 @@ namespace oval4d::slicing {
 
 /// Up to kCapacity points of a slice, in the coordinates of a function, as a structure of arrays. The functions below
 /// take points in the slice's coordinates x, y, z, and convert them.
-struct FunctionPoints {
+struct PointsInFunctionCoordinates {
     static constexpr std::size_t kCapacity = 512;
     std::array<std::array<float, kCapacity>, 4> coordinates;
 

@@ -14,7 +14,7 @@ namespace oval4d::slicing {
 
 namespace {
 
-std::uint8_t byteOf(float value, double least, double scale) {
+std::uint8_t quantizeToByte(float value, double least, double scale) {
     if (std::isnan(value)) return 0;
     const double above = (value - least) * scale;
     // If `scale` is infinite, `above` is 0 · ∞ = NaN for the least value. The result is then 1, as it must be.
@@ -41,12 +41,12 @@ void sampleFog(const fields::ScalarFunction& function, const FieldSection& secti
 
     const double scale = 254 / (greatest - least);
     const glm::vec4 along(out.step * section.axes[0]);
-    FunctionPoints points;
-    std::array<float, FunctionPoints::kCapacity> values{};
+    PointsInFunctionCoordinates points;
+    std::array<float, PointsInFunctionCoordinates::kCapacity> values{};
     std::size_t waiting = 0, done = 0;
     const auto evaluate = [&] {
         function.evaluate(points.batch(waiting), std::span(values).first(waiting));
-        for (std::size_t i = 0; i < waiting; ++i) out.values[done++] = byteOf(values[i], least, scale);
+        for (std::size_t i = 0; i < waiting; ++i) out.values[done++] = quantizeToByte(values[i], least, scale);
         waiting = 0;
     };
     for (int k = 0; k < out.size.z; ++k) {

@@ -10,7 +10,7 @@
 namespace oval4d::slicing {
 
 /// The triangles of one slice of a field. For each level, they form a closed surface, oriented outward, around the body
-/// of the level: the region where the function is below the level, or above it (see fields::Inside). The surface
+/// of the level: the region where the function is below the level, or above it (see fields::BodySide). The surface
 /// consists of the part of the level set in the domain of the field, and of caps. Caps close the surface where the body
 /// ends: at the boundary of the domain, or of a hole in which the function has no value. If only the topology was
 /// extracted (see SurfaceDetail::topologyOnly), `normals`, `growth` and `values` are empty.

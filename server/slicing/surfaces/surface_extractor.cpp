@@ -49,7 +49,7 @@ constexpr std::array<std::uint16_t, 256> kCrossedEdges = [] {
 /// Returns a bit for each wall of the domain beyond which a point of a block of cubes may lie, even after the point was
 /// moved onto other walls. `first` is the position of the block's corner 0, `cubes` the number of cubes along each side
 /// of the block, and `step` the lattice step.
-std::uint8_t wallsNear(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
+std::uint8_t wallsNearBlock(const FieldSection& section, const glm::dvec3& first, double cubes, double step) {
     const double half = 0.5 * cubes * step;
     const glm::dvec3 center = first + half;
     const double reach = std::sqrt(3.0) * (half + kMostMoved * step);
@@ -65,9 +65,9 @@ std::uint8_t wallsNear(const FieldSection& section, const glm::dvec3& first, dou
 
 /// The values and gradients of a function at some points.
 struct SurfaceExtractor::Evaluation {
-    FunctionPoints points;
-    std::array<float, FunctionPoints::kCapacity> values;
-    std::array<std::array<float, FunctionPoints::kCapacity>, 4> gradients;
+    PointsInFunctionCoordinates points;
+    std::array<float, PointsInFunctionCoordinates::kCapacity> values;
+    std::array<std::array<float, PointsInFunctionCoordinates::kCapacity>, 4> gradients;
 
     void evaluate(const fields::ScalarFunction& function, std::size_t size) {
         const auto part = [&](std::size_t k) { return std::span(gradients[k]).first(size); };
@@ -89,8 +89,9 @@ void SurfaceExtractor::extract(const fields::ScalarFunction& function, const Fie
                                const ExtractionOptions& options, SliceSurface& out) {
     out.clear();
     if (glm::any(glm::greaterThanEqual(section.min, section.max))) return;
-    sign_ = options.inside == fields::Inside::below ? 1 : -1;
-    // The factor for the step; the number of points of a surface is inversely proportional to the square of the step.
+    sign_ = options.inside == fields::BodySide::below ? 1 : -1;
+    // While the surfaces have too many points, the step is multiplied by this factor. The number of points, which is
+    // inversely proportional to the square of the step, then falls to about 40 %.
     constexpr double kEnlarge = 1.6;
     for (double step = options.step; !tryExtract(step, function, section, options, out); step = kEnlarge * step_)
         out.clear();
@@ -108,7 +109,7 @@ bool SurfaceExtractor::tryExtract(double step, const fields::ScalarFunction& fun
         cubes_.clear();
         positions_.clear();
         constraints_.clear();
-        if (!findCubes(section, level, options.maxPoints - std::min(options.maxPoints, out.points.size())))
+        if (!findSurfaceCubes(section, level, options.maxPoints - std::min(options.maxPoints, out.points.size())))
             return false;
         if (options.topologyOnly) {
             out.points.insert(out.points.end(), positions_.begin(), positions_.end());
@@ -168,8 +169,8 @@ void SurfaceExtractor::layOutLattice(const FieldSection& section, double step) {
 // Returns a bit for each wall of the domain that a cube with the center `center` may touch or lie beyond. Sets
 // `outside` to true if the whole cube lies so far beyond one of the walls that none of its points is moved onto this
 // wall; else leaves `outside` unchanged. `extents` must be the result of extentsTowardWalls() for the size of the cube.
-std::uint8_t SurfaceExtractor::wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents,
-                                       const glm::dvec3& center, bool& outside) const {
+std::uint8_t SurfaceExtractor::wallsTouchingCube(const FieldSection& section, const ExtentsTowardWalls& extents,
+                                                 const glm::dvec3& center, bool& outside) const {
     unsigned walls = 0;
     for (std::size_t i = 0; i < section.walls.size(); ++i) {
         const double distance = glm::dot(section.walls[i].normal, center) - section.walls[i].offset;
@@ -204,7 +205,7 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
     // `extents` the result of extentsTowardWalls() for `half`.
     const auto mayContain = [&](const glm::dvec3& center, double half, const ExtentsTowardWalls& extents) {
         bool outside = false;
-        const std::uint8_t walls = wallsAt(section, extents, center, outside);
+        const std::uint8_t walls = wallsTouchingCube(section, extents, center, outside);
         if (outside) return false;
         // Half the size of the bounding box of the cube, in the function's coordinates. The box is larger near walls,
         // because points that are moved onto a wall may leave the cube.
@@ -236,20 +237,21 @@ void SurfaceExtractor::classifyBlocks(const fields::ScalarFunction& function, co
                     if (glm::any(glm::greaterThanEqual(b, last))) continue;
                     const glm::dvec3 center = position(b * kBlock) + half;
                     if (refines && !mayContain(center, half, ofBlock)) continue;
-                    activate(b);
+                    activateBlock(b);
                 }
             }
         }
     }
     bool outside = false;
     forEachBlock([&](LatticeBlock& block, glm::ivec3 b) {
-        if (block.isSampled()) block.walls = wallsAt(section, ofBlock, position(b * kBlock) + half, outside);
+        if (block.needsSampling())
+            block.walls = wallsTouchingCube(section, ofBlock, position(b * kBlock) + half, outside);
     });
 }
 
 // Marks a block as active. Notes that all points of the block must be sampled, and also the first layer of points of
 // each of its upper neighbors.
-void SurfaceExtractor::activate(glm::ivec3 block) {
+void SurfaceExtractor::activateBlock(glm::ivec3 block) {
     active_.push_back(static_cast<std::uint32_t>(blockIndex(block)));
     for (int i = 0; i < 8; ++i) {
         const glm::ivec3 offset(i & 1, i >> 1 & 1, i >> 2);
@@ -267,11 +269,11 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     // Blocks are collected until they fill a batch. The function is then evaluated at all points of the batch at once.
     struct BatchedBlock {
         const LatticeBlock* block;
-        glm::ivec3 first;   // the lattice point at the lower end of the block
+        glm::ivec3 first;   // the block's lattice point with the least coordinates
         std::size_t begin;  // the index of the block's first point in the batch
     };
-    constexpr std::size_t kCapacity = FunctionPoints::kCapacity;
-    FunctionPoints points;
+    constexpr std::size_t kCapacity = PointsInFunctionCoordinates::kCapacity;
+    PointsInFunctionCoordinates points;
     std::array<BatchedBlock, kCapacity> batched{};
     std::array<float, kCapacity> values{};
     std::array<std::uint8_t, kCapacity> inside{};
@@ -279,7 +281,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     std::size_t batchedCount = 0, size = 0;
     const auto sample = [&] {
         function.evaluate(points.batch(size), std::span(values).first(size));
-        findInside(std::span(values).first(size), options, std::span(inside).first(size));
+        findLevelsContaining(std::span(values).first(size), options, std::span(inside).first(size));
         for (const auto& [block, first, begin] : std::span(batched).first(batchedCount)) {
             const auto row = static_cast<std::size_t>(block->needed.x);
             std::size_t at = begin;
@@ -302,7 +304,7 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
     std::array<glm::vec4, 3> steps;
     for (std::size_t i = 0; i < 3; ++i) steps[i] = glm::vec4(step_ * section.axes[i]);
     forEachBlock([&](const LatticeBlock& block, glm::ivec3 b) {
-        if (!block.isSampled()) return;
+        if (!block.needsSampling()) return;
         const glm::ivec3 needed(block.needed), first = b * kBlock;
         const std::size_t count = static_cast<std::size_t>(needed.x) * static_cast<std::size_t>(needed.y) *
                                   static_cast<std::size_t>(needed.z);
@@ -317,8 +319,8 @@ void SurfaceExtractor::sampleBlocks(const fields::ScalarFunction& function, cons
 }
 
 // Sets `inside`: for each value, a bit for each level whose body contains the points with this value.
-void SurfaceExtractor::findInside(std::span<const float> values, const ExtractionOptions& options,
-                                  std::span<std::uint8_t> inside) const {
+void SurfaceExtractor::findLevelsContaining(std::span<const float> values, const ExtractionOptions& options,
+                                            std::span<std::uint8_t> inside) const {
     std::ranges::fill(inside, std::uint8_t{0});
     for (std::size_t l = 0; l < options.levels.size(); ++l) {
         const auto bit = static_cast<std::uint8_t>(1U << l);
@@ -333,11 +335,11 @@ void SurfaceExtractor::findInside(std::span<const float> values, const Extractio
 }
 
 // Moves the points of a block that are just beyond walls of the domain onto these walls. Then sets `inDomain` to
-// whether each point is in the domain. `first` is the lattice point at the lower end of the block, `size` the number of
-// points along each axis, and `begin` the index in `points` of the point `first`.
+// whether each point is in the domain. `first` is the block's lattice point with the least coordinates, `size` the
+// number of points along each axis, and `begin` the index in `points` of the point `first`.
 void SurfaceExtractor::moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
-                                     FunctionPoints& points, std::span<bool> inDomain) const {
-    const std::uint8_t walls = wallsNear(section, position(first), kBlock, step_);
+                                     PointsInFunctionCoordinates& points, std::span<bool> inDomain) const {
+    const std::uint8_t walls = wallsNearBlock(section, position(first), kBlock, step_);
     std::size_t n = 0;
     for (int k = 0; k < size.z; ++k) {
         for (int j = 0; j < size.y; ++j) {
@@ -408,14 +410,15 @@ bool SurfaceExtractor::moveIntoDomain(const FieldSection& section, std::uint8_t 
         }
         beyond |= now;
         point = start;
-        ConstrainedStep step;
-        for (unsigned rest = beyond; rest != 0; rest &= rest - 1) step.add(wall(rest).normal, distance(wall(rest)));
+        MinimumNormStep step;
+        for (unsigned rest = beyond; rest != 0; rest &= rest - 1)
+            step.addConstraint(wall(rest).normal, distance(wall(rest)));
         point += step.solve();
     }
     return false;
 }
 
-std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level) const {
+std::uint8_t SurfaceExtractor::insideCornerMask(glm::ivec3 cube, std::size_t level) const {
     const std::uint8_t* const first = &inside_[index(cube)];
     unsigned corners = 0;
     for (unsigned c = 0; c < 8; ++c) corners |= (first[cornerOffsets_[c]] >> level & 1U) << c;
@@ -424,7 +427,7 @@ std::uint8_t SurfaceExtractor::insideCorners(glm::ivec3 cube, std::size_t level)
 
 // Finds the cubes through which the surface passes. Returns false if these cubes have more than `maxPoints` points and
 // the step of the lattice can still be enlarged.
-bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
+bool SurfaceExtractor::findSurfaceCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints) {
     // Describes a row of lattice points along x, for the four cubes along the row. Each member has one byte per cube,
     // and in this byte a bit for each level, as in inside_.
     constexpr std::size_t kRows = kBlock + 1;
@@ -464,19 +467,19 @@ bool SurfaceExtractor::findCubes(const FieldSection& section, std::size_t level,
 }
 
 void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, glm::ivec3 place) {
-    const std::uint8_t inside = insideCorners(place, level);
+    const std::uint8_t inside = insideCornerMask(place, level);
     const CubeCase* patches = &cubeCase(inside);
     bool joined = false;
     if (patches->mergingFace != CubeCase::kNoFace) {
         const unsigned face = patches->mergingFace;
         glm::ivec3 neighbor = place;
         neighbor[static_cast<int>(face / 2)] += face % 2 == 1 ? 1 : -1;
-        joined = blockOf(neighbor).isActive && cubeCase(insideCorners(neighbor, level)).mergingFace == (face ^ 1U);
+        joined = blockOf(neighbor).isActive && cubeCase(insideCornerMask(neighbor, level)).mergingFace == (face ^ 1U);
         if (joined) patches = &joinedCubeCase(inside);
     }
     CrossedCube cube{index(place), inside, joined, {}, static_cast<std::uint32_t>(positions_.size())};
-    if (const std::uint8_t walls = blockOf(place).walls; walls != 0 || !placePoints(*patches, cube, place))
-        placePointsAtWalls(section, *patches, walls, place, cube);
+    if (const std::uint8_t walls = blockOf(place).walls; walls != 0 || !addPatchPoints(*patches, cube, place))
+        addPatchPointsAtWalls(section, *patches, walls, place, cube);
     cubeAt_[cube.at] = static_cast<std::uint32_t>(cubes_.size());
     cubes_.push_back(cube);
 }
@@ -484,7 +487,7 @@ void SurfaceExtractor::addCube(const FieldSection& section, std::size_t level, g
 // Appends the points of a cube through which no wall of the domain passes: one point for each patch of the surface. The
 // point is the mean of the places where the level set crosses the cube edges of the patch. Returns false, and appends
 // nothing, if the value of the function at one of the corners is not finite.
-bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place) {
+bool SurfaceExtractor::addPatchPoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place) {
     std::array<float, 8> values{};
     for (std::size_t c = 0; c < values.size(); ++c) {
         values[c] = values_[cube.at + cornerOffsets_[c]];
@@ -517,11 +520,11 @@ bool SurfaceExtractor::placePoints(const CubeCase& patches, const CrossedCube& c
 // value), may pass: one point for each patch of the surface (see CubeCase). The point is the mean of the places where
 // the edges of the patch leave the body. Its constraint mask is the union of the masks of these places. Notes in
 // `cube.cap` at which of the edges from corner 0 the surface is a cap.
-void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
-                                          glm::ivec3 place, CrossedCube& cube) {
+void SurfaceExtractor::addPatchPointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
+                                             glm::ivec3 place, CrossedCube& cube) {
     std::array<CubeCorner, 8> corners{};
     std::array<float, 8> values{};
-    const std::uint8_t near = wallsNear(section, position(place), 1, step_);
+    const std::uint8_t near = wallsNearBlock(section, position(place), 1, step_);
     for (std::size_t c = 0; c < corners.size(); ++c) {
         const auto bits = static_cast<int>(c);
         corners[c].position = position(place + glm::ivec3(bits & 1, bits >> 1 & 1, bits >> 2));
@@ -537,7 +540,7 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
         std::size_t inner = kCubeEdges[e][0], outer = kCubeEdges[e][1];
         if ((cube.inside >> inner & 1U) == 0) std::swap(inner, outer);
         const LatticeEdgeCrossing at =
-            crossing(section, walls, corners[inner], values[inner], corners[outer], values[outer]);
+            latticeEdgeCrossing(section, walls, corners[inner], values[inner], corners[outer], values[outer]);
         sums[patch] += at.position;
         ++counts[patch];
         constraints[patch] |= at.constraint;
@@ -553,9 +556,10 @@ void SurfaceExtractor::placePointsAtWalls(const FieldSection& section, const Cub
 // not in the domain, a wall of the domain. If the function has no value at the outer end, the edge meets the boundary
 // of a hole, which is assumed to be halfway between the two ends. If the edge meets several of these, returns the place
 // closest to its inner end.
-SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::crossing(const FieldSection& section, std::uint8_t walls,
-                                                                 const CubeCorner& inner, float atInner,
-                                                                 const CubeCorner& outer, float atOuter) const {
+SurfaceExtractor::LatticeEdgeCrossing SurfaceExtractor::latticeEdgeCrossing(const FieldSection& section,
+                                                                            std::uint8_t walls, const CubeCorner& inner,
+                                                                            float atInner, const CubeCorner& outer,
+                                                                            float atOuter) const {
     constexpr double kSame = 1e-9;
     const glm::dvec3 way = outer.position - inner.position;
     double first = 0.5;
@@ -605,18 +609,18 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
     out.growth.resize(end);
     out.values.resize(end);
     Evaluation at;
-    for (std::size_t begin = 0; begin < positions_.size(); begin += FunctionPoints::kCapacity) {
-        const std::size_t size = std::min(FunctionPoints::kCapacity, positions_.size() - begin);
+    for (std::size_t begin = 0; begin < positions_.size(); begin += PointsInFunctionCoordinates::kCapacity) {
+        const std::size_t size = std::min(PointsInFunctionCoordinates::kCapacity, positions_.size() - begin);
         moving_.clear();
         for (std::size_t k = begin; k < begin + size; ++k) {
             const auto i = static_cast<std::uint32_t>(k);
             if ((constraints_[i] & kOnLevel) != 0) {
                 moving_.push_back(i);
             } else {
-                moveBy(constrainedStep(section, i).solve(), i);
+                movePointBy(constrainedStep(section, i).solve(), i);
             }
         }
-        approachLevel(function, section, at);
+        makeNewtonStep(function, section, at);
         // Points that have left the domain through a wall belong to the rim of the surface. So this wall becomes one of
         // their constraints.
         for (const std::uint32_t i : moving_) {
@@ -627,7 +631,7 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
             }
         }
         std::erase_if(moving_, [&](std::uint32_t i) { return (constraints_[i] & kWalls) == 0; });
-        for (int i = 1; i < kRimSteps; ++i) approachLevel(function, section, at);
+        for (int i = 1; i < kRimSteps; ++i) makeNewtonStep(function, section, at);
 
         for (std::size_t i = 0; i < size; ++i) at.points.setPoint(i, section, positions_[begin + i]);
         at.evaluate(function, size);
@@ -645,11 +649,11 @@ void SurfaceExtractor::movePointsOntoSurface(const fields::ScalarFunction& funct
 }
 
 // Moves each of the points `moving_` by one step of Newton's method toward the level set f = level_ and toward the
-// walls of the domain in its constraint mask (see kWalls). There are at most FunctionPoints::kCapacity such points.
-// With the gradient g of f in the slice, the step of a point that need not lie on a wall is −(f − level_) g / |g|².
-// Overwrites `at`.
-void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, const FieldSection& section,
-                                     Evaluation& at) {
+// walls of the domain in its constraint mask (see kWalls). There are at most PointsInFunctionCoordinates::kCapacity
+// such points. With the gradient g of f in the slice, the step of a point that need not lie on a wall is −(f − level_)
+// g / |g|². Overwrites `at`.
+void SurfaceExtractor::makeNewtonStep(const fields::ScalarFunction& function, const FieldSection& section,
+                                      Evaluation& at) {
     if (moving_.empty()) return;
     for (std::size_t i = 0; i < moving_.size(); ++i) at.points.setPoint(i, section, positions_[moving_[i]]);
     at.evaluate(function, moving_.size());
@@ -659,33 +663,33 @@ void SurfaceExtractor::approachLevel(const fields::ScalarFunction& function, con
         const double square = glm::dot(slope, slope), excess = at.values[i] - level_;
         const bool valid = square > 0 && std::isfinite(square) && std::isfinite(excess);
         if ((constraints_[point] & kWalls) == 0) {
-            // The step of a point that need not lie on a wall of the domain. ConstrainedStep would compute the same
+            // The step of a point that need not lie on a wall of the domain. MinimumNormStep would compute the same
             // step with several more divisions and roots.
-            if (valid) moveBy(slope * (-excess / square), point);
+            if (valid) movePointBy(slope * (-excess / square), point);
             continue;
         }
-        ConstrainedStep step = constrainedStep(section, point);
-        if (valid) step.add(slope / std::sqrt(square), excess / std::sqrt(square));
-        moveBy(step.solve(), point);
+        MinimumNormStep step = constrainedStep(section, point);
+        if (valid) step.addConstraint(slope / std::sqrt(square), excess / std::sqrt(square));
+        movePointBy(step.solve(), point);
     }
 }
 
 // Returns a step for a point of the surface, with one condition for each wall of the domain in the constraint mask of
 // the point (see kWalls). The condition for a wall is that the signed distance from the wall, normal · p − offset,
-// becomes 0. The caller may add the condition for the level set. ConstrainedStep::solve() then gives the shortest step
+// becomes 0. The caller may add the condition for the level set. MinimumNormStep::solve() then gives the shortest step
 // that satisfies all conditions.
-ConstrainedStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
-    ConstrainedStep step;
+MinimumNormStep SurfaceExtractor::constrainedStep(const FieldSection& section, std::uint32_t point) const {
+    MinimumNormStep step;
     for (unsigned rest = constraints_[point] & kWalls; rest != 0; rest &= rest - 1) {
         const auto& [normal, offset] = section.walls[static_cast<std::size_t>(std::countr_zero(rest))];
-        step.add(normal, glm::dot(normal, positions_[point]) - offset);
+        step.addConstraint(normal, glm::dot(normal, positions_[point]) - offset);
     }
     return step;
 }
 
 // Moves a point of the surface by a Newton step. If the point would then be more than one lattice step from its start
 // along an axis, moves it back to its start instead: the linear approximation does not hold so far away.
-void SurfaceExtractor::moveBy(const glm::dvec3& step, std::uint32_t point) {
+void SurfaceExtractor::movePointBy(const glm::dvec3& step, std::uint32_t point) {
     const glm::dvec3 next = positions_[point] + step;
     const glm::dvec3 moved = glm::abs(next - starts_[point]);
     positions_[point] = std::max({moved.x, moved.y, moved.z}) <= step_ ? next : starts_[point];

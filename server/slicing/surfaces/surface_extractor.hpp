@@ -39,7 +39,7 @@ class SurfaceExtractor {
     /// Says which surfaces to extract, and limits the work.
     struct ExtractionOptions {
         std::span<const double> levels;  ///< the values of the function on the surfaces; at most 7
-        fields::Inside inside = fields::Inside::below;
+        fields::BodySide inside = fields::BodySide::below;
         /// The distance between neighboring lattice points, in the units of the object. The coordinates of lattice
         /// points are multiples of the step, so that the lattice stays in place while an object turns. The step is
         /// enlarged if an axis would have more than kMaxCubes cubes.
@@ -73,7 +73,7 @@ class SurfaceExtractor {
         // If the block is sampled: a bit for each wall of the domain that it may touch or lie beyond.
         std::uint8_t walls = 0;
         glm::u8vec3 needed{0};  // how many points along each axis are sampled, from the block's lower end on
-        bool isSampled() const { return needed.x != 0; }
+        bool needsSampling() const { return needed.x != 0; }
     };
     // A lattice cube through which the surface passes, and the points of its patches.
     struct CrossedCube {
@@ -104,28 +104,28 @@ class SurfaceExtractor {
                        const ExtractionOptions& options);
     void classifyBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                         const ExtractionOptions& options);
-    void activate(glm::ivec3 block);
-    std::uint8_t wallsAt(const FieldSection& section, const ExtentsTowardWalls& extents, const glm::dvec3& center,
-                         bool& outside) const;
+    void activateBlock(glm::ivec3 block);
+    std::uint8_t wallsTouchingCube(const FieldSection& section, const ExtentsTowardWalls& extents,
+                                   const glm::dvec3& center, bool& outside) const;
     ExtentsTowardWalls extentsTowardWalls(const FieldSection& section, double half) const;
     void sampleBlocks(const fields::ScalarFunction& function, const FieldSection& section,
                       const ExtractionOptions& options);
     void moveOntoWalls(const FieldSection& section, glm::ivec3 first, glm::ivec3 size, std::size_t begin,
-                       FunctionPoints& points, std::span<bool> inDomain) const;
+                       PointsInFunctionCoordinates& points, std::span<bool> inDomain) const;
     bool moveIntoDomain(const FieldSection& section, std::uint8_t walls, glm::dvec3& point) const;
-    void findInside(std::span<const float> values, const ExtractionOptions& options,
-                    std::span<std::uint8_t> inside) const;
-    bool findCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints);
+    void findLevelsContaining(std::span<const float> values, const ExtractionOptions& options,
+                              std::span<std::uint8_t> inside) const;
+    bool findSurfaceCubes(const FieldSection& section, std::size_t level, std::size_t maxPoints);
     void addCube(const FieldSection& section, std::size_t level, glm::ivec3 place);
-    bool placePoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place);
-    void placePointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls, glm::ivec3 place,
-                            CrossedCube& cube);
-    LatticeEdgeCrossing crossing(const FieldSection& section, std::uint8_t walls, const CubeCorner& inner,
-                                 float atInner, const CubeCorner& outer, float atOuter) const;
+    bool addPatchPoints(const CubeCase& patches, const CrossedCube& cube, glm::ivec3 place);
+    void addPatchPointsAtWalls(const FieldSection& section, const CubeCase& patches, std::uint8_t walls,
+                               glm::ivec3 place, CrossedCube& cube);
+    LatticeEdgeCrossing latticeEdgeCrossing(const FieldSection& section, std::uint8_t walls, const CubeCorner& inner,
+                                            float atInner, const CubeCorner& outer, float atOuter) const;
     void movePointsOntoSurface(const fields::ScalarFunction& function, const FieldSection& section, SliceSurface& out);
-    void approachLevel(const fields::ScalarFunction& function, const FieldSection& section, Evaluation& at);
-    ConstrainedStep constrainedStep(const FieldSection& section, std::uint32_t point) const;
-    void moveBy(const glm::dvec3& step, std::uint32_t point);
+    void makeNewtonStep(const fields::ScalarFunction& function, const FieldSection& section, Evaluation& at);
+    MinimumNormStep constrainedStep(const FieldSection& section, std::uint32_t point) const;
+    void movePointBy(const glm::dvec3& step, std::uint32_t point);
     void addTriangles(std::size_t level, SliceSurface& out);
 
     std::uint32_t index(glm::ivec3 point) const {
@@ -149,7 +149,7 @@ class SurfaceExtractor {
         return static_cast<std::size_t>(b.x + count.x * (b.y + count.y * b.z));
     }
     glm::dvec3 position(glm::ivec3 point) const { return glm::dvec3(base_ + point) * step_; }
-    std::uint8_t insideCorners(glm::ivec3 cube, std::size_t level) const;
+    std::uint8_t insideCornerMask(glm::ivec3 cube, std::size_t level) const;
 
     double step_ = 0;
     // Per wall of the domain: a lattice point beyond the wall is moved onto the wall if its distance from the wall is

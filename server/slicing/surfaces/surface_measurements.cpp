@@ -17,13 +17,13 @@ namespace {
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// The connected parts of a surface, as a union–find structure on the surface's points.
-class ConnectedParts {
+class ConnectedComponents {
   public:
-    ConnectedParts(std::size_t points, std::span<const Triangle> triangles) : parents_(points) {
+    ConnectedComponents(std::size_t points, std::span<const Triangle> triangles) : parents_(points) {
         std::iota(parents_.begin(), parents_.end(), std::uint32_t{0});
         for (const auto& [a, b, c] : triangles) {
-            join(a, b);
-            join(b, c);
+            unite(a, b);
+            unite(b, c);
         }
     }
     /// Returns the point that represents the connected part to which `point` belongs.
@@ -33,7 +33,7 @@ class ConnectedParts {
     }
 
   private:
-    void join(std::uint32_t a, std::uint32_t b) {
+    void unite(std::uint32_t a, std::uint32_t b) {
         const std::uint32_t first = representativeOf(a), second = representativeOf(b);
         parents_[std::max(first, second)] = std::min(first, second);
     }
@@ -51,7 +51,7 @@ template <typename Point>
 SurfaceMeasurements measureTriangles(std::span<const Point> points, std::span<const Triangle> triangles,
                                      std::size_t firstCap) {
     SurfaceMeasurements result;
-    ConnectedParts connected(points.size(), triangles);
+    ConnectedComponents connected(points.size(), triangles);
     std::vector<VolumeAndMoment> parts(points.size());
     std::vector<bool> used(points.size());
     for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -109,16 +109,16 @@ SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t leve
     return measureTriangles(std::span(surface.points), triangles.all, triangles.firstCap);
 }
 
-SurfaceParts findParts(const SliceSurface& surface, std::size_t level) {
+SurfaceComponents findConnectedParts(const SliceSurface& surface, std::size_t level) {
     const LevelTriangles triangles(surface, level);
-    ConnectedParts connected(surface.points.size(), triangles.all);
-    SurfaceParts result;
-    result.ofPoint.assign(surface.points.size(), SurfaceParts::kNone);
+    ConnectedComponents connected(surface.points.size(), triangles.all);
+    SurfaceComponents result;
+    result.ofPoint.assign(surface.points.size(), SurfaceComponents::kNone);
     std::vector<long> triangleCounts;
     for (const auto& corners : triangles.all) {
         const std::uint32_t root = connected.representativeOf(corners[0]);
         std::uint32_t& part = result.ofPoint[root];
-        if (part == SurfaceParts::kNone) {
+        if (part == SurfaceComponents::kNone) {
             part = static_cast<std::uint32_t>(result.parts.size());
             result.parts.emplace_back();
             triangleCounts.push_back(0);
@@ -130,7 +130,7 @@ SurfaceParts findParts(const SliceSurface& surface, std::size_t level) {
         for (const std::uint32_t point : corners) result.ofPoint[point] = part;
     }
     for (const std::uint32_t part : result.ofPoint) {
-        if (part != SurfaceParts::kNone) ++result.parts[part].euler;
+        if (part != SurfaceComponents::kNone) ++result.parts[part].euler;
     }
     for (std::size_t i = 0; i < result.parts.size(); ++i) result.parts[i].euler -= triangleCounts[i] / 2;
     return result;

@@ -39,7 +39,7 @@ SurfaceMeasurements measureSurface(const SliceSurface& surface, std::size_t leve
 std::optional<double> meanOnSurface(const ClosedSurface& surface, std::span<const float> values);
 
 /// The connected parts of the surface of one level.
-struct SurfaceParts {
+struct SurfaceComponents {
     static constexpr std::uint32_t kNone = ~std::uint32_t{0};
 
     /// The volume that a connected part encloses, and its Euler characteristic.
@@ -53,7 +53,7 @@ struct SurfaceParts {
 };
 
 /// Finds the connected parts of the surface of the level with the index `level`.
-SurfaceParts findParts(const SliceSurface& surface, std::size_t level);
+SurfaceComponents findConnectedParts(const SliceSurface& surface, std::size_t level);
 
 /// Measures a closed surface in one slice.
 SurfaceMeasurements measureSurface(const ClosedSurface& surface);

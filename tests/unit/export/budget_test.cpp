@@ -12,9 +12,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Budget, EndsWhenMoreTimeHasPassedThanIsAllowed) {
+TEST(ExportBudget, EndsWhenMoreTimeHasPassedThanIsAllowed) {
     support::VirtualClock clock;
-    const Budget budget({.time = 20s, .now = clock.now<std::chrono::steady_clock>()}, {});
+    const ExportBudget budget({.time = 20s, .now = clock.now<std::chrono::steady_clock>()}, {});
     clock.advance(20s);
     EXPECT_FALSE(budget.mustStop());
     EXPECT_NO_THROW(budget.checkTimeAndStop());

@@ -63,8 +63,8 @@ inline void expectPrintable(const Mesh& mesh) {
 /// The default limits with 24 hours of time, so that no export fails on a slow machine.
 inline const ExportLimits kUnhurried{.time = std::chrono::hours(24)};
 
-inline const Budget& unhurried() {
-    static const Budget kBudget({100'000'000, std::numeric_limits<std::size_t>::max(), kUnhurried.time}, {});
+inline const ExportBudget& unhurried() {
+    static const ExportBudget kBudget({100'000'000, std::numeric_limits<std::size_t>::max(), kUnhurried.time}, {});
     return kBudget;
 }
 

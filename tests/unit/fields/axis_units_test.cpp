@@ -14,7 +14,7 @@ namespace {
 
 using geometry::Plane;
 using geometry::Rotation;
-using geometry::Turn;
+using geometry::RotationAngles;
 
 Field fieldWith(const AxisUnits& units) {
     FieldArray array;
@@ -35,12 +35,14 @@ TEST(AxisUnits, AreThoseOfTheBoxWithoutARotation) {
 
 TEST(AxisUnits, AreUnknownWhereAxesWithDifferentUnitsAreMixed) {
     const Field field = fieldWith({"m", "m", "m", "s"});
-    EXPECT_EQ(pictureUnits(field, Rotation(Turn{Plane::xy, 0.3})), (PictureUnits{kMeters, kMeters, kMeters, kSeconds}));
-    EXPECT_EQ(pictureUnits(field, Rotation(Turn{Plane::xw, 0.3})),
+    EXPECT_EQ(pictureUnits(field, Rotation(RotationAngles{Plane::xy, 0.3})),
+              (PictureUnits{kMeters, kMeters, kMeters, kSeconds}));
+    EXPECT_EQ(pictureUnits(field, Rotation(RotationAngles{Plane::xw, 0.3})),
               (PictureUnits{kUnknown, kMeters, kMeters, kUnknown}));
-    const PictureUnits quarter = pictureUnits(field, Rotation(Turn{Plane::xw, std::numbers::pi / 2}));
+    const PictureUnits quarter = pictureUnits(field, Rotation(RotationAngles{Plane::xw, std::numbers::pi / 2}));
     EXPECT_EQ(quarter, (PictureUnits{kSeconds, kMeters, kMeters, kMeters})) << "the axes change places";
-    const PictureUnits oneUnknown = pictureUnits(fieldWith({"m", "", "m", "s"}), Rotation(Turn{Plane::xy, 0.3}));
+    const PictureUnits oneUnknown =
+        pictureUnits(fieldWith({"m", "", "m", "s"}), Rotation(RotationAngles{Plane::xy, 0.3}));
     EXPECT_EQ(oneUnknown, (PictureUnits{kUnknown, kUnknown, kMeters, kSeconds}));
 }
 
@@ -54,38 +56,39 @@ TEST(AxisUnits, FollowTheFrameOfReference) {
     EXPECT_EQ(seen({.boost = {0.5, 0, 0}}), (PictureUnits{kUnknown, kMeters, kMeters, kUnknown}));
 }
 
-TEST(CommonCoordinate, IsTheMomentUntilTimeIsMixedWithSpace) {
+TEST(ConstantSliceCoordinate, IsTheMomentUntilTimeIsMixedWithSpace) {
     const Field field = fieldWith({});
-    for (const Rotation& turned : {Rotation(), Rotation(Turn{Plane::xy, 0.3})}) {
-        const auto moment = commonCoordinate(field, turned);
+    for (const Rotation& turned : {Rotation(), Rotation(RotationAngles{Plane::xy, 0.3})}) {
+        const auto moment = constantSliceCoordinate(field, turned);
         ASSERT_TRUE(moment);
         EXPECT_EQ(moment->axis, 3);
-        EXPECT_NEAR(moment->at(-0.5), 0, 1e-12);
-        EXPECT_NEAR(moment->at(0.5), 5, 1e-12) << "as an object, the field is 1 long along w";
+        EXPECT_NEAR(moment->coordinateAt(-0.5), 0, 1e-12);
+        EXPECT_NEAR(moment->coordinateAt(0.5), 5, 1e-12) << "as an object, the field is 1 long along w";
         EXPECT_FALSE(moment->isW());
     }
-    EXPECT_FALSE(commonCoordinate(field, Rotation(Turn{Plane::xw, 0.3})));
-    const auto place = commonCoordinate(field, Rotation(Turn{Plane::xw, std::numbers::pi / 2}));
+    EXPECT_FALSE(constantSliceCoordinate(field, Rotation(RotationAngles{Plane::xw, 0.3})));
+    const auto place = constantSliceCoordinate(field, Rotation(RotationAngles{Plane::xw, std::numbers::pi / 2}));
     ASSERT_TRUE(place);
     EXPECT_EQ(place->axis, 0);
     EXPECT_NEAR(place->center, 0.5, 1e-12);
     EXPECT_NEAR(std::abs(place->scale), 1, 1e-12);
     const auto seen = [&](const geometry::ReferenceFrame& frame) {
-        return commonCoordinate(transformedTo(field, frame, geometry::nextSerial()), {});
+        return constantSliceCoordinate(transformedTo(field, frame, geometry::nextSerial()), {});
     };
     ASSERT_TRUE(seen({.pace = 2}));
-    EXPECT_NEAR(seen({.pace = 2})->at(1), 5, 1e-12);
+    EXPECT_NEAR(seen({.pace = 2})->coordinateAt(1), 5, 1e-12);
     ASSERT_TRUE(seen({.follow = {0.5, 0, 0}}));
-    EXPECT_NEAR(seen({.follow = {0.5, 0, 0}})->at(0.5), 5, 1e-12);
+    EXPECT_NEAR(seen({.follow = {0.5, 0, 0}})->coordinateAt(0.5), 5, 1e-12);
     EXPECT_FALSE(seen({.boost = {0.5, 0, 0}}));
     const Field formula = *fieldFromFormula("f", "x", {glm::dvec4(-1), glm::dvec4(1)});
-    EXPECT_TRUE(commonCoordinate(formula, {})->isW());
+    EXPECT_TRUE(constantSliceCoordinate(formula, {})->isW());
 }
 
 TEST(PlaceInBox, IsTheMomentOrThePlaceOfASlice) {
-    const Rotation quarter(Turn{Plane::xw, std::numbers::pi / 2}), oblique(Turn{Plane::xw, 0.3});
+    const Rotation quarter(RotationAngles{Plane::xw, std::numbers::pi / 2}), oblique(RotationAngles{Plane::xw, 0.3});
     const Field known = fieldWith({"m", "m", "m", "s"}), unknown = fieldWith({});
-    EXPECT_EQ(placeInBox(known, {}, 0.25, 0.1), "3.75 s") << "w goes from −0.5 to 0.5 while the time goes from 0 to 5 s";
+    EXPECT_EQ(placeInBox(known, {}, 0.25, 0.1), "3.75 s")
+        << "w goes from −0.5 to 0.5 while the time goes from 0 to 5 s";
     EXPECT_EQ(placeInBox(known, {}, 0.2512345, 0.1), "3.76 s");
     EXPECT_EQ(placeInBox(unknown, {}, 0.25, 0.1), "box w = 3.75");
     EXPECT_EQ(placeInBox(known, quarter, 0, 0.1), "box x = 0.5 m");

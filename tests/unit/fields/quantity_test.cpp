@@ -13,12 +13,12 @@ namespace {
 TEST(Quantity, TextsAreShortAndPrintable) {
     const std::string longest(kMaxQuantityText, 'm');
     for (const std::string& text : {std::string(), std::string("K"), std::string("µg m⁻³"), longest}) {
-        EXPECT_EQ(quantityText(text), text);
+        EXPECT_EQ(sanitizeQuantityText(text), text);
         EXPECT_TRUE(isQuantityText(text)) << text;
     }
-    EXPECT_EQ(quantityText("  "), "");
-    EXPECT_EQ(quantityText("\xff"
-                           "K\n"),
+    EXPECT_EQ(sanitizeQuantityText("  "), "");
+    EXPECT_EQ(sanitizeQuantityText("\xff"
+                                   "K\n"),
               "?K?");
     EXPECT_FALSE(isQuantityText("\xff"));
     for (const char* character : {"m", "é", "€", "𝛼"}) {
@@ -26,7 +26,7 @@ TEST(Quantity, TextsAreShortAndPrintable) {
             std::string text(shift, '.');
             while (text.size() <= kMaxQuantityText) text += character;
             EXPECT_FALSE(isQuantityText(text)) << text;
-            const std::string cut = quantityText(text);
+            const std::string cut = sanitizeQuantityText(text);
             EXPECT_TRUE(text::isUtf8(cut)) << cut;
             EXPECT_LE(cut.size(), kMaxQuantityText) << cut;
             EXPECT_TRUE(cut.ends_with("…")) << cut;

@@ -30,7 +30,7 @@ TEST(ValueRange, LeavesOutPolesAndWhatHasNoValue) {
     EXPECT_EQ(rangeOf("sqrt(-1-x^2)"), (ValueRange{0, 1}));
     const float none = std::numeric_limits<float>::quiet_NaN();
     const std::vector<float> values{none, 3, -1, std::numeric_limits<float>::infinity(), 2};
-    EXPECT_EQ(rangesOf(values).full, (ValueRange{-1, 3}));
+    EXPECT_EQ(fullAndTypicalRange(values).full, (ValueRange{-1, 3}));
 }
 
 TEST(ValueRange, IsThatOfTheSecondFunction) {

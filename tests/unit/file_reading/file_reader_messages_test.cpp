@@ -37,11 +37,11 @@ TEST(ReadingMessages, FilesSurviveARoundTrip) {
     load.center = {geometry::Centering::OriginChoice::point, {1, 2, 3, 4}};
     for (const bool hasBox : {false, true}) {
         if (hasBox) load.region = fields::Box{{1, 1, 2, 3}, {4, 5, 6, 7}};
-        if (hasBox) load.finer = session::FinerLevel{3, 0};
+        if (hasBox) load.finer = session::FinerImageLevel{3, 0};
         if (hasBox) load.box = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
         std::string bytes;
         encodeReadRequest(load, limits, true, bytes);
-        ReadRequest file;
+        FileReadRequest file;
         decodeReadRequest(bytes, file);
         EXPECT_EQ(file.load.format, load.format);
         EXPECT_EQ(file.load.data, load.data);

@@ -35,7 +35,7 @@ glm::dmat4 byDefinition(Plane plane, double angle) {
     return m;
 }
 
-Turn randomTurn(std::mt19937& random, bool doubled) {
+RotationAngles randomTurn(std::mt19937& random, bool doubled) {
     std::uniform_real_distribution<double> angle(-2 * pi, 2 * pi);
     const Plane plane = kPlanes.at(random() % 6);
     const double alpha = angle(random);
@@ -43,9 +43,9 @@ Turn randomTurn(std::mt19937& random, bool doubled) {
 }
 
 // Returns a turn in all planes whose sum of squared angles is at most `size`².
-Turn randomTurnInAllPlanes(std::mt19937& random, double size) {
+RotationAngles randomTurnInAllPlanes(std::mt19937& random, double size) {
     std::uniform_real_distribution<double> angle(-1, 1);
-    Turn turn;
+    RotationAngles turn;
     for (const Plane plane : kPlanes) turn[plane] = angle(random) * size / std::sqrt(double(kPlanes.size()));
     return turn;
 }
@@ -53,7 +53,8 @@ Turn randomTurnInAllPlanes(std::mt19937& random, double size) {
 TEST(Rotation, turnsTheFirstAxisTowardTheSecond) {
     for (const Plane plane : kPlanes) {
         for (const double angle : {0.3, pi / 2, -1.7}) {
-            EXPECT_LT(difference(Rotation(Turn{plane, angle, {}}).matrix(), byDefinition(plane, angle)), 1e-15)
+            EXPECT_LT(difference(Rotation(RotationAngles{plane, angle, {}}).matrix(), byDefinition(plane, angle)),
+                      1e-15)
                 << name(plane);
         }
     }
@@ -62,10 +63,10 @@ TEST(Rotation, turnsTheFirstAxisTowardTheSecond) {
 TEST(Rotation, doubleRotationIsTheCommutingProductOfItsSimpleRotations) {
     std::mt19937 random(1);
     for (int i = 0; i < 200; ++i) {
-        const Turn turn = randomTurn(random, true);
+        const RotationAngles turn = randomTurn(random, true);
         const Plane plane = turn.planes()[0];
-        const Rotation first(Turn{plane, *turn[plane], {}});
-        const Rotation second(Turn{perpendicular(plane), *turn[perpendicular(plane)], {}});
+        const Rotation first(RotationAngles{plane, *turn[plane], {}});
+        const Rotation second(RotationAngles{orthogonalComplement(plane), *turn[orthogonalComplement(plane)], {}});
         EXPECT_LT(difference(Rotation(turn).matrix(), (first * second).matrix()), 1e-14);
         EXPECT_LT(difference(Rotation(turn).matrix(), (second * first).matrix()), 1e-14);
     }
@@ -76,11 +77,11 @@ TEST(Rotation, doubleRotationIsTheCommutingProductOfItsSimpleRotations) {
 TEST(Rotation, turnsInAllPlanesAtTheSameTime) {
     std::mt19937 random(21);
     for (int i = 0; i < 20; ++i) {
-        const Turn turn = randomTurnInAllPlanes(random, 2);
+        const RotationAngles turn = randomTurnInAllPlanes(random, 2);
         const int steps = 20'000;
         Rotation product;
         for (int k = 0; k < steps; ++k) {
-            for (const Plane plane : kPlanes) product = Rotation(Turn(plane, *turn[plane] / steps)) * product;
+            for (const Plane plane : kPlanes) product = Rotation(RotationAngles(plane, *turn[plane] / steps)) * product;
         }
         EXPECT_LT(difference(Rotation(turn).matrix(), product.matrix()), 1e-3);
         EXPECT_LT(difference((Rotation(turn) * Rotation(turn)).matrix(), Rotation(turn.scaled(2)).matrix()), 1e-13);
@@ -92,25 +93,27 @@ TEST(Rotation, isTheRotationOfItsTurn) {
     std::mt19937 random(22);
     for (int i = 0; i < 200; ++i) {
         // all angles are below π, so no other turn with smaller angles gives the same rotation
-        const Turn small = randomTurnInAllPlanes(random, 3);
-        const Turn again = Rotation(small).turn();
+        const RotationAngles small = randomTurnInAllPlanes(random, 3);
+        const RotationAngles again = Rotation(small).turn();
         for (const Plane plane : kPlanes) EXPECT_NEAR(again[plane].value_or(0), *small[plane], 1e-12);
         const Rotation any = Rotation(randomTurn(random, true)) * Rotation(randomTurn(random, true));
         EXPECT_LT(difference(Rotation(any.turn()).matrix(), any.matrix()), 1e-12);
     }
     EXPECT_TRUE(Rotation().turn().planes().empty());
-    EXPECT_EQ(Rotation(Turn(Plane::yw, 0.3)).turn().planes(), std::vector{Plane::yw});
+    EXPECT_EQ(Rotation(RotationAngles(Plane::yw, 0.3)).turn().planes(), std::vector{Plane::yw});
     const Rotation central(glm::dquat(-1, 0, 0, 0), glm::dquat(1, 0, 0, 0));
     EXPECT_LT(difference(Rotation(central.turn()).matrix(), central.matrix()), 1e-12);
-    const Turn sum = Turn(Plane::xy, 5) + Turn(Plane::xy, 4) + Turn(Plane::xw, 1);
+    const RotationAngles sum =
+        RotationAngles(Plane::xy, 5) + RotationAngles(Plane::xy, 4) + RotationAngles(Plane::xw, 1);
     EXPECT_EQ(sum[Plane::xy], 9);
     EXPECT_EQ(sum.planes(), (std::vector{Plane::xy, Plane::xw}));
 }
 
 TEST(Rotation, perpendicularPlanesShareNoAxis) {
     for (const Plane plane : kPlanes) {
-        EXPECT_EQ(perpendicular(perpendicular(plane)), plane);
-        for (const char axis : name(plane)) EXPECT_EQ(name(perpendicular(plane)).find(axis), std::string_view::npos);
+        EXPECT_EQ(orthogonalComplement(orthogonalComplement(plane)), plane);
+        for (const char axis : name(plane))
+            EXPECT_EQ(name(orthogonalComplement(plane)).find(axis), std::string_view::npos);
         EXPECT_EQ(planeNamed(name(plane)), plane);
     }
     EXPECT_EQ(planeNamed("yx"), std::nullopt);
@@ -129,7 +132,7 @@ TEST(Rotation, isUndoneByItsInverse) {
     std::mt19937 random(3);
     Rotation start;
     for (int i = 0; i < 500; ++i) {
-        const Turn turn = randomTurn(random, i % 2 == 0);
+        const RotationAngles turn = randomTurn(random, i % 2 == 0);
         start = Rotation(turn) * start;
         const Rotation back = Rotation(turn.inverse()) * (Rotation(turn) * start);
         EXPECT_LT(difference(back.matrix(), start.matrix()), 1e-12);
@@ -197,8 +200,8 @@ TEST(Rotation, hasPowersThatAddUp) {
     }
     for (const double angle : {0.1, 1.0, 3.0}) {
         for (const double f : {0.25, 0.5, 0.75}) {
-            EXPECT_LT(difference(Rotation(Turn{Plane::xw, angle, {}}).power(f).matrix(),
-                                 Rotation(Turn{Plane::xw, f * angle, {}}).matrix()),
+            EXPECT_LT(difference(Rotation(RotationAngles{Plane::xw, angle, {}}).power(f).matrix(),
+                                 Rotation(RotationAngles{Plane::xw, f * angle, {}}).matrix()),
                       1e-12);
         }
     }
@@ -208,7 +211,7 @@ TEST(Rotation, isRestoredFromItsQuaternionsBitByBit) {
     std::mt19937 random(29);
     for (int i = 0; i < 100; ++i) {
         const Rotation rotation(randomTurn(random, true));
-        EXPECT_EQ(Rotation::fromQuaternions(rotation.left(), rotation.right()), rotation);
+        EXPECT_EQ(Rotation::fromQuaternions(rotation.leftQuaternion(), rotation.rightQuaternion()), rotation);
     }
 }
 
@@ -220,7 +223,8 @@ TEST(Rotation, isRestoredOnlyIfItIsOrthogonal) {
         for (const double sign : {-1.0, 1.0}) {
             const Rotation rotation(randomTurn(random, true));
             const double factor = 1 + sign * excess;
-            const auto found = Rotation::fromQuaternions(rotation.left() * factor, rotation.right() * factor);
+            const auto found =
+                Rotation::fromQuaternions(rotation.leftQuaternion() * factor, rotation.rightQuaternion() * factor);
             ++(found ? restored : refused);
             if (!found) continue;
             const glm::dmat4 m = found->matrix();

@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t kTotalBytes = 1000;
 
-TEST(Clients, AreIdentifiedByAddress) {
-    Clients clients({}, {}, kTotalBytes);
+TEST(ClientAccounts, AreIdentifiedByAddress) {
+    ClientAccounts clients({}, {}, kTotalBytes);
     EXPECT_EQ(clients.findOrCreate(make_address("192.0.2.1"), {}),
               clients.findOrCreate(make_address("::ffff:192.0.2.1"), {}));
     EXPECT_NE(clients.findOrCreate(make_address("192.0.2.1"), {}), clients.findOrCreate(make_address("192.0.2.2"), {}));
@@ -29,8 +29,8 @@ TEST(Clients, AreIdentifiedByAddress) {
     EXPECT_NE(clients.findOrCreate(make_address("::1"), {}), clients.findOrCreate(make_address("::2"), {}));
 }
 
-TEST(Clients, ForwardedForIsUsedOnlyFromTrustedProxies) {
-    const Clients clients({}, {"10.0.0.0/8", "2001:db8::1"}, kTotalBytes);
+TEST(ClientAccounts, ForwardedForIsUsedOnlyFromTrustedProxies) {
+    const ClientAccounts clients({}, {"10.0.0.0/8", "2001:db8::1"}, kTotalBytes);
     const auto proxy = make_address("10.1.2.3"), stranger = make_address("192.0.2.9");
     const auto addressOf = [&](const char* forwarded, const auto& from) {
         return clients.clientAddress(forwarded, from).to_string();
@@ -48,7 +48,7 @@ TEST(Clients, ForwardedForIsUsedOnlyFromTrustedProxies) {
     EXPECT_FALSE(clients.isTrustedProxy(make_address("11.0.0.1")));
 }
 
-TEST(Clients, ForwardedAddressesMayHavePortsBracketsAndQuotes) {
+TEST(ClientAccounts, ForwardedAddressesMayHavePortsBracketsAndQuotes) {
     const auto read = [](std::string_view entry) {
         const auto found = forwardedAddress(entry);
         return found ? found->to_string() : "none";
@@ -60,7 +60,7 @@ TEST(Clients, ForwardedAddressesMayHavePortsBracketsAndQuotes) {
     for (const char* entry : {"", "unknown", "_hidden", "_a:80", "192.0.2.7:", "192.0.2.7:http", "192.0.2.7:123456",
                               "[192.0.2.7]", "[2001:db8::7", "2001:db8::7]", "[2001:db8::7]x", "192.0.2", "\"", ":80"})
         EXPECT_EQ(read(entry), "none") << entry;
-    const Clients clients({}, {"10.0.0.0/8"}, kTotalBytes);
+    const ClientAccounts clients({}, {"10.0.0.0/8"}, kTotalBytes);
     const auto addressOf = [&](const char* forwarded) {
         return clients.clientAddress(forwarded, make_address("10.1.2.3")).to_string();
     };
@@ -80,12 +80,12 @@ TEST(IpNetwork, RejectsMalformedText) {
     EXPECT_TRUE(IpNetwork("::/0").contains(make_address("203.0.113.1")));
 }
 
-TEST(AddressAccount, LimitsNewSessionsPerMinute) {
+TEST(ClientAccount, LimitsNewSessionsPerMinute) {
     ByteBudget budget(kTotalBytes);
-    AddressAccount client("one", {.newSessionsPerMinute = 60}, budget, {});
+    ClientAccount client("one", {.newSessionsPerMinute = 60}, budget, {});
     const auto at = [](double seconds) {
-        return AddressAccount::Clock::time_point(
-            std::chrono::duration_cast<AddressAccount::Clock::duration>(seconds * 1s));
+        return ClientAccount::Clock::time_point(
+            std::chrono::duration_cast<ClientAccount::Clock::duration>(seconds * 1s));
     };
     int opened = 0;
     for (int i = 0; i < 100; ++i) opened += client.admitNewSession(at(0)) ? 1 : 0;
@@ -96,10 +96,10 @@ TEST(AddressAccount, LimitsNewSessionsPerMinute) {
     EXPECT_TRUE(client.hasRecoveredRateLimits(at(100)));
 }
 
-TEST(AddressAccount, LimitsWrongTokensPerMinute) {
+TEST(ClientAccount, LimitsWrongTokensPerMinute) {
     ByteBudget budget(kTotalBytes);
-    AddressAccount client("one", {.wrongTokensPerMinute = 3}, budget, {});
-    const AddressAccount::Clock::time_point start{};
+    ClientAccount client("one", {.wrongTokensPerMinute = 3}, budget, {});
+    const ClientAccount::Clock::time_point start{};
     for (int i = 0; i < 3; ++i) {
         EXPECT_TRUE(client.mayTryToken(start));
         client.countWrongToken(start);
@@ -109,10 +109,10 @@ TEST(AddressAccount, LimitsWrongTokensPerMinute) {
     EXPECT_TRUE(client.mayTryToken(start + 21s)) << "further wrong tokens do not prolong the lockout";
 }
 
-TEST(AddressAccount, IsDelayedAboveItsMessageRate) {
+TEST(ClientAccount, IsDelayedAboveItsMessageRate) {
     ByteBudget budget(kTotalBytes);
-    AddressAccount client("one", {.requestsPerSecond = 100, .messageBytesPerSecond = 1000}, budget, {});
-    const AddressAccount::Clock::time_point start{};
+    ClientAccount client("one", {.requestsPerSecond = 100, .messageBytesPerSecond = 1000}, budget, {});
+    const ClientAccount::Clock::time_point start{};
     EXPECT_EQ(client.countMessage(1000, start).count(), 0);
     EXPECT_DOUBLE_EQ(client.countMessage(500, start).count(), 0.5);
     EXPECT_EQ(client.countMessage(0, start + 1s).count(), 0);
@@ -133,22 +133,22 @@ TEST(ByteBudget, LimitsEachClientAndAllTogether) {
     ASSERT_TRUE(second);
     EXPECT_FALSE(other->reserve(1)) << "above the limit of all clients";
     first->forceResize(20);
-    EXPECT_EQ(one->held(), 20U);
+    EXPECT_EQ(one->heldBytes(), 20U);
     EXPECT_TRUE(one->reserve(30)) << "resizing released bytes at once";
     {
         const auto moved = std::move(*second);
-        EXPECT_EQ(other->held(), 50U);
+        EXPECT_EQ(other->heldBytes(), 50U);
     }
-    EXPECT_EQ(other->held(), 0U);
+    EXPECT_EQ(other->heldBytes(), 0U);
     first.reset();
     second.reset();
     auto growing = one->forceReserve(10);
     EXPECT_TRUE(growing.growTo(60));
     EXPECT_FALSE(growing.growTo(61));
-    EXPECT_EQ(one->held(), 60U);
+    EXPECT_EQ(one->heldBytes(), 60U);
     growing.forceResize(0);
     const auto forced = one->forceReserve(1000);
-    EXPECT_EQ(budget.held(), 1000U);
+    EXPECT_EQ(budget.heldBytes(), 1000U);
     EXPECT_FALSE(one->reserve(0));
 }
 

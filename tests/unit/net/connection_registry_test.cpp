@@ -15,9 +15,9 @@ using EndReason = ConnectionRegistry::EndReason;
 
 class ConnectionRegistryTest : public ::testing::Test {
   protected:
-    Clients clients{ClientLimits{}, {}, 0};
-    AddressAccountPtr one = clients.findOrCreate(boost::asio::ip::make_address("192.0.2.1"), {});
-    AddressAccountPtr other = clients.findOrCreate(boost::asio::ip::make_address("192.0.2.2"), {});
+    ClientAccounts clients{ClientLimits{}, {}, 0};
+    ClientAccountPtr one = clients.findOrCreate(boost::asio::ip::make_address("192.0.2.1"), {});
+    ClientAccountPtr other = clients.findOrCreate(boost::asio::ip::make_address("192.0.2.2"), {});
 };
 
 TEST_F(ConnectionRegistryTest, CountsConnections) {

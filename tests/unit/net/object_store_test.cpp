@@ -17,8 +17,8 @@ TEST(ObjectStore, RefusesAddressesThatAreNotValid) {
     }
     for (const char* const address : {"http://host", "https://host:9000/bucket/runs/", "http://[::1]/"})
         EXPECT_NO_THROW(ObjectStore(address, {})) << address;
-    EXPECT_TRUE(ObjectStore::isAddress("https://host/runs"));
-    EXPECT_FALSE(ObjectStore::isAddress("/fields"));
+    EXPECT_TRUE(ObjectStore::isUrl("https://host/runs"));
+    EXPECT_FALSE(ObjectStore::isUrl("/fields"));
 }
 
 TEST(ObjectStore, HasNoObjectsElsewhere) {

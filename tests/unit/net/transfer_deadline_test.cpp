@@ -24,7 +24,7 @@ TEST_F(TransferDeadlines, AFragmentHasTheWriteTimeoutIfTheClientIsFastEnough) {
     for (int i = 0; i < 100; ++i) {
         EXPECT_EQ(deadline.nextFragmentTimeout(), 10s);
         pass(9s);
-        deadline.count(9000);
+        deadline.countBytes(9000);
     }
 }
 
@@ -33,9 +33,9 @@ TEST_F(TransferDeadlines, AClientBelowTheMinimumRateHasLessAndLessTime) {
     TransferDeadline deadline(options, clock);
     pass(15s);
     EXPECT_EQ(deadline.nextFragmentTimeout(), 5s);
-    deadline.count(2000);
+    deadline.countBytes(2000);
     EXPECT_EQ(deadline.nextFragmentTimeout(), 7s);
-    deadline.count(98'000);
+    deadline.countBytes(98'000);
     EXPECT_EQ(deadline.nextFragmentTimeout(), 10s);
     pass(1h);
     EXPECT_EQ(deadline.nextFragmentTimeout(), 1ms);

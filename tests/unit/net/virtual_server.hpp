@@ -35,7 +35,7 @@ class VirtualServer {
     const ServerOptions options;
     VirtualTimerClock clock;
     ByteBudget budget{options.maxBytes};
-    Clients clients{options.client, options.trustedProxies, options.maxBytes};
+    ClientAccounts clients{options.client, options.trustedProxies, options.maxBytes};
     FieldCacheFiles fieldCacheFiles{options.fieldCacheFolder, options.fieldCache};
     boost::asio::io_context io;
     Metrics metrics;
@@ -55,8 +55,7 @@ class VirtualServer {
         loadWorkers{parallel::WorkerPool::PoolOptions{}};
     const Services services{options, io,        pictureWorkers, exportWorkers,   metrics,  clients, loadWorkers,
                             readers, polytopes, data,           fieldCacheFiles, critical, clock};
-    const AddressAccountPtr account =
-        std::make_shared<AddressAccount>("192.0.2.1", options.client, budget, clock.now());
+    const ClientAccountPtr account = std::make_shared<ClientAccount>("192.0.2.1", options.client, budget, clock.now());
 
     /// Runs all handlers that are ready, or become ready meanwhile. Returns how many have run.
     std::size_t runHandlers() {
@@ -94,7 +93,7 @@ class VirtualServer {
   private:
     /// Waits until the running picture job, if any, has ended. Returns false if further jobs were waiting.
     bool waitForRunningPictureJob() {
-        if (pictureWorkers.workers().waiting() > 0) {
+        if (pictureWorkers.workers().waitingJobCount() > 0) {
             std::this_thread::yield();
             return false;
         }

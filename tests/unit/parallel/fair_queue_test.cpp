@@ -56,7 +56,7 @@ class Simulation {
     }
 
     Seconds now() const { return now_; }
-    std::size_t waiting() const { return queue_.waiting(); }
+    std::size_t waitingJobCount() const { return queue_.waitingJobCount(); }
     Seconds usedBy(const JobQueuePtr& jobQueue) const {
         return used_.contains(jobQueue.get()) ? used_.at(jobQueue.get()) : Seconds(0);
     }
@@ -401,9 +401,9 @@ TEST(FairQueue, MoreThanMayWaitAreRefused) {
     EXPECT_FALSE(pool.post(newJobQueue(greedy), 10ms));
     for (int i = 0; i < 6; ++i) EXPECT_TRUE(pool.post(newJobQueue(), 10ms));
     EXPECT_FALSE(pool.post(newJobQueue(), 10ms));
-    EXPECT_EQ(pool.waiting(), 10U);
+    EXPECT_EQ(pool.waitingJobCount(), 10U);
     pool.run(1s);
-    EXPECT_EQ(pool.waiting(), 0U);
+    EXPECT_EQ(pool.waitingJobCount(), 0U);
     EXPECT_TRUE(pool.post(newJobQueue(greedy), 10ms));
 }
 
@@ -417,7 +417,7 @@ TEST(FairQueue, ClearsWithAllThatWaits) {
     EXPECT_TRUE(queue.push(job, newJobQueue(), 1s, {}));
     EXPECT_EQ(queue.clear().size(), 3U);
     EXPECT_EQ(owned.use_count(), 2);  // one owner is here, and one is in `job`
-    EXPECT_EQ(queue.waiting(), 0U);
+    EXPECT_EQ(queue.waitingJobCount(), 0U);
     EXPECT_FALSE(queue.popStartableJob({}));
     EXPECT_TRUE(queue.push(job, jobQueue, 1ms, {}));
     EXPECT_TRUE(queue.popStartableJob({}));

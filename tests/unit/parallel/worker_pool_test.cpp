@@ -195,7 +195,7 @@ TEST_F(WorkerPools, RefusesMoreThanMayWait) {
     post(pool, saying("other"), others);
     EXPECT_FALSE(pool.post(saying("refused"), others, 1ms));
     gate.open();
-    while (pool.waiting() > 0) std::this_thread::yield();
+    while (pool.waitingJobCount() > 0) std::this_thread::yield();
     post(pool, saying("other"), others);
     drain(pool, {greedy, others});
     EXPECT_EQ(said().size(), 4U);
@@ -208,10 +208,10 @@ TEST_F(WorkerPools, StopDropsWhatWaits) {
     post(pool, gate.job(), nullptr);
     gate.awaitBegun();
     for (int i = 0; i < 5; ++i) post(pool, saying("dropped"), nullptr);
-    EXPECT_EQ(pool.waiting(), 5U);
+    EXPECT_EQ(pool.waitingJobCount(), 5U);
     std::thread stopping([&] { pool.stop(); });
     while (!pool.stopToken().stop_requested()) std::this_thread::yield();
-    while (pool.waiting() > 0) std::this_thread::yield();
+    while (pool.waitingJobCount() > 0) std::this_thread::yield();
     gate.open();
     stopping.join();
     post(pool, saying("too late"), nullptr);

@@ -16,7 +16,7 @@ TEST(PictureRequest, ComesToTheRasterizerAsItWas) {
     for (const session::SettingValue& setting : session::settingValues()) {
         SCOPED_TRACE(setting.name);
         const scene::PictureRequest picture =
-            session::pictureOf(sessionWith(setting).current, {640, 360}, slicing::Quality::draft);
+            session::pictureRequestOf(sessionWith(setting).current, {640, 360}, slicing::Quality::draft);
         std::string bytes;
         raster::encodeRequest(picture, {7, 8, 9}, bytes);
         raster::DrawRequest order;

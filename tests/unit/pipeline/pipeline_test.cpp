@@ -80,7 +80,7 @@ TEST(Pipeline, NamesTheFocusSectionOnce) {
     pipeline.slice(picture, slices);
     EXPECT_EQ(other.nameFocusSection(picture, &slices).names, names) << "without cutting the focus slice again";
     section.names = {"kept", "known"};  // names that the pipeline would not find
-    pipeline.keepFocusSection(section);
+    pipeline.reuseFocusSectionNames(section);
     picture.look.orbit.zoom = 2;
     EXPECT_EQ(pipeline.nameFocusSection(picture).names, section.names);
     std::string message;
@@ -89,7 +89,7 @@ TEST(Pipeline, NamesTheFocusSectionOnce) {
     const auto expectNamedAnew = [&](const char* what, auto change) {
         scene::PictureRequest changed = picture;
         change(changed);
-        pipeline.keepFocusSection(section);
+        pipeline.reuseFocusSectionNames(section);
         EXPECT_NE(pipeline.nameFocusSection(changed).names, section.names) << what;
         EXPECT_EQ(pipeline.nameFocusSection(picture).names, names) << what;
     };
@@ -151,7 +151,7 @@ TEST(Pipeline, PointsAtAFieldAlongOneRay) {
             EXPECT_LT(evaluations, picture.planes.count * (scene::kRaySamples + 500));
         }
     }
-    EXPECT_LT(pointCost(picture), geometryCost(picture));
+    EXPECT_LT(pointDescriptionCost(picture), geometryCost(picture));
     picture.look.parts.faces = false;
     evaluations = 0;
     EXPECT_EQ(answersAt(pipeline, picture, 10).find(R"("level")"), std::string::npos);

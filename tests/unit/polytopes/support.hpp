@@ -40,8 +40,8 @@ inline polytopes::PolytopeCache& cache() {
 
 /// Returns the design (polytopes::designNamed()) of a polytope with at most 1,000,000 vertices. Throws
 /// std::bad_variant_access if `name` names no such polytope.
-inline polytopes::Design designFor(std::string_view name) {
-    return std::get<polytopes::Design>(polytopes::designNamed(name, 1'000'000));
+inline polytopes::PolytopeDesign designFor(std::string_view name) {
+    return std::get<polytopes::PolytopeDesign>(polytopes::designNamed(name, 1'000'000));
 }
 
 inline std::shared_ptr<const polytopes::Polytope> shared(std::string_view name) { return cache().get(designFor(name)); }

@@ -46,7 +46,7 @@ class RayCaster {
             double distance;
             glm::dvec3 color;
         };
-        const scene::Style& style = scene::style();
+        const scene::PictureStyle& style = scene::style();
         const glm::dvec3 eye = subject_.scene.camera.eye, direction = ray(x, y);
         const double pixel = glm::length(ray(x + 1, y) - direction);
         std::vector<Hit> hits;
@@ -293,8 +293,8 @@ TEST_F(Pictures, ShowTheDensityOfManyVertices) {
     using scene::DensityPlot;
     const Subject subject("120-cell", randomRotation(21), 3, {}, {960, 540});
     const image::Image image = subject.draw(renderer());
-    const scene::CoordinatesLayout& layout = subject.scene.coordinates;
-    const scene::Style& style = scene::style();
+    const scene::ParallelCoordinatesLayout& layout = subject.scene.coordinates;
+    const scene::PictureStyle& style = scene::style();
     const auto& colors = style.axes;
     const double height = subject.scene.viewport.height;
     const auto xOf = [&](double column) {
@@ -343,7 +343,7 @@ TEST_F(Pictures, ShowTheLinesOfTheHighlightedVerticesOverTheDensity) {
     const Subject lit("120-cell", orientation, 1, look, viewport);
     ASSERT_EQ(lit.scene.highlight.ownVertices.size(), 20U) << "a dodecahedron";
     const image::Image before = plain.draw(renderer()), after = lit.draw(renderer());
-    const scene::CoordinatesLayout& layout = lit.scene.coordinates;
+    const scene::ParallelCoordinatesLayout& layout = lit.scene.coordinates;
     const Rgb color = rgbOf(scene::style().highlight);
     for (const std::uint32_t v : lit.scene.highlight.ownVertices) {
         const glm::dvec4 at = lit.slices.rotatedVertices[v] / lit.scene.circumradius;
@@ -365,7 +365,7 @@ TEST(OffscreenGlContextTest, LeavesTheRestOfMemoryAlone) {
     context.begin(kWidth, kHeight, memory.data() + kGuard);
     glClearColor(1, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
-    context.finish();
+    context.readPixels();
     for (std::size_t i = 0; i < memory.size(); ++i) {
         const bool inside = i >= kGuard && i < kGuard + kSize;
         const std::size_t channel = (i - kGuard) % 4;
@@ -376,8 +376,8 @@ TEST(OffscreenGlContextTest, LeavesTheRestOfMemoryAlone) {
 TEST(OffscreenGlContextTest, RefusesAPictureThatIsTooLarge) {
     OffscreenGlContext context;
     std::uint8_t pixel[4];
-    EXPECT_GE(context.maxSize(), 8192);
-    EXPECT_THROW(context.begin(context.maxSize() + 1, 1, pixel), std::runtime_error);
+    EXPECT_GE(context.maxPictureSide(), 8192);
+    EXPECT_THROW(context.begin(context.maxPictureSide() + 1, 1, pixel), std::runtime_error);
 }
 
 TEST(RendererTest, SaysWhichFontIsMissing) {

@@ -45,13 +45,13 @@ TEST(Views, drawTheSlicesThatTheTableSays) {
     }
 }
 
-TEST(Arrangement, hasTheFocusSliceAtTheOriginAndInFrontOfTheCamera) {
+TEST(SliceArrangement, hasTheFocusSliceAtTheOriginAndInFrontOfTheCamera) {
     constexpr double kBallRadius = 0.05;
     for (const scene::ViewRow& view : scene::kViews) {
         for (const int count : {1, 3, 21, 201}) {
             for (const double aspect : {0.5, 1.0, 16.0 / 9, 4.0}) {
                 SCOPED_TRACE(testing::Message() << view.name << ", " << count << ", " << aspect);
-                const scene::Arrangement made =
+                const scene::SliceArrangement made =
                     scene::arrangementOf(view.value, count, kBallRadius, aspect, roomOf(aspect));
                 EXPECT_EQ(made.positionAt(0), glm::dvec3(0));
                 EXPECT_DOUBLE_EQ(made.reach, made.sliceRadius * (1 + kBallRadius));
@@ -63,22 +63,22 @@ TEST(Arrangement, hasTheFocusSliceAtTheOriginAndInFrontOfTheCamera) {
     }
 }
 
-TEST(Arrangement, ofAllSlicesHasADifferentPlaceForEach) {
+TEST(SliceArrangement, ofAllSlicesHasADifferentPlaceForEach) {
     constexpr int kCount = 21;
     for (const scene::ViewRow& view : scene::kViews) {
         if (!view.showsAllSlices) continue;
-        const scene::Arrangement made = scene::arrangementOf(view.value, kCount, 0, 1.5, roomOf(1.5));
+        const scene::SliceArrangement made = scene::arrangementOf(view.value, kCount, 0, 1.5, roomOf(1.5));
         for (int i = 1; i < kCount; ++i) {
-            const glm::dvec3 before = made.positionAt(scene::parameterOf(i - 1, kCount));
-            EXPECT_GT(glm::distance(made.positionAt(scene::parameterOf(i, kCount)), before), made.sliceRadius)
+            const glm::dvec3 before = made.positionAt(scene::sliceParameter(i - 1, kCount));
+            EXPECT_GT(glm::distance(made.positionAt(scene::sliceParameter(i, kCount)), before), made.sliceRadius)
                 << view.name;
         }
     }
 }
 
-TEST(Arrangement, hasNoNegativeZeroInPositions) {
+TEST(SliceArrangement, hasNoNegativeZeroInPositions) {
     for (const scene::ViewRow& view : scene::kViews) {
-        const scene::Arrangement made = scene::arrangementOf(view.value, 21, 0.05, 1.5, roomOf(1.5));
+        const scene::SliceArrangement made = scene::arrangementOf(view.value, 21, 0.05, 1.5, roomOf(1.5));
         for (const double u : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
             const glm::dvec3 position = made.positionAt(u);
             for (int i = 0; i < 3; ++i)
@@ -87,22 +87,22 @@ TEST(Arrangement, hasNoNegativeZeroInPositions) {
     }
 }
 
-TEST(Arrangement, ofAColumnIsARowTurnedByAQuarter) {
+TEST(SliceArrangement, ofAColumnIsARowTurnedByAQuarter) {
     constexpr double kBallRadius = 0.05;
     for (const int count : {3, 21, 201}) {
         for (const double aspect : {0.25, 0.5625, 1.0, 1.5}) {
             SCOPED_TRACE(testing::Message() << count << ", " << aspect);
-            const scene::Arrangement row =
+            const scene::SliceArrangement row =
                 scene::arrangementOf(scene::View::strip, count, kBallRadius, 1 / aspect, roomOf(1 / aspect));
-            const scene::Arrangement column =
+            const scene::SliceArrangement column =
                 scene::arrangementOf(scene::View::column, count, kBallRadius, aspect, roomOf(aspect));
             for (const double u : {-1.0, -0.25, 0.0, 1.0})
                 EXPECT_EQ(column.positionAt(u), glm::dvec3(0, row.positionAt(u).x, 0)) << u;
             EXPECT_GT(column.positionAt(1).y, 0) << "the largest w is at the top";
             EXPECT_EQ(column.distance, row.distance);
             EXPECT_EQ(column.maxDistanceFromFocus(), row.maxDistanceFromFocus());
-            const auto above = scene::projectionBeside(scene::View::strip, row, count, 1 / aspect);
-            const auto aside = scene::projectionBeside(scene::View::column, column, count, aspect);
+            const auto above = scene::placeProjectionBeside(scene::View::strip, row, count, 1 / aspect);
+            const auto aside = scene::placeProjectionBeside(scene::View::column, column, count, aspect);
             EXPECT_TRUE(aside.shown);
             EXPECT_EQ(aside.radius, above.radius);
             EXPECT_EQ(aside.position, glm::dvec3(-above.position.y, 0, 0));
@@ -110,13 +110,14 @@ TEST(Arrangement, ofAColumnIsARowTurnedByAQuarter) {
     }
 }
 
-TEST(Arrangement, ofTwoSlicesHasTheProjectionBesideThem) {
+TEST(SliceArrangement, ofTwoSlicesHasTheProjectionBesideThem) {
     for (const scene::ViewRow& view : scene::kViews) {
         if (!view.showsAllSlices) continue;
         for (const double aspect : {0.5625, 1.0, 16.0 / 9}) {
             SCOPED_TRACE(testing::Message() << view.name << ", " << aspect);
-            const scene::Arrangement made = scene::arrangementOf(view.value, 2, 0.05, aspect, roomOf(aspect, true));
-            const auto placement = scene::projectionBeside(view.value, made, 2, aspect);
+            const scene::SliceArrangement made =
+                scene::arrangementOf(view.value, 2, 0.05, aspect, roomOf(aspect, true));
+            const auto placement = scene::placeProjectionBeside(view.value, made, 2, aspect);
             ASSERT_TRUE(placement.shown);
             EXPECT_GT(placement.radius, 0.25 * made.reach);
             for (const double u : {-1.0, 1.0})
@@ -125,14 +126,14 @@ TEST(Arrangement, ofTwoSlicesHasTheProjectionBesideThem) {
     }
 }
 
-TEST(Arrangement, ofAGridIsReadFromLeftToRightAndFromTopToBottom) {
+TEST(SliceArrangement, ofAGridIsReadFromLeftToRightAndFromTopToBottom) {
     constexpr double kBallRadius = 0.05;
     for (const int count : {2, 3, 10, 21, 61, 201}) {
         for (const double aspect : {0.25, 0.5625, 1.0, 16.0 / 9, 4.0}) {
             SCOPED_TRACE(testing::Message() << count << ", " << aspect);
-            const scene::Arrangement made =
+            const scene::SliceArrangement made =
                 scene::arrangementOf(scene::View::grid, count, kBallRadius, aspect, roomOf(aspect));
-            const auto positionOf = [&](int i) { return made.positionAt(scene::parameterOf(i, count)); };
+            const auto positionOf = [&](int i) { return made.positionAt(scene::sliceParameter(i, count)); };
             ASSERT_GE(made.grid.columns, 1);
             EXPECT_EQ(positionOf((count - 1) / 2), glm::dvec3(0)) << "the focus slice";
             for (int i = 1; i < count; ++i) {
@@ -151,7 +152,7 @@ TEST(Arrangement, ofAGridIsReadFromLeftToRightAndFromTopToBottom) {
     }
 }
 
-TEST(Arrangement, ofAGridHasMoreColumnsInAWiderRoom) {
+TEST(SliceArrangement, ofAGridHasMoreColumnsInAWiderRoom) {
     int before = 0;
     for (const double aspect : {0.25, 0.5, 1.0, 2.0, 4.0}) {
         const int columns = scene::arrangementOf(scene::View::grid, 41, 0, aspect, roomOf(aspect)).grid.columns;
@@ -160,13 +161,13 @@ TEST(Arrangement, ofAGridHasMoreColumnsInAWiderRoom) {
     }
 }
 
-TEST(Arrangement, ofAGridHasTheProjectionBesideItAtTheLeftOrAbove) {
+TEST(SliceArrangement, ofAGridHasTheProjectionBesideItAtTheLeftOrAbove) {
     for (const int count : {2, 21, 201}) {
         for (const double aspect : {0.5625, 1.0, 16.0 / 9, 4.0}) {
             SCOPED_TRACE(testing::Message() << count << ", " << aspect);
-            const scene::Arrangement made =
+            const scene::SliceArrangement made =
                 scene::arrangementOf(scene::View::grid, count, 0.05, aspect, roomOf(aspect, true));
-            const auto placement = scene::projectionBeside(scene::View::grid, made, count, aspect);
+            const auto placement = scene::placeProjectionBeside(scene::View::grid, made, count, aspect);
             ASSERT_TRUE(placement.shown);
             const glm::dvec3 first = made.positionAt(-1);
             if (aspect > 1.5) {

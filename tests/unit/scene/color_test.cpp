@@ -17,23 +17,24 @@ namespace {
 using namespace oval4d;
 using scene::Color;
 using scene::Coloring;
-using scene::Scheme;
+using scene::ColorScheme;
 using slicing::Visibility;
 using support::named;
 using support::objectOf;
 
-std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring, Scheme scheme = Scheme::dark) {
+std::vector<Color> painted(const polytopes::Polytope& polytope, Coloring coloring,
+                           ColorScheme scheme = ColorScheme::dark) {
     std::vector<Color> colors;
-    scene::CellPainter().updateCellColors(objectOf(polytope), coloring, scheme, {}, colors);
+    scene::CellColorAssigner().updateCellColors(objectOf(polytope), coloring, scheme, {}, colors);
     return colors;
 }
 
 int red(Color color) { return static_cast<int>(color >> 16 & 255); }
 int blue(Color color) { return static_cast<int>(color & 255); }
 
-TEST(CellPainter, AreDistinctWhereCellsAreFewAndStable) {
+TEST(CellColorAssigner, AreDistinctWhereCellsAreFewAndStable) {
     for (const char* name : {"5-cell", "8-cell", "16-cell", "24-cell"}) {
-        for (const Scheme scheme : {Scheme::dark, Scheme::light}) {
+        for (const ColorScheme scheme : {ColorScheme::dark, ColorScheme::light}) {
             const auto colors = painted(named(name), Coloring::cell, scheme);
             EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), named(name).cells.size());
             EXPECT_EQ(colors, painted(named(name), Coloring::cell, scheme));
@@ -42,7 +43,7 @@ TEST(CellPainter, AreDistinctWhereCellsAreFewAndStable) {
     EXPECT_EQ(painted(named("600-cell"), Coloring::cell).size(), 600U);
 }
 
-TEST(CellPainter, ByCellTypeAreOneForEachType) {
+TEST(CellColorAssigner, ByCellTypeAreOneForEachType) {
     const auto polytope = support::rectifiedFiveCell();
     const auto colors = painted(polytope, Coloring::cell_type);
     std::set<std::pair<std::uint32_t, Color>> pairs;
@@ -53,18 +54,18 @@ TEST(CellPainter, ByCellTypeAreOneForEachType) {
     EXPECT_EQ(scene::cellTypeColor(1, 2), pairs.rbegin()->second);
 }
 
-TEST(CellPainter, PlainIsOne) {
+TEST(CellColorAssigner, PlainIsOne) {
     const auto colors = painted(named("24-cell"), Coloring::plain);
     EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 1U);
 }
 
-TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
+TEST(CellColorAssigner, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     const auto& polytope = named("8-cell");  // one cell lies at w = −1, one at w = 1, and six at w = 0
-    scene::CellPainter cellColors;
+    scene::CellColorAssigner cellColors;
     std::vector<Color> colors;
     for (const double turned : {0.0, std::numbers::pi}) {
-        const geometry::Rotation orientation(geometry::Turn{geometry::Plane::xw, turned, {}});
-        cellColors.updateCellColors(objectOf(polytope), Coloring::w, Scheme::dark, orientation, colors);
+        const geometry::Rotation orientation(geometry::RotationAngles{geometry::Plane::xw, turned, {}});
+        cellColors.updateCellColors(objectOf(polytope), Coloring::w, ColorScheme::dark, orientation, colors);
         for (std::size_t c = 0; c < colors.size(); ++c) {
             double w = 0;
             for (const auto f : polytope.cells[c]) {
@@ -82,7 +83,7 @@ TEST(CellPainter, ByWRunFromBlueToAmberAsThePolytopeIsTurned) {
     }
 }
 
-TEST(CellPainter, ByLightDependOnTheNormalAlone) {
+TEST(CellColorAssigner, ByLightDependOnTheNormalAlone) {
     const auto& polytope = named("8-cell");  // the normals of its cells are the eight directions of the axes
     std::vector<glm::dvec4> normals;
     std::vector<double> offsets;
@@ -92,9 +93,9 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
         return std::ranges::max_element(normals, {}, product) - normals.begin();
     };
     const auto brightness = [](Color color) { return red(color) + blue(color) + int(color >> 8U & 255U); };
-    scene::CellPainter cellColors;
+    scene::CellColorAssigner cellColors;
     std::vector<Color> colors;
-    cellColors.updateCellColors(objectOf(polytope), Coloring::light, Scheme::dark, {}, colors);
+    cellColors.updateCellColors(objectOf(polytope), Coloring::light, ColorScheme::dark, {}, colors);
     EXPECT_EQ(std::set(colors.begin(), colors.end()).size(), 8U);
     // The light comes from the left, from above, from the front, and from large w.
     std::array<Color, 8> lit{};
@@ -107,8 +108,8 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
     }
     // A quarter turn from y to z moves cells to the places of other cells. Each cell must then have the color of the
     // cell whose place it has taken.
-    const geometry::Rotation quarter(geometry::Turn{geometry::Plane::yz, std::numbers::pi / 2, {}});
-    cellColors.updateCellColors(objectOf(polytope), Coloring::light, Scheme::dark, quarter, colors);
+    const geometry::Rotation quarter(geometry::RotationAngles{geometry::Plane::yz, std::numbers::pi / 2, {}});
+    cellColors.updateCellColors(objectOf(polytope), Coloring::light, ColorScheme::dark, quarter, colors);
     EXPECT_EQ(colors.at(cellToward({0, 1, 0, 0})), lit[2]);
     EXPECT_EQ(colors.at(cellToward({0, 0, 0, 1})), lit[3]);
 }
@@ -116,12 +117,12 @@ TEST(CellPainter, ByLightDependOnTheNormalAlone) {
 constexpr std::array kPolytopeColorings{Coloring::cell, Coloring::w, Coloring::cell_type, Coloring::plain,
                                         Coloring::light};
 
-TEST(CellPainter, FollowThePolytopeTheColoringAndTheScheme) {
-    scene::CellPainter cellColors;
+TEST(CellColorAssigner, FollowThePolytopeTheColoringAndTheScheme) {
+    scene::CellColorAssigner cellColors;
     std::vector<Color> colors;
     for (const char* name : {"16-cell", "5-cell", "16-cell"}) {
         for (const Coloring coloring : kPolytopeColorings) {
-            for (const Scheme scheme : {Scheme::dark, Scheme::light}) {
+            for (const ColorScheme scheme : {ColorScheme::dark, ColorScheme::light}) {
                 cellColors.updateCellColors(objectOf(named(name)), coloring, scheme, {}, colors);
                 EXPECT_EQ(colors, painted(named(name), coloring, scheme)) << name;
             }
@@ -144,23 +145,23 @@ TEST(Contrast, IsThatOfTheGuidelines) {
 }
 
 TEST(Colors, OfALightGroundHoldOnWhite) {
-    std::vector<Color> all{scene::plainColor(Scheme::light)};
+    std::vector<Color> all{scene::plainColor(ColorScheme::light)};
     for (const char* name : {"5-cell", "24-cell", "600-cell"}) {
         for (const Coloring coloring : kPolytopeColorings)
-            std::ranges::copy(painted(named(name), coloring, Scheme::light), std::back_inserter(all));
+            std::ranges::copy(painted(named(name), coloring, ColorScheme::light), std::back_inserter(all));
     }
     for (std::size_t i = 0; i < 12; ++i) {
-        all.push_back(scene::cellTypeColor(i, 12, Scheme::light));
-        all.push_back(scene::levelColor(i % 4, 4, Scheme::light));
+        all.push_back(scene::cellTypeColor(i, 12, ColorScheme::light));
+        all.push_back(scene::levelColor(i % 4, 4, ColorScheme::light));
     }
     for (int i = -20; i <= 20; ++i) {
-        all.push_back(scene::divergingColor(i / 20.0, Scheme::light));
-        all.push_back(scene::sequentialColor(i / 20.0, Scheme::light));
+        all.push_back(scene::divergingColor(i / 20.0, ColorScheme::light));
+        all.push_back(scene::sequentialColor(i / 20.0, ColorScheme::light));
     }
     for (const Color color : all) EXPECT_GE(scene::contrast(color, kWhite), 3.6) << std::hex << color;
     for (int i = 1; i <= 20; ++i)
-        EXPECT_LT(scene::contrast(scene::sequentialColor(i / 20.0, Scheme::light), kWhite),
-                  scene::contrast(scene::sequentialColor((i - 1) / 20.0, Scheme::light), kWhite))
+        EXPECT_LT(scene::contrast(scene::sequentialColor(i / 20.0, ColorScheme::light), kWhite),
+                  scene::contrast(scene::sequentialColor((i - 1) / 20.0, ColorScheme::light), kWhite))
             << "the scale becomes lighter";
 }
 

@@ -28,7 +28,7 @@ std::vector<glm::dvec4> randomPoints(std::size_t count, unsigned seed) {
 DensityPlot densityOf(const std::vector<glm::dvec4>& points, const glm::dmat4& turn = glm::dmat4(1),
                       double radius = 1) {
     DensityPlot density;
-    density.measure(points, turn, radius);
+    density.compute(points, turn, radius);
     return density;
 }
 
@@ -77,7 +77,7 @@ TEST(DensityPlot, OneVertexIsALineFromAxisToAxis) {
 
 TEST(DensityPlot, TurnsAndScalesTheVertices) {
     const auto points = randomPoints(500, 4);
-    const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, 0.7, 1.1});
+    const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::xw, 0.7, 1.1});
     std::vector<glm::dvec4> turned;
     for (const glm::dvec4& p : points) turned.push_back(2.0 * (turn.matrix() * p));
     const DensityPlot a = densityOf(points, turn.matrix()), b = densityOf(turned, glm::dmat4(1), 2);
@@ -91,7 +91,7 @@ TEST(DensityPlot, OfACentrallySymmetricPolytopeIsItsMirrorImage) {
     for (const char* name : {"120-cell", "omnitruncated 24-cell"}) {
         const auto polytope = support::shared(name);
         for (const double angle : {0.0, 0.4}) {
-            const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle, 3 * angle});
+            const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::xw, angle, 3 * angle});
             // Opposite vertices of the polytope are opposite only up to rounding. So the test uses exact opposites.
             std::vector<glm::dvec4> points;
             for (const glm::dvec4& p : polytope->vertices) {
@@ -122,13 +122,13 @@ TEST(DensityPlot, KeepsItsMemory) {
     DensityPlot density = densityOf(points);
     const std::uint32_t* weights = density.weights().data();
     const std::uint8_t* tones = density.tones().data();
-    density.measure(points, geometry::Rotation(geometry::Turn{geometry::Plane::xy, 1, {}}).matrix(), 1);
+    density.compute(points, geometry::Rotation(geometry::RotationAngles{geometry::Plane::xy, 1, {}}).matrix(), 1);
     EXPECT_EQ(density.weights().data(), weights);
     EXPECT_EQ(density.tones().data(), tones);
 }
 
 TEST(DensityPlot, IsShownForManyVerticesOnly) {
-    const geometry::Rotation turn(geometry::Turn{geometry::Plane::yw, 0.3, {}});
+    const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::yw, 0.3, {}});
     slicing::SliceSet slices;
     const auto composed = [&](const char* name, const scene::Look& look) {
         const auto polytope = support::shared(name);
@@ -154,7 +154,7 @@ TEST(DensityPlot, FollowsPolytopeAndTurn) {
     slicing::SliceSet slices;
     const auto show = [&](const char* name, double angle) {
         const auto polytope = support::shared(name);
-        const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle, {}});
+        const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::xw, angle, {}});
         slicing::CellComplexSlicer().slice(*polytope, turn, {-10, 21, polytope->circumradius / 10}, slices);
         composer.compose(polytope, turn, slices, 0, {}, {}, scene);
         const DensityPlot fresh = densityOf(polytope->vertices, turn.matrix(), polytope->circumradius);

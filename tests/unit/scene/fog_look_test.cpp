@@ -11,15 +11,15 @@
 namespace oval4d::scene {
 namespace {
 
-FogTable tableOf(const std::vector<slicing::FogControlPoint>& points) {
-    FogTable table{1, 2, 3};
+FogTransferTable tableOf(const std::vector<slicing::FogControlPoint>& points) {
+    FogTransferTable table{1, 2, 3};
     makeFogTable(points, table);
     return table;
 }
 
-TEST(FogTable, IsLinearBetweenItsPoints) {
+TEST(FogTransferTable, IsLinearBetweenItsPoints) {
     // Entry i stands for the value (i − 1) / 254 · 4 − 2.
-    const FogTable table = tableOf({{-2, 0, 0xff0000}, {0, 1, 0x00ff00}, {2, 0.5, 0x0000ff}});
+    const FogTransferTable table = tableOf({{-2, 0, 0xff0000}, {0, 1, 0x00ff00}, {2, 0.5, 0x0000ff}});
     ASSERT_EQ(table.size(), kFogEntries);
     EXPECT_EQ(table[0], 0U);
     EXPECT_EQ(table[1], 0x00ff0000U);
@@ -33,18 +33,18 @@ TEST(FogTable, IsLinearBetweenItsPoints) {
     }
 }
 
-TEST(FogTable, PointsWithoutAColorHaveThatOfTheScale) {
-    const FogTable table = tableOf({{10, 0.5}, {11, 0.5}, {12, 0.5}});
+TEST(FogTransferTable, PointsWithoutAColorHaveThatOfTheScale) {
+    const FogTransferTable table = tableOf({{10, 0.5}, {11, 0.5}, {12, 0.5}});
     EXPECT_EQ(table[1] & 0xffffff, divergingColor(-1));
     EXPECT_EQ(table[128] & 0xffffff, divergingColor(0));
     EXPECT_EQ(table[255] & 0xffffff, divergingColor(1));
 }
 
-TEST(FogTable, IsEmptyWithoutFog) { EXPECT_TRUE(tableOf({}).empty()); }
+TEST(FogTransferTable, IsEmptyWithoutFog) { EXPECT_TRUE(tableOf({}).empty()); }
 
 // A block contains fog if a visible value lies between the least and the greatest value of the block's points.
 TEST(FogBlocks, AreThoseWhoseValuesPassAVisibleOne) {
-    FogTable table(kFogEntries, 0);
+    FogTransferTable table(kFogEntries, 0);
     for (std::size_t value = 100; value < 110; ++value) table[value] = 0x01ffffff;
     slicing::SliceFog fog;
     fog.size = {10, 6, 2};  // the lattice has 9 × 5 × 1 cells: three, two and one blocks along the axes
@@ -70,8 +70,8 @@ TEST(FogBlocks, AreThoseWhoseValuesPassAVisibleOne) {
     EXPECT_EQ(blocksWith({1, 1, 0}, 109), (Blocks{255, 0, 0, 0, 0, 0}));
 }
 
-TEST(FogTable, MayHaveStepsOfAnyHeight) {
-    const FogTable table = tableOf({{0, 0}, {1e-12, 1}, {1, 1}});
+TEST(FogTransferTable, MayHaveStepsOfAnyHeight) {
+    const FogTransferTable table = tableOf({{0, 0}, {1e-12, 1}, {1, 1}});
     EXPECT_EQ(table[1] >> 24, 0U);
     EXPECT_EQ(table[2] >> 24, 255U);
 }

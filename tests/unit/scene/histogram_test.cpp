@@ -65,8 +65,8 @@ TEST(Histogram, HasALineForEachLevelInsideItsRange) {
     EXPECT_EQ(histogram.levelLines[0].value, 0.5);
     EXPECT_EQ(histogram.levelLines[0].color, scene::levelColor(0, 4));
     EXPECT_EQ(histogram.levelLines[1].color, scene::levelColor(1, 4));
-    EXPECT_EQ(histogram.height(histogram.least), 0);
-    EXPECT_EQ(histogram.height(histogram.greatest), 1);
+    EXPECT_EQ(histogram.heightOf(histogram.least), 0);
+    EXPECT_EQ(histogram.heightOf(histogram.greatest), 1);
     EXPECT_EQ(pictures.composed(lookAt({1})).histogram.levelLines.size(), 1U);
 }
 
@@ -87,14 +87,14 @@ TEST(Histogram, SaysWhatTheValuesAndTheAxesMeasure) {
     const auto focus = std::ranges::find_if(pictures.scene.placements, &scene::SlicePlacement::focus);
     ASSERT_NE(focus, pictures.scene.placements.end());
     EXPECT_TRUE(focus->label.ends_with(" s")) << focus->label;
-    pictures.composed(lookAt({1}), geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.5, 0.3}));
+    pictures.composed(lookAt({1}), geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, 0.5, 0.3}));
     EXPECT_EQ(pictures.scene.axisUnits[0].text, "");
 }
 
 TEST(Histogram, FollowsTheRotationAndTheObject) {
     FieldPictures pictures;
     const std::vector<std::uint8_t> straight = pictures.composed(lookAt({1})).plotTones;
-    const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, 0.5, 0.3});
+    const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::xw, 0.5, 0.3});
     EXPECT_NE(pictures.composed(lookAt({1}), turn).plotTones, straight);
     EXPECT_EQ(pictures.composed(lookAt({1})).plotTones, straight);
     pictures.object = slicing::transformedTo(pictures.object, {.follow = {0.5, 0, 0}});
@@ -105,7 +105,7 @@ TEST(Histogram, StaysInsideEveryViewport) {
     FieldPictures pictures;
     for (const scene::Viewport viewport :
          {scene::Viewport{1280, 720}, {640, 640}, {375, 667}, {64, 900}, {3000, 300}}) {
-        const scene::CoordinatesLayout& layout = pictures.composed(lookAt({1}), {}, viewport).coordinates;
+        const scene::ParallelCoordinatesLayout& layout = pictures.composed(lookAt({1}), {}, viewport).coordinates;
         const double aspect = double(viewport.width) / viewport.height;
         EXPECT_GT(layout.panel, 0);
         EXPECT_GT(layout.lineStep, layout.panel);

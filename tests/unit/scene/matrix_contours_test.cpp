@@ -75,7 +75,7 @@ TEST(MatrixContours, FollowTheLevelsThePointAndTheObject) {
     };
     EXPECT_NEAR(farthestW(pictures.contours()[5]), 1, 0.02);
     const double angle = 0.5;  // a turn of the direction of w toward that of x, along which the ellipsoid is shorter
-    const geometry::Rotation turn(geometry::Turn{geometry::Plane::xw, angle});
+    const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::xw, angle});
     EXPECT_NEAR(farthestW(pictures.contours(slicing::Quality::full, {}, turn)[5]),
                 1 / std::sqrt(std::pow(std::cos(angle), 2) + 4 * std::pow(std::sin(angle), 2)), 0.02);
 }

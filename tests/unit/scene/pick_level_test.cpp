@@ -78,7 +78,7 @@ TEST(PickLevel, FindsTheNearestPointOfTheOuterLevelOnTheRay) {
                 ++found;
                 EXPECT_EQ(hit->level, 1U) << "it encloses the other level";
                 EXPECT_FALSE(hit->cap);
-                EXPECT_EQ(hit->in, PickedIn::slice);
+                EXPECT_EQ(hit->in, PickLocation::slice);
                 EXPECT_NEAR(glm::dot(hit->point, hit->point), 0.6, 1e-5);
                 EXPECT_EQ(hit->point.w, picture.scene.placements[hit->slice].w);
                 const glm::dvec2 pixel = picture.pixelOf(hit->slice, glm::dvec3(hit->point));
@@ -116,13 +116,13 @@ TEST(PickLevel, FindsCapsIfTheyAreDrawn) {
     Look look;
     look.view = View::single;
     look.parts.balls = look.parts.bars = false;
-    for (const auto inside : {fields::Inside::below, fields::Inside::above}) {
+    for (const auto inside : {fields::BodySide::below, fields::BodySide::above}) {
         for (const CapStyle caps : {CapStyle::plain, CapStyle::open}) {
             look.field.levels = {0};
             look.field.inside = inside;
             look.caps = caps;
             FieldPicture picture("x", look, {}, kBox);
-            const double x = inside == fields::Inside::below ? -0.5 : 0.5;
+            const double x = inside == fields::BodySide::below ? -0.5 : 0.5;
             const auto hit = picture.at(picture.pixelOf(10, {x, 0.1, 1}));
             if (caps == CapStyle::open) {
                 EXPECT_TRUE(!hit || !hit->cap);
@@ -179,7 +179,7 @@ TEST(PickLevel, FindsTheSurfaceOfTheFocusSliceInTheProjection) {
     const auto at = [&](const glm::dvec3& p) { return picture.at(picture.pixelOfWorld(center + scale * p)); };
     const auto hit = at(radius * toEye);
     ASSERT_TRUE(hit);
-    EXPECT_EQ(hit->in, PickedIn::projection);
+    EXPECT_EQ(hit->in, PickLocation::projection);
     EXPECT_EQ(hit->slice, slice);
     EXPECT_FALSE(hit->cap);
     EXPECT_LT(glm::distance(hit->point, glm::dvec4(radius * toEye, w)), 1e-4);
@@ -214,13 +214,13 @@ TEST(PickLevel, FindsTheSurfacesOfSlicesBeforeThatOfTheProjection) {
                     continue;
                 }
                 ASSERT_TRUE(found);
-                EXPECT_EQ(found->in, PickedIn::slice);
+                EXPECT_EQ(found->in, PickLocation::slice);
                 EXPECT_EQ(found->slice, inSlice->slice);
                 EXPECT_EQ(found->point, inSlice->point);
                 // If the slice is moved behind the eye, the projection is found.
                 scene.placements[10].position = 11.0 * scene.camera.eye;
                 const auto alone = picture.at(pixel);
-                both += alone && alone->in == PickedIn::projection ? 1 : 0;
+                both += alone && alone->in == PickLocation::projection ? 1 : 0;
                 scene.placements[10].position = glm::dvec3(0);
             }
         }
@@ -260,7 +260,7 @@ TEST(PickLevel, FindsContoursInThePanelsOfTheMatrix) {
     FieldPicture picture(kBall, look, support::randomRotation(random), kBox);
     const Scene& scene = picture.scene;
     const glm::dvec4 point = scene.sectionMatrix.point;
-    const double pixels = scene.matrix.scale(scene.circumradius) * kViewport.height;
+    const double pixels = scene.matrix.panelScale(scene.circumradius) * kViewport.height;
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 4; ++column) {
             if (row == column) continue;
@@ -274,7 +274,7 @@ TEST(PickLevel, FindsContoursInThePanelsOfTheMatrix) {
                 const auto hit = picture.at(pixelAt(0.6 * radius, 0.8 * radius));
                 ASSERT_TRUE(hit) << row << ", " << column;
                 EXPECT_EQ(hit->level, level);
-                EXPECT_EQ(hit->in, PickedIn::matrix);
+                EXPECT_EQ(hit->in, PickLocation::matrix);
                 EXPECT_NEAR(glm::dot(hit->point, hit->point), look.field.levels[level], 0.01);
                 glm::dvec4 expected = point;
                 expected[column] = 0.6 * radius;

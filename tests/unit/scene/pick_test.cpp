@@ -68,7 +68,7 @@ TEST(Pick, FindsTheVertexThatIsNearestToTheViewer) {
             if (!nearest) continue;
             const auto hit = picture.at(pixel);
             ASSERT_TRUE(hit) << name << ", slice " << i;
-            if (hit->in != PickedIn::slice || hit->slice != i) continue;  // another slice is in front of the vertex
+            if (hit->in != PickLocation::slice || hit->slice != i) continue;  // another slice is in front of the vertex
             EXPECT_EQ(hit->element, (slicing::Element{ElementKind::edge, picture.slices.vertexSource[*nearest]}));
         }
     }
@@ -100,7 +100,7 @@ TEST(Pick, FindsTheElementsOfPlanarSections) {
                     if (glm::distance(a, b) * scale * 720 < 20) continue;
                     const auto hit = picture.at(pixelOf(0.5 * (a + b)));
                     ASSERT_TRUE(hit) << name;
-                    EXPECT_EQ(hit->in, PickedIn::matrix);
+                    EXPECT_EQ(hit->in, PickLocation::matrix);
                     EXPECT_EQ(hit->element, (slicing::Element{ElementKind::cell, section.edgeSource[e]}));
                     const auto end = picture.at(pixelOf(a));
                     ASSERT_TRUE(end);
@@ -145,7 +145,7 @@ TEST(Pick, FindsPointsOfACloudInTheMatrixAsFarAsTheyAreDrawn) {
     };
     const auto hit = at(0.9 * radius);
     ASSERT_TRUE(hit);
-    EXPECT_EQ(hit->in, PickedIn::matrix);
+    EXPECT_EQ(hit->in, PickLocation::matrix);
     EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, 0}));
     EXPECT_FALSE(at(1.1 * radius));
 }
@@ -243,19 +243,19 @@ TEST(Pick, FindsTheProjectionsElementsAndTheCoordinatesColumns) {
         const auto hit = picture.at(picture.project(picture.scene.projectionPlacement.position +
                                                     projection.scale * projection.elements.vertices[v]));
         ASSERT_TRUE(hit);
-        EXPECT_EQ(hit->in, PickedIn::projection);
+        EXPECT_EQ(hit->in, PickLocation::projection);
         found +=
             hit->element == slicing::Element{ElementKind::vertex, projection.elements.vertexSource[v] - 96} ? 1 : 0;
     }
     EXPECT_GE(found, 12) << "at least the nearer half of the 24 vertices";
-    const CoordinatesLayout& layout = picture.scene.coordinates;
+    const ParallelCoordinatesLayout& layout = picture.scene.coordinates;
     for (int i = 0; i < 24; ++i) {
         const double x = layout.left + (i % layout.perRow) * layout.columnStep + 1.5 * layout.lineStep;
         const int row = i / layout.perRow;
         const double y = layout.zero - row * layout.rowStep + 0.5 * layout.amplitude;
         const auto hit = picture.at({x * 720, (1 - y) * 720, 0});
         ASSERT_TRUE(hit);
-        EXPECT_EQ(hit->in, PickedIn::coordinates);
+        EXPECT_EQ(hit->in, PickLocation::coordinates);
         EXPECT_EQ(hit->element, (slicing::Element{ElementKind::vertex, static_cast<std::size_t>(i)}));
     }
 }
@@ -283,7 +283,7 @@ TEST(Pick, FindsWhatIsInASliceBeforeTheProjectionFromEverywhere) {
                     const auto inSlice = picture.at(pixel);
                     if (!inSlice) continue;
                     ASSERT_TRUE(found);
-                    EXPECT_EQ(found->in, PickedIn::slice) << x << ", " << y;
+                    EXPECT_EQ(found->in, PickLocation::slice) << x << ", " << y;
                     EXPECT_EQ(found->element, inSlice->element);
                     EXPECT_EQ(found->slice, inSlice->slice);
                     const glm::dvec3 center = picture.project(picture.scene.projectionPlacement.position);
@@ -302,17 +302,17 @@ TEST(Pick, FindsWhatIsInASliceBeforeTheProjectionFromEverywhere) {
 double lineHeight(const Picture& picture, std::size_t vertex, double along) {
     const int axis = std::min(static_cast<int>(along), 2);
     const glm::dvec4 at = picture.slices.rotatedVertices[vertex] / picture.scene.circumradius;
-    const CoordinatesLayout& layout = picture.scene.coordinates;
+    const ParallelCoordinatesLayout& layout = picture.scene.coordinates;
     return layout.zero + layout.amplitude * (at[axis] + (along - axis) * (at[axis + 1] - at[axis]));
 }
 
 // Returns the vertex that is found in a density strip at the position `along` (see lineHeight()) and at this height, in
 // viewport heights from the lower edge.
 std::optional<std::size_t> vertexInStrip(Picture& picture, double along, double height) {
-    const CoordinatesLayout& layout = picture.scene.coordinates;
+    const ParallelCoordinatesLayout& layout = picture.scene.coordinates;
     const double x = layout.left + layout.lineWidth / 2 + along * layout.lineStep;
     const auto hit = picture.at({x * 720, (1 - height) * 720, 0});
-    if (!hit || hit->in != PickedIn::coordinates) return std::nullopt;
+    if (!hit || hit->in != PickLocation::coordinates) return std::nullopt;
     EXPECT_EQ(hit->element.kind, ElementKind::vertex);
     return hit->element.index;
 }
@@ -360,7 +360,7 @@ TEST(Pick, FindsTheFirstOfTheVerticesWithTheSameCoordinateInADensityStrip) {
 TEST(Pick, FindsNoVertexBesideADensityStrip) {
     std::mt19937 random(10);
     Picture picture("120-cell", {}, support::randomRotation(random));
-    const CoordinatesLayout& layout = picture.scene.coordinates;
+    const ParallelCoordinatesLayout& layout = picture.scene.coordinates;
     for (const double side : {-1.0, 1.0}) {
         EXPECT_FALSE(vertexInStrip(picture, 1.5, layout.zero + side * (layout.amplitude + 1.1 * kLineReach)));
         const double beyond = 1.5 + side * (1.5 + 1.1 * kLineReach / layout.lineStep);

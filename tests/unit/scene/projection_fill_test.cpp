@@ -92,8 +92,8 @@ polytopes::Polytope productOfLAndSquare() {
     const support::Polygon l{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
     const support::Polygon square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
     const polytopes::Polytope made = support::product(l, square);
-    auto read = polytopes::importPolytope(polytopes::FileFormat::off4, polytopes::write4Off(made, made.vertices), "L",
-                                          polytopes::ImportLimits());
+    auto read = polytopes::importPolytope(polytopes::PolytopeFileFormat::off4,
+                                          polytopes::write4Off(made, made.vertices), "L", polytopes::ImportLimits());
     return std::get<polytopes::ImportedPolytope>(std::move(read)).polytope;
 }
 
@@ -118,14 +118,14 @@ TEST(ProjectionFill, OfANonconvexFaceFromAFileHasExactlyItsArea) {
     ASSERT_FALSE(p.convexFaces);
     expectAreasOfL(p, sceneWithProjectedCells(p, {}, {}), [](double) { return kAreaOfL; });
     // A rotation that does not change w turns the projection as a whole.
-    geometry::Turn turn;
+    geometry::RotationAngles turn;
     turn[geometry::Plane::xy] = 0.7;
     turn[geometry::Plane::xz] = -1.1;
     turn[geometry::Plane::yz] = 0.4;
     expectAreasOfL(p, sceneWithProjectedCells(p, geometry::Rotation(turn), {}), [](double) { return kAreaOfL; });
     // In the projection, a rotation in the plane xw shortens x.
     constexpr double kAngle = 0.6;
-    const geometry::Rotation inXw(geometry::Turn{geometry::Plane::xw, kAngle});
+    const geometry::Rotation inXw(geometry::RotationAngles{geometry::Plane::xw, kAngle});
     expectAreasOfL(p, sceneWithProjectedCells(p, inXw, {}), [](double) { return kAreaOfL * std::cos(kAngle); });
     // A perspective projection magnifies what lies in a hyperplane w = c.
     const Scene s = sceneWithProjectedCells(p, {}, {}, ProjectionKind::perspective);

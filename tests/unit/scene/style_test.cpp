@@ -10,21 +10,21 @@
 namespace oval4d::scene {
 namespace {
 
-TEST(Style, ContrastsWithEveryBackground) {
+TEST(PictureStyle, ContrastsWithEveryBackground) {
     for (const auto& [name, background] : kBackgrounds) {
         SCOPED_TRACE(name);
-        const Style& s = style(background);
+        const PictureStyle& s = style(background);
         for (const Color text : {s.text, s.focusText, s.axes[0], s.axes[1], s.axes[2], s.axes[3]})
             EXPECT_GE(contrast(text, s.background), 4.5) << std::hex << text;
         for (const Color shape : {s.ball, s.bar, s.highlight})
             EXPECT_GE(contrast(shape, s.background), 3) << std::hex << shape;
-        EXPECT_GE(contrast(s.zeroLine, s.background), schemeOn(background) == Scheme::dark ? 1.5 : 3);
+        EXPECT_GE(contrast(s.zeroLine, s.background), schemeForBackground(background) == ColorScheme::dark ? 1.5 : 3);
         EXPECT_EQ(s.backgroundOpacity, background == Background::transparent ? 0 : 1);
     }
 }
 
-TEST(Style, WhiteAndTransparentDifferOnlyInTheBackground) {
-    const Style &white = style(Background::white), &none = style(Background::transparent);
+TEST(PictureStyle, WhiteAndTransparentDifferOnlyInTheBackground) {
+    const PictureStyle &white = style(Background::white), &none = style(Background::transparent);
     EXPECT_EQ(white.background, 0xffffffU);
     EXPECT_EQ(none.background, white.background);
     EXPECT_EQ(none.text, white.text);
@@ -33,12 +33,12 @@ TEST(Style, WhiteAndTransparentDifferOnlyInTheBackground) {
     EXPECT_EQ(style(Background::light).text, white.text);
 }
 
-TEST(Scheme, IsThatOfTheViewerIfTheBackgroundIsAutomatic) {
-    EXPECT_EQ(schemeOn(Background::automatic), Scheme::dark);
-    EXPECT_EQ(schemeOn(Background::automatic, Scheme::light), Scheme::light);
-    EXPECT_EQ(schemeOn(Background::dark, Scheme::light), Scheme::dark);
+TEST(ColorScheme, IsThatOfTheViewerIfTheBackgroundIsAutomatic) {
+    EXPECT_EQ(schemeForBackground(Background::automatic), ColorScheme::dark);
+    EXPECT_EQ(schemeForBackground(Background::automatic, ColorScheme::light), ColorScheme::light);
+    EXPECT_EQ(schemeForBackground(Background::dark, ColorScheme::light), ColorScheme::dark);
     for (const Background background : {Background::light, Background::white, Background::transparent})
-        EXPECT_EQ(schemeOn(background, Scheme::dark), Scheme::light);
+        EXPECT_EQ(schemeForBackground(background, ColorScheme::dark), ColorScheme::light);
 }
 
 // The colors of a scene change with its background, even if the composer is reused.

@@ -12,24 +12,24 @@
 namespace oval4d::scene {
 namespace {
 
-TEST(ValueScale, DivergesAtZeroIfItIsInTheMiddle) {
-    const ValueScale even = valueScaleFor({-1, 3});
-    EXPECT_EQ(even, (ValueScale{-3, 3, true}));
-    EXPECT_EQ(even.color(0), divergingColor(0));
-    EXPECT_EQ(even.color(3), divergingColor(1));
-    EXPECT_EQ(even.color(-1.5), divergingColor(-0.5));
-    const ValueScale positive = valueScaleFor({0, 3});
-    EXPECT_EQ(positive, (ValueScale{0, 3, false}));
-    EXPECT_EQ(positive.color(3), sequentialColor(1));
-    EXPECT_EQ(valueScaleFor({-0.1, 3}), (ValueScale{-0.1, 3, false}));
-    EXPECT_EQ(valueScaleFor({-3, -1}), (ValueScale{-3, -1, false}));
-    EXPECT_EQ(positive.color(std::numeric_limits<double>::quiet_NaN()), noValueColor());
-    EXPECT_EQ(valueScaleFor({2, 2}).color(2), sequentialColor(0.5)) << "a constant";
+TEST(ValueColorScale, DivergesAtZeroIfItIsInTheMiddle) {
+    const ValueColorScale even = valueScaleFor({-1, 3});
+    EXPECT_EQ(even, (ValueColorScale{-3, 3, true}));
+    EXPECT_EQ(even.colorOf(0), divergingColor(0));
+    EXPECT_EQ(even.colorOf(3), divergingColor(1));
+    EXPECT_EQ(even.colorOf(-1.5), divergingColor(-0.5));
+    const ValueColorScale positive = valueScaleFor({0, 3});
+    EXPECT_EQ(positive, (ValueColorScale{0, 3, false}));
+    EXPECT_EQ(positive.colorOf(3), sequentialColor(1));
+    EXPECT_EQ(valueScaleFor({-0.1, 3}), (ValueColorScale{-0.1, 3, false}));
+    EXPECT_EQ(valueScaleFor({-3, -1}), (ValueColorScale{-3, -1, false}));
+    EXPECT_EQ(positive.colorOf(std::numeric_limits<double>::quiet_NaN()), noValueColor());
+    EXPECT_EQ(valueScaleFor({2, 2}).colorOf(2), sequentialColor(0.5)) << "a constant";
 }
 
 int lightness(Color color) { return static_cast<int>((color >> 16U & 255U) + (color >> 8U & 255U) + (color & 255U)); }
 
-TEST(ValueScale, TheSequentialScaleBecomesLighter) {
+TEST(ValueColorScale, TheSequentialScaleBecomesLighter) {
     int last = lightness(sequentialColor(0));
     for (int i = 1; i <= 8; ++i) {
         const int next = lightness(sequentialColor(i / 8.0));
@@ -54,7 +54,7 @@ TEST(SurfaceLook, CapsFollowTheirSetting) {
     chooseSurfaceLook(*field, look, planes, out);
     EXPECT_FALSE(out.levels.back().caps);
     EXPECT_TRUE(out.colorsPoints());
-    EXPECT_EQ(out.scale, (ValueScale{-2, 2, true}));
+    EXPECT_EQ(out.scale, (ValueColorScale{-2, 2, true}));
     slicing::SliceSurface surface;
     surface.values = {0, 0};
     surface.secondValues = {-1, 2};

@@ -51,7 +51,7 @@ TEST(CellTypeFilter, AreSettings) {
     line(session, "set hidden=2,1,2 faded=0,1 color=kind");
     EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{1, 2}, {0}})) << "in both lists: hidden";
     EXPECT_EQ(session.current.look.coloring, scene::Coloring::cell_type);
-    Set set;
+    ChangeSettings set;
     set.hidden = {{0}};
     must(session, set);
     EXPECT_EQ(session.current.look.cellTypes, (CellTypeFilter{{0}, {}}));

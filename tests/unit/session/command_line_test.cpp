@@ -35,11 +35,12 @@ TEST(CommandLine, DoesWhatTheMethodPageShows) {
     EXPECT_FALSE(session.current.look.parts.faces);
     EXPECT_EQ(session.current.look.view, scene::View::single);
     line(session, "rotate xw,yz pi/8 pi/sqrt(3)-pi/8");
-    EXPECT_EQ(session.current.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+    EXPECT_EQ(session.current.lastTurn,
+              (geometry::RotationAngles{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
     line(session, " : rotate zw 0.1");
-    EXPECT_EQ(session.current.lastTurn, (geometry::Turn{geometry::Plane::zw, 0.1, {}}));
+    EXPECT_EQ(session.current.lastTurn, (geometry::RotationAngles{geometry::Plane::zw, 0.1, {}}));
     line(session, "rotate xw,yz");
-    EXPECT_EQ(session.current.lastTurn, (geometry::Turn{geometry::Plane::xw, pi / 12, session.current.beta}))
+    EXPECT_EQ(session.current.lastTurn, (geometry::RotationAngles{geometry::Plane::xw, pi / 12, session.current.beta}))
         << "by the keys' angles";
     line(session, "view oval");
     EXPECT_EQ(session.current.look.view, scene::View::oval);
@@ -248,7 +249,7 @@ TEST(CommandLine, ActsOnTheHighlightedElement) {
     press(session, "zc");
     ASSERT_TRUE(session.current.ongoingTurnToward);
     const glm::dvec4 direction =
-        slicing::directionOf(session.current.object, {slicing::ElementKind::cell, 5}, {0, 0, 0, 1});
+        slicing::elementDirectionOf(session.current.object, {slicing::ElementKind::cell, 5}, {0, 0, 0, 1});
     EXPECT_GT(glm::normalize(session.current.ongoingTurnToward->goal(direction)).w, 1 - 1e-9);
     line(session, "highlight cell: 4");
     EXPECT_EQ(session.current.look.highlight, (slicing::Element{slicing::ElementKind::cell, 4}));
@@ -314,7 +315,7 @@ TEST(CommandLine, MistakesAreExplainedAndChangeNothing) {
     refused("set step=0", ErrorCode::out_of_range, "the step must be from");
     refused("set zoom=0", ErrorCode::out_of_range, "zoom must be from");
     refused("set faces=maybe", ErrorCode::bad_expression, "faces must be on or off, not 'maybe'");
-    const std::string views = text::alternatives(text::namesOf(scene::kViews));
+    const std::string views = text::joinedWithOr(text::namesOf(scene::kViews));
     refused("set view=oblong", ErrorCode::bad_expression, ("view must be " + views).c_str());
     refused("view", ErrorCode::bad_expression, views.c_str());
     refused("set point=0,0,0", ErrorCode::bad_expression, "four numbers");

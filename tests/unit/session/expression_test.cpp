@@ -128,18 +128,18 @@ TEST(Expression, DeepNestingIsRefusedNotFollowed) {
     EXPECT_FALSE(evaluate(powers));
 }
 
-TEST(Turn, IsReadFromPlanesAndAngles) {
+TEST(RotationAngles, IsReadFromPlanesAndAngles) {
     const auto simple = parseTurn("xw:pi/8");
     ASSERT_TRUE(simple);
-    EXPECT_EQ(*simple, (geometry::Turn{geometry::Plane::xw, pi / 8, {}}));
+    EXPECT_EQ(*simple, (geometry::RotationAngles{geometry::Plane::xw, pi / 8, {}}));
     const auto doubled = parseTurn("xw,yz:pi/8,pi/sqrt(3)-pi/8");
     ASSERT_TRUE(doubled);
-    EXPECT_EQ(*doubled, (geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
-    EXPECT_EQ(*parseTurn("xw:180°"), (geometry::Turn{geometry::Plane::xw, pi, {}}));
+    EXPECT_EQ(*doubled, (geometry::RotationAngles{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}));
+    EXPECT_EQ(*parseTurn("xw:180°"), (geometry::RotationAngles{geometry::Plane::xw, pi, {}}));
     EXPECT_EQ(*parseTurn(" xw , yz : pi/8 , 1 "), *parseTurn("xw,yz:pi/8,1"));
 }
 
-TEST(Turn, MistakesAreExplained) {
+TEST(RotationAngles, MistakesAreExplained) {
     const auto says = [](std::string_view text, std::string_view part) {
         const auto result = parseTurn(text);
         ASSERT_FALSE(result) << text;

@@ -31,8 +31,8 @@ fields::Field levelOfImage(std::uint32_t level, std::uint32_t finer, float great
     array.samples = fields::SampleStorage(std::move(values));
     array.imageLevel = {level, 4, finer};
     fields::Field field = *fields::fieldFromArray("run", array);
-    field.source = std::make_shared<const fields::FileSource>(
-        fields::FileSource{"image", "", "tzyx", "", "", "", {}, fields::Box{glm::dvec4(0), glm::dvec4(9)}});
+    field.source = std::make_shared<const fields::FieldFileSource>(
+        fields::FieldFileSource{"image", "", "tzyx", "", "", "", {}, fields::Box{glm::dvec4(0), glm::dvec4(9)}});
     return field;
 }
 
@@ -44,28 +44,28 @@ void load(Session& session, const slicing::Object& field) {
         return ObjectWithWarnings{field, {}};
     };
     ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::immediate, reader);
-    LoadObject command = loadOf("run", *slicing::fieldIn(field)->source);
+    LoadObject command = loadCommandFor("run", *slicing::fieldIn(field)->source);
     const auto done = apply(session, command, Limits{}, loader);
     ASSERT_TRUE(done) << done.error().message;
 }
 
 TEST(FieldReplacement, TheNextLevelIsLoadedLikeTheOneThatIsShown) {
     Session session;
-    EXPECT_FALSE(loadOfFinerLevel(session.current)) << "no field";
+    EXPECT_FALSE(loadCommandForFinerLevel(session.current)) << "no field";
     load(session, objectOf(levelOfImage(2, 1, 6)));
-    const auto next = loadOfFinerLevel(session.current);
+    const auto next = loadCommandForFinerLevel(session.current);
     ASSERT_TRUE(next);
     EXPECT_EQ(next->name, "run");
     EXPECT_EQ(next->dataName, "image");
     EXPECT_EQ(next->axes, "tzyx");
     EXPECT_EQ(next->region, (fields::Box{glm::dvec4(0), glm::dvec4(9)}));
-    EXPECT_EQ(next->finer, (FinerLevel{1, 3}));
+    EXPECT_EQ(next->finer, (FinerImageLevel{1, 3}));
     load(session, objectOf(levelOfImage(2, 0, 6)));
-    EXPECT_FALSE(loadOfFinerLevel(session.current)) << "no finer level fits into memory";
+    EXPECT_FALSE(loadCommandForFinerLevel(session.current)) << "no finer level fits into memory";
     fields::Field growing = levelOfImage(2, 1, 6);
     growing.source.reset();
     session.current.source = session.current.object = objectOf(growing);
-    EXPECT_FALSE(loadOfFinerLevel(session.current)) << "it is no longer the array in the data folder";
+    EXPECT_FALSE(loadCommandForFinerLevel(session.current)) << "it is no longer the array in the data folder";
 }
 
 TEST(FieldReplacement, AFinerLevelKeepsSettingsAndHistory) {
@@ -101,10 +101,10 @@ TEST(FieldReplacement, SlicesThatSpanTheFieldSpanTheFinerOne) {
     const slicing::Object coarse = objectOf(levelOfImage(2, 2, 6)), fine = objectOf(levelOfImage(1, 1, 8));
     Session session;
     load(session, coarse);
-    ASSERT_TRUE(hasSpanningSpacing(session.current));
+    ASSERT_TRUE(slicesSpanObject(session.current));
     replaceField(session, coarse, fine, FieldReplacement::finer);
     EXPECT_NE(slicing::initialSliceExtent(fine), slicing::initialSliceExtent(coarse));
-    EXPECT_TRUE(hasSpanningSpacing(session.current));
+    EXPECT_TRUE(slicesSpanObject(session.current));
 }
 
 TEST(FieldReplacement, AFieldThatIsNotShownIsReplacedAmongTheLoadedOnes) {
@@ -136,7 +136,7 @@ TEST(FieldReplacement, AnotherRegionHasInitialLevelsAfterAFinerLevel) {
 
 TEST(FieldReplacement, AfterTheLastLevelNoneFollows) {
     const slicing::Object field = objectOf(levelOfImage(2, 2, 6)), last = withoutFinerLevels(field);
-    EXPECT_EQ(slicing::fieldIn(last)->imageLevel, (fields::ImageLevel{2, 4, 0}));
+    EXPECT_EQ(slicing::fieldIn(last)->imageLevel, (fields::MultiscaleImageLevel{2, 4, 0}));
     EXPECT_EQ(slicing::fieldIn(last)->array, slicing::fieldIn(field)->array);
     EXPECT_NE(slicing::infoOf(last).serial, slicing::infoOf(field).serial);
 }

@@ -13,14 +13,14 @@
 namespace oval4d::session {
 namespace {
 
-Set objectNamed(const std::string& name) {
-    Set set;
+ChangeSettings objectNamed(const std::string& name) {
+    ChangeSettings set;
     set.object = name;
     return set;
 }
 
-Set formulaNamed(const std::string& name, const std::string& formula) {
-    Set set = objectNamed(name);
+ChangeSettings formulaNamed(const std::string& name, const std::string& formula) {
+    ChangeSettings set = objectNamed(name);
     set.formula = LoadObject{name, std::string(kFormula), formula};
     set.formula->box = fields::Box{glm::dvec4(-1), glm::dvec4(1)};
     return set;
@@ -28,7 +28,7 @@ Set formulaNamed(const std::string& name, const std::string& formula) {
 
 TEST(Formulas, OfASettingAreLoaded) {
     Session session;
-    Set set = formulaNamed("mine", "x^2 + y^2 + z^2 + w^2");
+    ChangeSettings set = formulaNamed("mine", "x^2 + y^2 + z^2 + w^2");
     set.levels = std::vector<double>{0.25};
     must(session, set);
     EXPECT_EQ(infoOf(session.current).name, "mine");
@@ -52,8 +52,8 @@ TEST(Formulas, OfASettingThatIsRefusedAreNotLoaded) {
     Session session;
     expectRefused(session, formulaNamed("mine", "x +"), ErrorCode::bad_expression, "position 4");
     expectRefused(session, formulaNamed("tesseract", "x"), ErrorCode::bad_polytope, "tesseract");
-    Set set = formulaNamed("mine", "x");
-    set.plain.of<double>("zoom") = 1e9;
+    ChangeSettings set = formulaNamed("mine", "x");
+    set.plain.valueOf<double>("zoom") = 1e9;
     expectRefused(session, set, ErrorCode::out_of_range, "zoom");
     EXPECT_TRUE(session.loaded.empty());
     Limits one;
@@ -68,7 +68,7 @@ TEST(Formulas, OfExamplesAreNotLoaded) {
     Session session;
     must(session, objectNamed(exampleFields().front().name));
     const fields::Field& example = *slicing::fieldIn(session.current.object);
-    Set set = formulaNamed(example.name, example.formula);
+    ChangeSettings set = formulaNamed(example.name, example.formula);
     set.formula->box = example.box;
     must(session, set);
     EXPECT_TRUE(session.loaded.empty());

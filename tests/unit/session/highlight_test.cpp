@@ -112,10 +112,10 @@ TEST(HighlightKeys, SkipWhatIsHidden) {
     line(session, "hide heptagonal prism");
     for (const char* second : {"C", "f", "E", "v"}) {
         press(session, "v");
-        expectRefused(session, Key{second}, ErrorCode::out_of_range, "of the 5,7-duoprism is hidden");
+        expectRefused(session, KeyPress{second}, ErrorCode::out_of_range, "of the 5,7-duoprism is hidden");
     }
     press(session, "v");
-    expectRefused(session, Key{"c"}, ErrorCode::out_of_range, "every cell of the 5,7-duoprism is hidden");
+    expectRefused(session, KeyPress{"c"}, ErrorCode::out_of_range, "every cell of the 5,7-duoprism is hidden");
     line(session, "show");
     EXPECT_EQ(visitedBy(session, "vc", ElementKind::cell, 12).size(), 12U);
 }
@@ -168,14 +168,14 @@ TEST(HighlightKeys, WorkForPointsSurfacesAndFields) {
     EXPECT_EQ(indexAfter(session, "vVvVvV", ElementKind::vertex), 3U);
     for (const char* second : {"c", "F", "e"}) {
         press(session, "v");
-        expectRefused(session, Key{second}, ErrorCode::out_of_range, "the points has no ");
+        expectRefused(session, KeyPress{second}, ErrorCode::out_of_range, "the points has no ");
     }
     must(session, LoadObject{"triangle", "off", "4OFF\n3 1 3\n1 0 0 0\n0 1 0 0\n0 0 1 0\n3 0 1 2\n"});
     EXPECT_EQ(indexAfter(session, "vf", ElementKind::face), 0U);
     EXPECT_EQ(visitedBy(session, "ve", ElementKind::edge, 3).size(), 3U);
     EXPECT_EQ(visitedBy(session, "vV", ElementKind::vertex, 3).size(), 3U);
     press(session, "v");
-    expectRefused(session, Key{"c"}, ErrorCode::out_of_range, "the triangle has no cell");
+    expectRefused(session, KeyPress{"c"}, ErrorCode::out_of_range, "the triangle has no cell");
     line(session, "formula x^2+y^2+z^2 < 1+w^2");
     EXPECT_EQ(visitedBy(session, "vc", ElementKind::cell, 8).size(), 8U) << "the cells of the box";
 }

@@ -22,7 +22,7 @@ TEST(History, UndoAndRedoReturnEqualStatesOverRandomKeys) {
             const std::size_t steps = session.undoSteps.size();
             const std::string key(1, keys[std::uniform_int_distribution<std::size_t>(0, keys.size() - 1)(random)]);
             press(session, key);
-            if (session.current.turning) advance(session, 0.01);
+            if (session.current.turning) advanceMotionBy(session, 0.01);
             if (session.undoSteps.size() > steps) {
                 seen.push_back(session.current);
             } else {
@@ -38,7 +38,7 @@ TEST(History, UndoAndRedoReturnEqualStatesOverRandomKeys) {
         EXPECT_EQ(session.current, seen[0]);
         expectRefused(session, Undo{}, ErrorCode::nothing_to_undo, "nothing to undo");
         for (std::size_t i = 1; i < seen.size(); ++i) {
-            must(session, Key{"r", false, true});
+            must(session, KeyPress{"r", false, true});
             EXPECT_EQ(session.current, seen[i]);
         }
         expectRefused(session, Redo{}, ErrorCode::nothing_to_undo, "nothing to redo");
@@ -56,7 +56,7 @@ TEST(History, AWholeTurnIsOneStep) {
     press(session, "r");
     const State before = session.current;
     press(session, " ");
-    for (int i = 0; i < 100; ++i) advance(session, 0.016);
+    for (int i = 0; i < 100; ++i) advanceMotionBy(session, 0.016);
     press(session, " ");
     const State after = session.current;
     EXPECT_FALSE(after.turning);
@@ -73,12 +73,12 @@ TEST(History, ATurnGoesOnAsTheLastRotation) {
     line(session, "rotate xw,yz 0.03 0.05");
     line(stepped, "rotate xw,yz 0.03 0.05");
     press(session, " ");
-    for (int i = 0; i < 60; ++i) advance(session, 1.0 / 60);
+    for (int i = 0; i < 60; ++i) advanceMotionBy(session, 1.0 / 60);
     press(session, " ");
     for (int i = 0; i < static_cast<int>(kRotationRepeatsPerSecond); ++i) press(stepped, ".");
     expectNear(session.current, stepped.current, 1e-12);
     const auto revision = session.revision;
-    advance(session, 1);
+    advanceMotionBy(session, 1);
     EXPECT_EQ(session.revision, revision) << "a session that stands still does not move";
 }
 
@@ -100,19 +100,19 @@ TEST(History, TheCameraIsNoStep) {
 TEST(History, IsLimited) {
     Session session;
     const Limits limits{.maxUndo = 5};
-    for (int i = 0; i < 20; ++i) must(session, Key{"2"}, limits);
+    for (int i = 0; i < 20; ++i) must(session, KeyPress{"2"}, limits);
     EXPECT_EQ(session.undoSteps.size(), 5U);
-    for (int i = 0; i < 5; ++i) must(session, Key{"u"}, limits);
-    expectRefused(session, Key{"u"}, ErrorCode::nothing_to_undo, "nothing to undo", limits);
+    for (int i = 0; i < 5; ++i) must(session, KeyPress{"u"}, limits);
+    expectRefused(session, KeyPress{"u"}, ErrorCode::nothing_to_undo, "nothing to undo", limits);
     Session forgetful;
-    must(forgetful, Key{"2"}, Limits{.maxUndo = 0});
+    must(forgetful, KeyPress{"2"}, Limits{.maxUndo = 0});
     EXPECT_TRUE(forgetful.undoSteps.empty());
 }
 
 TEST(History, NothingToRepeat) {
     Session session;
-    expectRefused(session, Key{"."}, ErrorCode::nothing_to_undo, "no rotation has been made yet");
-    expectRefused(session, Key{" "}, ErrorCode::nothing_to_undo, "no rotation has been made yet");
+    expectRefused(session, KeyPress{"."}, ErrorCode::nothing_to_undo, "no rotation has been made yet");
+    expectRefused(session, KeyPress{" "}, ErrorCode::nothing_to_undo, "no rotation has been made yet");
     expectRefused(session, CommandLine{"set turning=on"}, ErrorCode::nothing_to_undo, "no rotation has been made yet");
 }
 
@@ -125,7 +125,7 @@ TEST(History, ACommandThatChangesNothingLeavesTheRevision) {
         EXPECT_TRUE(session.undoSteps.empty()) << text;
     }
     press(session, "r");
-    Set same;
+    ChangeSettings same;
     same.orientation = session.current.orientation.matrix();
     must(session, same);
     EXPECT_EQ(session.revision, 1U);
@@ -154,8 +154,8 @@ TEST(History, AGestureThatEndsWhereItBeganIsNoStep) {
     Session session;
     press(session, "r");
     const auto drag = [&](double angle, bool continues) {
-        Set set;
-        set.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, angle, {}}).matrix();
+        ChangeSettings set;
+        set.orientation = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, angle, {}}).matrix();
         set.continues = continues;
         must(session, set);
     };
@@ -180,7 +180,7 @@ TEST(History, AGestureMayMakeAnImageAnew) {
     line(session, "set pace=2");
     const State before = session.current;
     line(session, "set pace=3");
-    Set back;
+    ChangeSettings back;
     back.pace = 2;
     back.continues = true;
     must(session, back);
@@ -193,7 +193,7 @@ TEST(History, AMotionMayEndAtARedoStep) {
     Session session;
     press(session, "r .u");
     const State next = session.redoSteps.back();
-    advance(session, 1 / kRotationRepeatsPerSecond);
+    advanceMotionBy(session, 1 / kRotationRepeatsPerSecond);
     EXPECT_EQ(session.current, next);
     expectRefused(session, Redo{}, ErrorCode::nothing_to_undo, "nothing to redo");
     press(session, "u");
@@ -206,7 +206,7 @@ TEST(History, TurningByTheAngleZeroChangesNothing) {
     line(session, "rotate xw,yz 0 0");
     press(session, " ");
     const Session before = session;
-    for (int i = 0; i < 10; ++i) advance(session, 0.1);
+    for (int i = 0; i < 10; ++i) advanceMotionBy(session, 0.1);
     EXPECT_EQ(session, before);
 }
 
@@ -234,9 +234,9 @@ TEST(History, AGestureKeepsTheHistoryWithinTheLimits) {
     const Limits limits{.maxUndoBytes = 1000};
     must(session, CommandLine{"boost x 0.1"}, limits);
     press(session, "r");
-    must(session, Key{"r"}, limits);
+    must(session, KeyPress{"r"}, limits);
     EXPECT_EQ(session.undoSteps.size(), 3U);
-    Set next;
+    ChangeSettings next;
     next.boost = glm::dvec3(0, 0.1, 0);
     next.continues = true;
     must(session, next, limits);
@@ -265,7 +265,7 @@ TEST(History, TheOlderHalfIsForgotten) {
     for (int i = 0; i < 7; ++i) {
         State next = session.current;
         next.slices.focus = i + 1;
-        commit(session, std::move(next), limits);
+        commitUndoStep(session, std::move(next), limits);
     }
     EXPECT_EQ(historyMemoryWithoutObjects(session), 7 * sizeof(State));
     forgetOlderHalf(session);
@@ -280,14 +280,14 @@ TEST(History, TheOlderHalfIsForgotten) {
 TEST(Gestures, AreOneRotation) {
     using geometry::Plane;
     using geometry::Rotation;
-    using geometry::Turn;
+    using geometry::RotationAngles;
     Session session;
-    must(session, Rotate{Turn(Plane::yz, 0.4, 0.1)});
+    must(session, Rotate{RotationAngles(Plane::yz, 0.4, 0.1)});
     const State before = session.current;
-    const auto turn = [&](const Turn& part, bool continues) { must(session, Rotate{part, continues}); };
-    turn(Turn(Plane::xw, 0.1), false);
-    turn(Turn(Plane::yw, -0.2), true);
-    turn(Turn(Plane::xw, 0.3) + Turn(Plane::yw, 0.05), true);
+    const auto turn = [&](const RotationAngles& part, bool continues) { must(session, Rotate{part, continues}); };
+    turn(RotationAngles(Plane::xw, 0.1), false);
+    turn(RotationAngles(Plane::yw, -0.2), true);
+    turn(RotationAngles(Plane::xw, 0.3) + RotationAngles(Plane::yw, 0.05), true);
     const State after = session.current;
     const Rotation whole = after.orientation * before.orientation.inverse();
     EXPECT_LT((Rotation(after.lastTurn.value()) * whole.inverse()).largerAngle(), 1e-9);
@@ -299,23 +299,23 @@ TEST(Gestures, AreOneRotation) {
 
 TEST(Gestures, AddUpInTheirPlaneBeyondHalfATurn) {
     using geometry::Plane;
-    using geometry::Turn;
+    using geometry::RotationAngles;
     Session session;
-    for (int i = 0; i < 5; ++i) must(session, Rotate{Turn(Plane::zw, 1.5), i > 0});
+    for (int i = 0; i < 5; ++i) must(session, Rotate{RotationAngles(Plane::zw, 1.5), i > 0});
     EXPECT_EQ(session.current.lastTurn.value().planes(), std::vector{Plane::zw});
     EXPECT_NEAR(*session.current.lastTurn.value()[Plane::zw], 7.5, 1e-12);
 }
 
 TEST(Gestures, ThatLeadBackAreNoRotation) {
     using geometry::Plane;
-    using geometry::Turn;
+    using geometry::RotationAngles;
     Session session;
-    must(session, Rotate{Turn(Plane::xy, 0.25)});
-    must(session, Rotate{Turn(Plane::xw, 0.5)});
-    must(session, Rotate{Turn(Plane::yw, 0.5), true});
-    must(session, Rotate{Turn(Plane::yw, -0.5), true});
-    must(session, Rotate{Turn(Plane::xw, -0.5), true});
-    EXPECT_EQ(session.current.lastTurn, Turn(Plane::xy, 0.25));
+    must(session, Rotate{RotationAngles(Plane::xy, 0.25)});
+    must(session, Rotate{RotationAngles(Plane::xw, 0.5)});
+    must(session, Rotate{RotationAngles(Plane::yw, 0.5), true});
+    must(session, Rotate{RotationAngles(Plane::yw, -0.5), true});
+    must(session, Rotate{RotationAngles(Plane::xw, -0.5), true});
+    EXPECT_EQ(session.current.lastTurn, RotationAngles(Plane::xy, 0.25));
 }
 
 }  // namespace

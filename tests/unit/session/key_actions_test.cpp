@@ -30,10 +30,10 @@ const std::vector<nlohmann::json>& rows() {
     return table;
 }
 
-std::vector<Key> strokesOf(const nlohmann::json& row) {
+std::vector<KeyPress> strokesOf(const nlohmann::json& row) {
     const std::string keys = row.at("key");
     if (keys.size() != 2) return {{keys, false, row.value("ctrl", false)}};
-    std::vector<Key> strokes;
+    std::vector<KeyPress> strokes;
     for (const char c : keys) strokes.push_back({std::string(1, c), false, row.value("ctrl", false)});
     return strokes;
 }
@@ -53,7 +53,7 @@ TEST(Keys, EveryRowOfTheTableHasAMeaning) {
         Session session = busy();
         const std::uint64_t before = session.revision;
         bool refused = false;
-        for (const Key& key : strokesOf(row)) {
+        for (const KeyPress& key : strokesOf(row)) {
             const auto done = apply(session, key, {});
             refused = refused || !done;
             if (!done) {
@@ -64,7 +64,7 @@ TEST(Keys, EveryRowOfTheTableHasAMeaning) {
         EXPECT_EQ(refused, row.value("client", false));
         EXPECT_EQ(session.revision, before + (refused ? 0 : 1)) << "the key changed nothing";
         if (row.contains("shift")) {
-            Key key = strokesOf(row).front();
+            KeyPress key = strokesOf(row).front();
             key.shift = true;
             EXPECT_TRUE(apply(session, key, {}));
         }
@@ -73,7 +73,7 @@ TEST(Keys, EveryRowOfTheTableHasAMeaning) {
 
 TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
     std::set<std::string_view> names;
-    for (const Action& action : keyActions()) {
+    for (const KeyAction& action : keyActions()) {
         EXPECT_TRUE(names.insert(action.name).second) << action.name;
         EXPECT_NE(action.onState == nullptr, action.onSession == nullptr) << action.name;
     }
@@ -92,7 +92,7 @@ TEST(Keys, EveryActionOfTheTableIsCarriedOutOrTheClients) {
 TEST(Keys, ActionsOfEnumerationsShowEachValueInTurn) {
     ObjectLoader loader({}, support::cache());
     const auto valuesShownBy = [&](const std::string& name, auto valueOf) {
-        const auto action = std::ranges::find(keyActions(), name, &Action::name);
+        const auto action = std::ranges::find(keyActions(), name, &KeyAction::name);
         State state = initialState();
         const LoadedObjects loaded;
         const Limits limits;
@@ -132,7 +132,7 @@ TEST(Keys, TheRowsOfTheTableAgree) {
 }
 
 TEST(Keys, AKeyAndItsInverseRestoreTheState) {
-    using Strokes = std::vector<Key>;
+    using Strokes = std::vector<KeyPress>;
     struct Undoes {
         Strokes key, inverse;
     };
@@ -145,7 +145,7 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
         if (row.value("client", false)) continue;
         const Strokes key = strokesOf(row);
         const std::string action = row.at("action");
-        if (row.contains("shift")) add(key, {Key{key.front().key, true, false}});
+        if (row.contains("shift")) add(key, {KeyPress{key.front().key, true, false}});
         const auto isShown = [&](const auto& part) { return part.name == action; };
         const bool isPart = std::ranges::any_of(scene::kParts, isShown);
         if (isPart || action == "view" || text::valueNamed(scene::kViews, action)) add(key, key);
@@ -155,14 +155,14 @@ TEST(Keys, AKeyAndItsInverseRestoreTheState) {
         }
     }
     EXPECT_GT(couples.size(), rows().size() / 2);
-    add({Key{"l"}}, {Key{"h"}});
-    add({Key{"n"}}, {Key{"N"}});
+    add({KeyPress{"l"}}, {KeyPress{"h"}});
+    add({KeyPress{"n"}}, {KeyPress{"N"}});
     for (const auto& [key, inverse] : couples) {
         SCOPED_TRACE(key.front().key + (key.size() > 1 ? key.back().key : "") +
                      (key.back().shift ? " with shift" : ""));
         Session session = busy();
         const auto pressAll = [&](const Strokes& strokes) {
-            for (const Key& stroke : strokes) must(session, stroke);
+            for (const KeyPress& stroke : strokes) must(session, stroke);
         };
         pressAll(key);             // without a highlight, a key chooses the first element, which has no inverse
         line(session, "focus 0");  // a new polytope has the focus 0
@@ -178,8 +178,8 @@ TEST(Keys, AMillionDoNotDrift) {
     Session session;
     const Limits limits{.maxUndo = 2};
     for (int i = 0; i < 100'000; ++i) {
-        for (const char* key : {"r", "2", "t", "y", "5"}) must(session, Key{key, false, false}, limits);
-        for (const char* key : {"5", "y", "t", "2", "r"}) must(session, Key{key, true, false}, limits);
+        for (const char* key : {"r", "2", "t", "y", "5"}) must(session, KeyPress{key, false, false}, limits);
+        for (const char* key : {"5", "y", "t", "2", "r"}) must(session, KeyPress{key, true, false}, limits);
     }
     expectNear(session.current, Session{}.current, 1e-9);
     const glm::dmat4 m = session.current.orientation.matrix();
@@ -191,41 +191,42 @@ TEST(Keys, AMillionDoNotDrift) {
 
 TEST(Keys, TurnInTheirPlanes) {
     using geometry::Plane;
-    using geometry::Turn;
-    const auto lastAfter = [](const Key& key) {
+    using geometry::RotationAngles;
+    const auto lastAfter = [](const KeyPress& key) {
         Session session;
         line(session, "set alpha=0.25 beta=0.5");
         must(session, key);
         return session.current.lastTurn.value();
     };
-    EXPECT_EQ(lastAfter({"2"}), (Turn{Plane::xy, 0.25, {}}));
-    EXPECT_EQ(lastAfter({"3"}), (Turn{Plane::xz, 0.25, {}}));
-    EXPECT_EQ(lastAfter({"4"}), (Turn{Plane::xw, 0.25, {}}));
-    EXPECT_EQ(lastAfter({"5"}), (Turn{Plane::yz, 0.25, {}}));
-    EXPECT_EQ(lastAfter({"6"}), (Turn{Plane::yw, 0.25, {}}));
-    EXPECT_EQ(lastAfter({"7"}), (Turn{Plane::zw, 0.25, {}}));
-    EXPECT_EQ(lastAfter({"r"}), (Turn{Plane::xw, 0.25, 0.5}));
-    EXPECT_EQ(lastAfter({"t"}), (Turn{Plane::xz, 0.25, 0.5}));
-    EXPECT_EQ(lastAfter({"y"}), (Turn{Plane::xy, 0.25, 0.5}));
-    EXPECT_EQ(lastAfter({"y", true, false}), (Turn{Plane::xy, -0.25, -0.5}));
-    EXPECT_EQ(lastAfter({"Y"}), (Turn{Plane::xy, -0.25, -0.5})) << "an upper-case letter is Shift and the letter";
-    EXPECT_EQ(lastAfter({"Y", true, false}), (Turn{Plane::xy, -0.25, -0.5}));
+    EXPECT_EQ(lastAfter({"2"}), (RotationAngles{Plane::xy, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"3"}), (RotationAngles{Plane::xz, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"4"}), (RotationAngles{Plane::xw, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"5"}), (RotationAngles{Plane::yz, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"6"}), (RotationAngles{Plane::yw, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"7"}), (RotationAngles{Plane::zw, 0.25, {}}));
+    EXPECT_EQ(lastAfter({"r"}), (RotationAngles{Plane::xw, 0.25, 0.5}));
+    EXPECT_EQ(lastAfter({"t"}), (RotationAngles{Plane::xz, 0.25, 0.5}));
+    EXPECT_EQ(lastAfter({"y"}), (RotationAngles{Plane::xy, 0.25, 0.5}));
+    EXPECT_EQ(lastAfter({"y", true, false}), (RotationAngles{Plane::xy, -0.25, -0.5}));
+    EXPECT_EQ(lastAfter({"Y"}), (RotationAngles{Plane::xy, -0.25, -0.5}))
+        << "an upper-case letter is Shift and the letter";
+    EXPECT_EQ(lastAfter({"Y", true, false}), (RotationAngles{Plane::xy, -0.25, -0.5}));
 }
 
 TEST(Keys, ShiftCountsForLettersAndDigitsOnly) {
     Session session;
-    must(session, Key{"}", true, false});
+    must(session, KeyPress{"}", true, false});
     EXPECT_EQ(session.current.slices.count, 23);
-    expectRefused(session, Key{"L", false, false}, ErrorCode::unknown_key, "'L' has no meaning");
-    expectRefused(session, Key{"l", true, false}, ErrorCode::unknown_key, "has no meaning");
-    expectRefused(session, Key{"0", true, false}, ErrorCode::unknown_key, "has no meaning");
+    expectRefused(session, KeyPress{"L", false, false}, ErrorCode::unknown_key, "'L' has no meaning");
+    expectRefused(session, KeyPress{"l", true, false}, ErrorCode::unknown_key, "has no meaning");
+    expectRefused(session, KeyPress{"0", true, false}, ErrorCode::unknown_key, "has no meaning");
 }
 
 TEST(Keys, SpaceHasManyNames) {
     for (const char* name : {" ", "Space", "Spacebar"}) {
         Session session;
         press(session, "2");
-        must(session, Key{name, false, false});
+        must(session, KeyPress{name, false, false});
         EXPECT_TRUE(session.current.turning);
     }
 }
@@ -233,9 +234,9 @@ TEST(Keys, SpaceHasManyNames) {
 TEST(Keys, TwoGsGoToTheFirstSliceThatIsNotEmpty) {
     Session session;
     line(session, "polytope 8-cell");  // w is from −1 to 1, and the spacing is 0.2
-    must(session, Key{"g", false, false});
+    must(session, KeyPress{"g", false, false});
     EXPECT_EQ(session.current.slices.focus, 0);
-    must(session, Key{"g", false, false});
+    must(session, KeyPress{"g", false, false});
     EXPECT_EQ(session.current.slices.focus, -5);
     press(session, "G");
     EXPECT_EQ(session.current.slices.focus, 5) << "the hyperplane w = 1 holds a whole cell";
@@ -250,7 +251,7 @@ TEST(Keys, ARefusedActionEndsItsSequence) {
     Session session;
     must(session, LoadObject{"two points", "cloud", "0 0 0 -0.96\n0 0 0 0.97\n"});
     press(session, "z");
-    expectRefused(session, Key{"c"}, ErrorCode::out_of_range, "the two points has no cell");
+    expectRefused(session, KeyPress{"c"}, ErrorCode::out_of_range, "the two points has no cell");
     press(session, "f");
     EXPECT_FALSE(session.current.look.parts.faces) << "f acts by itself, and not as zf";
 }
@@ -364,13 +365,13 @@ TEST(Keys, WalkTheCatalogueRoundAndRound) {
 
 TEST(Keys, UnknownOnesAreRefused) {
     Session session;
-    expectRefused(session, Key{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
-    expectRefused(session, Key{"y", false, true}, ErrorCode::unknown_key, "'Ctrl-y' has no meaning");
-    expectRefused(session, Key{"ArrowUp", false, false}, ErrorCode::unknown_key, "'ArrowUp'");
-    expectRefused(session, Key{"gg", false, false}, ErrorCode::unknown_key, "'gg'");
-    expectRefused(session, Key{"?", false, false}, ErrorCode::unknown_key, "handled by the client");
+    expectRefused(session, KeyPress{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
+    expectRefused(session, KeyPress{"y", false, true}, ErrorCode::unknown_key, "'Ctrl-y' has no meaning");
+    expectRefused(session, KeyPress{"ArrowUp", false, false}, ErrorCode::unknown_key, "'ArrowUp'");
+    expectRefused(session, KeyPress{"gg", false, false}, ErrorCode::unknown_key, "'gg'");
+    expectRefused(session, KeyPress{"?", false, false}, ErrorCode::unknown_key, "handled by the client");
     press(session, "g");
-    expectRefused(session, Key{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
+    expectRefused(session, KeyPress{"q", false, false}, ErrorCode::unknown_key, "'q' has no meaning");
 }
 
 }  // namespace

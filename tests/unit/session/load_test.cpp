@@ -61,7 +61,7 @@ TEST(Load, RefusesWhatItCannotRead) {
 
 TEST(Load, AcceptsEveryFormatOfFields) {
     ASSERT_FALSE(fields::fieldFormats().empty());
-    for (const fields::FieldFormat& format : fields::fieldFormats()) {
+    for (const fields::FieldFileFormat& format : fields::fieldFormats()) {
         const std::string name(format.name);
         EXPECT_FALSE(checkLoad(LoadObject{"mine", name, "AAAA"}, {})) << name;
         EXPECT_TRUE(isArrayFormat(name)) << name;
@@ -130,7 +130,7 @@ TEST(Load, WarnsOfFaultsOfASurface) {
 
 TEST(Load, WarnsOfABoxOfAFormulaThatIsFarFromZero) {
     LoadObject load{"far", std::string(kFormula), "y - x + w"};
-    load.box = fields::Box{{1e6, -1, 0, -3e7}, {1e6 + 1, 1, 1e-6, -3e7 + 100}};
+    load.box = fields::Box{{1e6, -1, 0, -3e7}, {1e6 + 30, 1, 1e-6, -3e7 + 1000}};
     const auto far = readObject(load, Limits{});
     ASSERT_TRUE(far) << far.error().message;
     ASSERT_EQ(far->warnings.size(), 2U);
@@ -211,9 +211,9 @@ TEST(Load, PolytopesAreBuiltAheadOnlyWhereTheyAreNotBuiltYet) {
     EXPECT_EQ(other.current.object, session.current.object);
 
     ObjectLoader turner(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
-    EXPECT_EQ(ordersOf(session, Key{"y", false, false}, turner, done), 0);
+    EXPECT_EQ(ordersOf(session, KeyPress{"y", false, false}, turner, done), 0);
     ObjectLoader walker(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);
-    EXPECT_LE(ordersOf(session, Key{"N", false, false}, walker, done), 1);
+    EXPECT_LE(ordersOf(session, KeyPress{"N", false, false}, walker, done), 1);
     EXPECT_TRUE(done);
 
     // Elements of this polytope coincide, which is found only when the polytope is built.

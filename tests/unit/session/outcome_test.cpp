@@ -12,9 +12,9 @@ namespace oval4d::session {
 namespace {
 
 // The outcome of a command is computed once, because compiling a formula and sampling its field take milliseconds.
-TEST(Outcome, IsComputedOnlyOnce) {
+TEST(CommandOutcome, IsComputedOnlyOnce) {
     for (const Command& command : {Command(ShowLinkedView{"formula=x*y-z*w"}), Command(CommandLine{"polytope 24-cell"}),
-                                   Command(Key{"n", false, false}), Command(ShowLinkedView{"formula=x*"})}) {
+                                   Command(KeyPress{"n", false, false}), Command(ShowLinkedView{"formula=x*"})}) {
         Session session;
         Session expected = session;
         ObjectLoader loader(Limits{}, support::cache(), ObjectLoader::LoadingMode::deferred, readObject);

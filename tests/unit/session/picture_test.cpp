@@ -11,7 +11,7 @@ TEST(Picture, HasWhatOfTheStateAffectsIt) {
     for (const SettingValue& setting : settingValues()) {
         SCOPED_TRACE(setting.name);
         const State state = sessionWith(setting).current;
-        const scene::PictureRequest picture = pictureOf(state, {640, 360}, slicing::Quality::draft);
+        const scene::PictureRequest picture = pictureRequestOf(state, {640, 360}, slicing::Quality::draft);
         EXPECT_EQ(picture.source, state.source);
         EXPECT_EQ(picture.referenceFrame, state.referenceFrame);
         EXPECT_EQ(picture.object, state.object);

@@ -25,27 +25,27 @@ TEST(Playing, MovesTheFocusToAndFroAtItsSpeed) {
     press(session, "P");
     EXPECT_NEAR(session.current.focusW(), 0.45, 1e-12);
     for (int i = 1; i <= 8; ++i) {
-        advance(session, kStep);
+        advanceMotionBy(session, kStep);
         EXPECT_NEAR(session.current.focusW(), 0.45 + i * kStep / 4, 1e-12);
     }
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_NEAR(session.current.focusW(), 1, 1e-12) << "it does not go beyond the end";
     line(session, "play 2");
     for (int i = 1; i <= 15; ++i) {
-        advance(session, kStep);
+        advanceMotionBy(session, kStep);
         EXPECT_NEAR(session.current.focusW(), 1 - i * kStep / 2, 1e-12);
     }
     press(session, "F");
     EXPECT_EQ(session.current.playSpeed, 4);
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_NEAR(session.current.focusW(), -1, 1e-12);
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_NEAR(session.current.focusW(), -1 + kStep, 1e-12) << "and back";
     press(session, "SSSS");
     EXPECT_EQ(session.current.playSpeed, 0.25);
     press(session, "P");
     const Session stopped = session;
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_EQ(session, stopped);
 }
 
@@ -53,13 +53,13 @@ TEST(Playing, GoesOnInItsDirectionAfterAPause) {
     Session session = tesseract();
     line(session, "set w=1");
     line(session, "play");
-    advance(session, kStep);
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_LT(session.current.focusW(), 1);
     line(session, "pause");
     const double w = session.current.focusW();
     line(session, "play");
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_LT(session.current.focusW(), w);
 }
 
@@ -68,13 +68,13 @@ TEST(Playing, StaysWithinTheObjectWhileThatTurns) {
     press(session, "r P");
     ASSERT_TRUE(session.current.turning && session.current.playing);
     for (int i = 0; i < 200; ++i) {
-        advance(session, kStep);
+        advanceMotionBy(session, kStep);
         const auto [least, most] = slicing::rangeOfW(session.current.object, session.current.orientation);
         EXPECT_GE(session.current.focusW(), least - 1e-12);
         EXPECT_LE(session.current.focusW(), most + 1e-12);
     }
     line(session, "set w=10 playing=on");
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_NEAR(session.current.focusW(), slicing::rangeOfW(session.current.object, session.current.orientation).second,
                 1e-12);
 }
@@ -83,7 +83,7 @@ TEST(Playing, IsOneUndoStep) {
     Session session = tesseract();
     const State before = session.current;
     press(session, "P");
-    for (int i = 0; i < 3; ++i) advance(session, kStep);
+    for (int i = 0; i < 3; ++i) advanceMotionBy(session, kStep);
     press(session, "P");
     const State after = session.current;
     EXPECT_FALSE(after.playing);
@@ -99,7 +99,7 @@ TEST(Playing, EndsWhenSomethingElseMovesTheFocusAndUndoDoesNotBeginItAgain) {
         SCOPED_TRACE(command);
         Session session = tesseract();
         press(session, "P");
-        for (int i = 0; i < 3; ++i) advance(session, kStep);
+        for (int i = 0; i < 3; ++i) advanceMotionBy(session, kStep);
         State reached = session.current;
         line(session, command);
         EXPECT_FALSE(session.current.playing);
@@ -111,7 +111,7 @@ TEST(Playing, EndsWhenSomethingElseMovesTheFocusAndUndoDoesNotBeginItAgain) {
         SCOPED_TRACE(command);
         Session session = tesseract();
         press(session, "P");
-        advance(session, kStep);
+        advanceMotionBy(session, kStep);
         line(session, command);
         EXPECT_TRUE(session.current.playing);
     }
@@ -124,7 +124,7 @@ TEST(Playing, AFormulaThatIsEditedPlaysOn) {
     };
     must(session, formula("x^2+y^2+z^2+w^2 < 1", false));
     line(session, "play");
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     must(session, formula("x^2+y^2+z^2+w^2 < 2", true));
     EXPECT_TRUE(session.current.playing);
     must(session, formula("x^2+y^2+z^2+w^2 < 3", false));
@@ -143,9 +143,9 @@ TEST(Playing, DoesNothingInAFlatObject) {
     Session session;
     must(session, LoadObject{"flat", "cloud", "0 0 0 0\n1 0 0 0\n"});
     line(session, "play");
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     const Session before = session;
-    advance(session, kStep);
+    advanceMotionBy(session, kStep);
     EXPECT_EQ(session, before);
 }
 

@@ -39,7 +39,7 @@ bool isSame(State a, const State& b) {
 
 // --- Commands
 
-Key randomKey(Random& random) {
+KeyPress randomKey(Random& random) {
     static const auto rows =
         nlohmann::json::parse(protocol_data::embeddedFile("keymap.json")).at("keys").get<std::vector<nlohmann::json>>();
     const nlohmann::json& row = oneOf(rows, random);
@@ -122,25 +122,26 @@ constexpr std::array kLines{"polytope 24-cell",
                             "redo",
                             "nonsense"};
 
-Set randomSet(Random& random) {
-    Set set;
+ChangeSettings randomSet(Random& random) {
+    ChangeSettings set;
     set.continues = happens(0.5, random);
     if (happens(0.2, random)) set.object = oneOf(std::array{"5-cell", "16-cell", "a", "b", "run"}, random);
     if (happens(0.3, random)) {
         const double angle = oneOf(std::array{0.0, 0.5, 1.0}, random);
-        set.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, angle, {}}).matrix();
+        set.orientation = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, angle, {}}).matrix();
         if (happens(0.1, random)) (*set.orientation)[0][0] += 1;
     }
     if (happens(0.3, random)) set.turning = happens(0.5, random);
     if (happens(0.2, random)) set.focus = oneOf(std::array{-1, 0, 1, 2'000'000}, random);
-    if (happens(0.2, random)) set.plain.of<double>("azimuth") = oneOf(std::array{0.0, 0.5}, random);
-    if (happens(0.2, random)) set.plain.of<double>("zoom") = oneOf(std::array{1.0, 2.0}, random);
+    if (happens(0.2, random)) set.plain.valueOf<double>("azimuth") = oneOf(std::array{0.0, 0.5}, random);
+    if (happens(0.2, random)) set.plain.valueOf<double>("zoom") = oneOf(std::array{1.0, 2.0}, random);
     if (happens(0.1, random)) set.pace = oneOf(std::array{1.0, 2.0}, random);
     if (happens(0.1, random)) set.hidden = std::vector<std::uint32_t>(happens(0.5, random) ? 1 : 0);
     if (happens(0.1, random)) set.highlight = slicing::Element{slicing::ElementKind::vertex, 1};
     if (happens(0.1, random)) set.highlight = std::optional<slicing::Element>();
     if (happens(0.1, random)) set.levels = std::vector{oneOf(std::array{0.0, 0.5}, random)};
-    if (happens(0.2, random)) set.lastTurn = geometry::Turn{geometry::Plane::xy, happens(0.5, random) ? 0 : 0.1, {}};
+    if (happens(0.2, random))
+        set.lastTurn = geometry::RotationAngles{geometry::Plane::xy, happens(0.5, random) ? 0 : 0.1, {}};
     return set;
 }
 
@@ -194,7 +195,7 @@ Command randomCommand(Random& random) {
         case 2:
             return randomSet(random);
         case 3: {
-            geometry::Turn turn{
+            geometry::RotationAngles turn{
                 oneOf(geometry::kPlanes, random), oneOf(std::array{0.0, 0.1, -0.1, 1.0, 2e6}, random), {}};
             while (happens(0.3, random)) turn[oneOf(geometry::kPlanes, random)] = oneOf(std::array{0.0, 0.1}, random);
             return Rotate{turn, happens(0.5, random)};
@@ -210,12 +211,12 @@ Command randomCommand(Random& random) {
         case 7:
             return Redo{};
         default:
-            return Reset{};
+            return ResetOrientationAndFocus{};
     }
 }
 
 std::string textOf(const Command& command) {
-    if (const auto* key = std::get_if<Key>(&command)) return "key " + key->key + (key->ctrl ? " with Ctrl" : "");
+    if (const auto* key = std::get_if<KeyPress>(&command)) return "key " + key->key + (key->ctrl ? " with Ctrl" : "");
     if (const auto* line = std::get_if<CommandLine>(&command)) return ":" + line->line;
     const std::array names{"key", "rotate", "toward", "random", "set", "load", "undo", "redo", "reset", "line"};
     return names.at(command.index());
@@ -223,7 +224,7 @@ std::string textOf(const Command& command) {
 
 bool continues(const Command& command) {
     if (const auto* rotate = std::get_if<Rotate>(&command)) return rotate->continues;
-    if (const auto* set = std::get_if<Set>(&command)) return set->continues;
+    if (const auto* set = std::get_if<ChangeSettings>(&command)) return set->continues;
     if (const auto* load = std::get_if<LoadObject>(&command)) return load->continues;
     return false;
 }
@@ -235,7 +236,7 @@ bool isAppend(const Command& command) {
 
 // Returns whether a command undoes or redoes steps.
 bool isUndoOrRedo(const Command& command) {
-    if (const auto* key = std::get_if<Key>(&command)) return key->key == "u" || (key->key == "r" && key->ctrl);
+    if (const auto* key = std::get_if<KeyPress>(&command)) return key->key == "u" || (key->key == "r" && key->ctrl);
     if (const auto* line = std::get_if<CommandLine>(&command))
         return std::set<std::string>{"undo", "redo", "key u", "key ctrl-r"}.contains(line->line);
     return std::holds_alternative<Undo>(command) || std::holds_alternative<Redo>(command);
@@ -319,7 +320,7 @@ void execute(Session& session, const Command& command, const Limits& limits) {
 
 void advanceAndCheck(Session& session, double seconds) {
     const Session before = session;
-    advance(session, seconds);
+    advanceMotionBy(session, seconds);
     EXPECT_EQ(session.revision, before.revision + (session.current != before.current ? 1 : 0));
     EXPECT_EQ(session.undoSteps, before.undoSteps);
     EXPECT_EQ(session.redoSteps, before.redoSteps);
@@ -330,7 +331,8 @@ std::vector<Command> commandsToDraw(Random& random) {
     std::vector<Command> commands(happens(0.5, random) ? 6 : 60);
     for (Command& command : commands) command = randomCommand(random);
     for (std::size_t i = 0; i <= commands.size() / 6; ++i) {
-        for (const Key& key : {Key{" "}, Key{" "}, Key{"u"}, Key{"r", false, true}}) commands.emplace_back(key);
+        for (const KeyPress& key : {KeyPress{" "}, KeyPress{" "}, KeyPress{"u"}, KeyPress{"r", false, true}})
+            commands.emplace_back(key);
     }
     return commands;
 }
@@ -360,7 +362,7 @@ TEST(RandomHistory, TheRevisionCountsTheChangesAndUndoLeadsBack) {
                 forgetOlderHalf(session);
             } else {
                 const Command& command = oneOf(commands, random);
-                const auto* key = std::get_if<Key>(&command);
+                const auto* key = std::get_if<KeyPress>(&command);
                 const bool searches = key != nullptr && (key->key == ")" || key->key == "(");
                 // The search takes too long.
                 if (searches && slicing::fieldIn(session.current.object) != nullptr) continue;

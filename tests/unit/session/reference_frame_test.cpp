@@ -206,15 +206,15 @@ TEST(ReferenceFrames, ImagesOfLargeObjectsAreDeferred) {
 TEST(ReferenceFrames, ImagesAreCountedAndLimited) {
     Session session;
     line(session, "polytope 24-cell");
-    EXPECT_EQ(ownObjectMemory(session), 0U) << "all sessions share the catalogue";
+    EXPECT_EQ(unsharedMemoryOfObjects(session), 0U) << "all sessions share the catalogue";
     line(session, "boost x 0.1");
     const std::size_t one = slicing::memoryOf(session.current.object);
-    EXPECT_EQ(ownObjectMemory(session), one);
+    EXPECT_EQ(unsharedMemoryOfObjects(session), one);
     line(session, "boost x 0.2");
-    EXPECT_EQ(ownObjectMemory(session), 2 * one);
+    EXPECT_EQ(unsharedMemoryOfObjects(session), 2 * one);
     const Limits limits{.maxUndoBytes = 5 * one};
     for (int i = 0; i < 20; ++i) must(session, CommandLine{"boost y " + std::to_string(0.01 * (i + 1))}, limits);
-    EXPECT_LE(ownObjectMemory(session), 6 * one);
+    EXPECT_LE(unsharedMemoryOfObjects(session), 6 * one);
     EXPECT_GE(session.undoSteps.size(), 4U);
     EXPECT_LE(session.undoSteps.size(), 6U);
 }

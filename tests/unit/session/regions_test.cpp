@@ -25,8 +25,8 @@ slicing::Object partOfArray(float least = 0, const std::string& variable = "v") 
     std::iota(values.begin(), values.end(), least);
     array.samples = fields::SampleStorage(std::move(values));
     auto field = fields::fieldFromArray("run", array);
-    field->source = std::make_shared<const fields::FileSource>(
-        fields::FileSource{"large.zarr", "", "tzyx", variable, "x*y", "", array.box, {}});
+    field->source = std::make_shared<const fields::FieldFileSource>(
+        fields::FieldFileSource{"large.zarr", "", "tzyx", variable, "x*y", "", array.box, {}});
     return std::make_shared<const fields::Field>(std::move(*field));
 }
 

@@ -76,7 +76,7 @@ inline nlohmann::json exampleOf(const SettingName& name) {
 
 /// Returns a function that returns whether a setting has this value in a state.
 inline std::function<bool(const State&)> isTextIn(const std::string& name, const std::string& value) {
-    Set set;
+    ChangeSettings set;
     const auto done = parseSetting(name, value, set);
     EXPECT_TRUE(done) << name << ": " << done.error().message;
     return [wanted = settingTexts(set)](const State& state) {

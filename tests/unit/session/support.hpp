@@ -60,7 +60,7 @@ inline void must(Session& session, const Command& command, const Limits& limits 
 }
 
 inline void press(Session& session, const std::string& keys) {
-    for (const char key : keys) must(session, Key{std::string(1, key), false, false});
+    for (const char key : keys) must(session, KeyPress{std::string(1, key), false, false});
 }
 
 inline void line(Session& session, const std::string& text) { must(session, CommandLine{text}); }
@@ -72,7 +72,7 @@ inline void expectRefused(Session& session, const Command& command, ErrorCode co
     Session expected = session;
     const auto done = apply(session, command, limits);
     ASSERT_FALSE(done) << "expected: " << says;
-    if (std::holds_alternative<Key>(command) && code != ErrorCode::unknown_key) expected.pendingKey.clear();
+    if (std::holds_alternative<KeyPress>(command) && code != ErrorCode::unknown_key) expected.pendingKey.clear();
     EXPECT_EQ(protocolName(done.error().code), protocolName(code)) << done.error().message;
     EXPECT_NE(done.error().message.find(says), std::string::npos) << done.error().message;
     EXPECT_TRUE(session == expected) << done.error().message;

@@ -100,7 +100,7 @@ TEST(Load, TheHistoryGrowsWithTheField) {
     same.source = before.current.source;
     same.object = before.current.object;
     EXPECT_EQ(same, before.current);
-    EXPECT_LT(ownObjectMemory(session), 2 * ownObjectMemory(before));
+    EXPECT_LT(unsharedMemoryOfObjects(session), 2 * unsharedMemoryOfObjects(before));
     line(session, "set pace=2");
     line(session, "focus 1");
     execute(load);

@@ -21,7 +21,7 @@ double topOf(const State& state) { return slicing::rangeOfW(state.object, state.
 // Lets all motion end, in steps of 1/60 s. Returns its duration in seconds.
 double finish(Session& session) {
     double seconds = 0;
-    for (; session.current.isMoving() && seconds < 10; seconds += 1.0 / 60) advance(session, 1.0 / 60);
+    for (; session.current.isMoving() && seconds < 10; seconds += 1.0 / 60) advanceMotionBy(session, 1.0 / 60);
     return seconds;
 }
 
@@ -38,7 +38,7 @@ TEST(TurnToward, MovesAlongTheShortestWayAtConstantSpeed) {
     EXPECT_NEAR(session.current.ongoingTurnToward->seconds, angle / (std::numbers::pi / 2), 1e-9);
     double before = angle;
     while (session.current.isMoving()) {
-        advance(session, 1.0 / 60);
+        advanceMotionBy(session, 1.0 / 60);
         const double left = (goal * session.current.orientation.inverse()).largerAngle();
         EXPECT_NEAR(before - left, std::min(before, std::numbers::pi / 120), 1e-6);
         before = left;
@@ -46,7 +46,7 @@ TEST(TurnToward, MovesAlongTheShortestWayAtConstantSpeed) {
     EXPECT_EQ(session.current.orientation, goal);
     EXPECT_NEAR(topOf(session.current), 1, 1e-12) << "a cell of the tesseract with edge 2 is at w = 1";
     const std::uint64_t revision = session.revision;
-    advance(session, 1);
+    advanceMotionBy(session, 1);
     EXPECT_EQ(session.revision, revision) << "the motion has ended";
 }
 
@@ -71,7 +71,7 @@ TEST(TurnToward, EndsWhenTheObjectIsTurnedOtherwise) {
         line(session, "polytope tesseract");
         press(session, "r");
         line(session, "toward vertex 2");
-        advance(session, 0.1);
+        advanceMotionBy(session, 0.1);
         ASSERT_TRUE(session.current.ongoingTurnToward);
         line(session, command);
         EXPECT_FALSE(session.current.isMoving()) << command;

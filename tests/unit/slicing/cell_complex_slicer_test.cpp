@@ -56,16 +56,17 @@ TEST(NonConvex, slicesAreClosed) {
     std::mt19937 random(22);
     SliceSet s;
     CellComplexSlicer slicer;
-    const polytopes::Branch star{5, 2};
-    const polytopes::Diagram stellated = polytopes::Diagram::linear(star, {5, 1}, {3, 1}, {true, false, false, false});
+    const polytopes::DiagramBranch star{5, 2};
+    const polytopes::CoxeterDiagram stellated =
+        polytopes::CoxeterDiagram::linear(star, {5, 1}, {3, 1}, {true, false, false, false});
     for (const polytopes::Polytope& p :
-         {product(kDented, pentagram()), wythoff("{5/2,5,3}", stellated, mirrorsOf(stellated))}) {
+         {product(kDented, pentagram()), wythoffConstruction("{5/2,5,3}", stellated, mirrorsOf(stellated))}) {
         for (int trial = 0; trial < 50; ++trial) {
             // In every other trial, vertices lie in hyperplanes.
             geometry::Rotation orientation = randomRotation(random);
             if (trial % 2 == 0)
-                orientation = geometry::Rotation(
-                    geometry::Turn{geometry::kPlanes.at(random() % 6), std::numbers::pi / 2 * int(random() % 4), {}});
+                orientation = geometry::Rotation(geometry::RotationAngles{
+                    geometry::kPlanes.at(random() % 6), std::numbers::pi / 2 * int(random() % 4), {}});
             slicer.slice(p, orientation, {-10, 21, trial % 4 == 0 ? 0.25 : p.circumradius / 9.7}, s);
             expectClosed(s);
             ASSERT_FALSE(HasFatalFailure()) << p.name << " trial " << trial;
@@ -76,7 +77,8 @@ TEST(NonConvex, slicesAreClosed) {
 TEST(NonConvex, sectionNearThePointOfAPentagramIsABox) {
     // The prism over a pentagram prism, cut across one tip of the star.
     const polytopes::Polytope p = product(kSquare, pentagram());
-    const SliceSet s = cutAt(p, geometry::Rotation(geometry::Turn{geometry::Plane::zw, std::numbers::pi / 2, {}}), 0.9);
+    const SliceSet s =
+        cutAt(p, geometry::Rotation(geometry::RotationAngles{geometry::Plane::zw, std::numbers::pi / 2, {}}), 0.9);
     EXPECT_EQ(s.vertexCount(0), 8U);  // a thin box at the tip of the star
     EXPECT_EQ(s.edgeCount(0), 12U);
     EXPECT_EQ(s.faceCount(0), 6U);

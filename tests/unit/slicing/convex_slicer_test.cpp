@@ -116,12 +116,12 @@ TEST_P(ConvexSlices, inHyperplanesThroughVerticesAreThoseOfTheGeneralSlicer) {
         geometry::Rotation orientation;
         switch (trial % 4) {
             case 0:  // vertices in the plane yz stay in the hyperplane w = 0
-                orientation =
-                    geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.1 + 0.37 * trial, 0.2 + 0.11 * trial});
+                orientation = geometry::Rotation(
+                    geometry::RotationAngles{geometry::Plane::xw, 0.1 + 0.37 * trial, 0.2 + 0.11 * trial});
                 break;
             case 1:
-                orientation =
-                    geometry::Rotation(geometry::Turn{geometry::kPlanes.at(random() % 6), 0.3 + 0.2 * trial, {}});
+                orientation = geometry::Rotation(
+                    geometry::RotationAngles{geometry::kPlanes.at(random() % 6), 0.3 + 0.2 * trial, {}});
                 break;
             case 2:
                 orientation = ontoW(p.vertices[random() % p.vertices.size()]);
@@ -171,8 +171,8 @@ TEST(ConvexSlicer, handlesCellsWithSeveralFacesInAHyperplane) {
     CellComplexSlicer slicer;
     SliceSet s;
     for (int trial = 0; trial < 60; ++trial) {
-        const geometry::Rotation orientation =
-            geometry::Rotation(geometry::Turn{geometry::Plane::xw, pi / 4 * (trial % 8), pi / 4 * (trial / 8 % 8)});
+        const geometry::Rotation orientation = geometry::Rotation(
+            geometry::RotationAngles{geometry::Plane::xw, pi / 4 * (trial % 8), pi / 4 * (trial / 8 % 8)});
         slicer.slice(p, orientation, {-4, 9, trial % 2 == 0 ? side / 4 : side / std::numbers::sqrt2 / 4}, s);
         expectAllSound(p, s);
         for (int i = 0; i < s.planes.count; ++i) {

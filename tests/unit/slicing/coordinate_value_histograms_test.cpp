@@ -22,7 +22,7 @@ const fields::Box kCube{glm::dvec4(-1), glm::dvec4(1)};
 CoordinateValueHistograms histogramOf(const fields::Field& field, const geometry::Rotation& orientation = {},
                                       const std::vector<double>& levels = {}) {
     CoordinateValueHistograms histogram;
-    histogram.measure(field, orientation, levels);
+    histogram.compute(field, orientation, levels);
     return histogram;
 }
 
@@ -41,7 +41,7 @@ std::vector<double> valuesAlong(const CoordinateValueHistograms& histogram, int 
 
 /// Returns the value of the field that the middle of a row stands for.
 double valueOf(const CoordinateValueHistograms& histogram, int row) {
-    const auto [least, greatest] = histogram.range();
+    const auto [least, greatest] = histogram.valueRange();
     return greatest - row * (greatest - least) / (kRows - 1);
 }
 
@@ -68,8 +68,8 @@ void expectRidge(const CoordinateValueHistograms& histogram, int axis) {
 TEST(CoordinateValueHistograms, OfACoordinateIsADiagonalAndUniformAlongTheOthers) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.x; }, 1, kCube);
     const CoordinateValueHistograms histogram = histogramOf(field);
-    EXPECT_NEAR(histogram.range().least, -1, 1e-3);
-    EXPECT_NEAR(histogram.range().greatest, 1, 1e-3);
+    EXPECT_NEAR(histogram.valueRange().least, -1, 1e-3);
+    EXPECT_NEAR(histogram.valueRange().greatest, 1, 1e-3);
     EXPECT_EQ(histogram.countedPoints(), CoordinateValueHistograms::kMaxPoints);
     expectRidge(histogram, 0);
     const double mean = double(CoordinateValueHistograms::kPointWeight) *
@@ -84,10 +84,10 @@ TEST(CoordinateValueHistograms, OfACoordinateIsADiagonalAndUniformAlongTheOthers
 
 TEST(CoordinateValueHistograms, TurnsWithTheField) {
     const fields::Field field = testField([](const glm::dvec4& p) { return p.x; }, 1, kCube);
-    const geometry::Rotation quarter(geometry::Turn{geometry::Plane::xw, std::numbers::pi / 2, {}});
+    const geometry::Rotation quarter(geometry::RotationAngles{geometry::Plane::xw, std::numbers::pi / 2, {}});
     expectRidge(histogramOf(field, quarter), 3);
     // An eighth of a turn shows the cube from an edge.
-    const geometry::Rotation eighth(geometry::Turn{geometry::Plane::xy, std::numbers::pi / 4, {}});
+    const geometry::Rotation eighth(geometry::RotationAngles{geometry::Plane::xy, std::numbers::pi / 4, {}});
     const CoordinateValueHistograms turned = histogramOf(field, eighth);
     EXPECT_NEAR(turned.reach()[0], std::numbers::sqrt2, 1e-12);
     EXPECT_NEAR(turned.reach()[2], 1, 1e-12);
@@ -131,8 +131,8 @@ TEST(CoordinateValueHistograms, KeepsItsTotalsUnderRotation) {
     std::mt19937 random(32);
     CoordinateValueHistograms histogram;  // the same object measures all fields, one after another
     for (int trial = 0; trial < 5; ++trial) {
-        histogram.measure(field, support::randomRotation(random), {});
-        EXPECT_EQ(histogram.range(), straight.range());
+        histogram.compute(field, support::randomRotation(random), {});
+        EXPECT_EQ(histogram.valueRange(), straight.valueRange());
         for (int axis = 0; axis < 4; ++axis) EXPECT_EQ(valuesAlong(histogram, axis), values);
     }
 }
@@ -159,16 +159,16 @@ TEST(CoordinateValueHistograms, ShowsTheDomainInAFrameOfReference) {
 TEST(CoordinateValueHistograms, LeavesOutWhatIsNearAPoleUnlessALevelIsThere) {
     const fields::Field field = testField([](const glm::dvec4& p) { return 1 / p.x; }, NAN, kCube);
     const CoordinateValueHistograms usual = histogramOf(field);
-    EXPECT_LT(usual.range().greatest, 150);
+    EXPECT_LT(usual.valueRange().greatest, 150);
     EXPECT_LT(usual.countedPoints(), CoordinateValueHistograms::kMaxPoints);
     EXPECT_GT(usual.countedPoints(), 0.95 * CoordinateValueHistograms::kMaxPoints);
-    EXPECT_EQ(histogramOf(field, {}, {1000}).range().greatest, 1000);
-    EXPECT_EQ(histogramOf(field, {}, {1e30}).range(), usual.range()) << "no value is so large";
+    EXPECT_EQ(histogramOf(field, {}, {1000}).valueRange().greatest, 1000);
+    EXPECT_EQ(histogramOf(field, {}, {1e30}).valueRange(), usual.valueRange()) << "no value is so large";
 }
 
 TEST(CoordinateValueHistograms, ShowsConstantsAndNothing) {
     const CoordinateValueHistograms constant = histogramOf(testField([](const glm::dvec4&) { return 5; }, 0, kCube));
-    EXPECT_LT(constant.range().least, 5);
+    EXPECT_LT(constant.valueRange().least, 5);
     EXPECT_EQ(valuesAlong(constant, 2)[kRows / 2], double(CoordinateValueHistograms::kPointWeight) *
                                                        static_cast<double>(CoordinateValueHistograms::kMaxPoints));
     const CoordinateValueHistograms nothing =

@@ -110,9 +110,10 @@ TEST(Elements, ThroughTheOriginTurnTheShortestWay) {
         geometry::makePointCloud("points", {{0, 0, 0, 0}, {1, 0, 0, 0}}, {0, 0}));
     std::mt19937 random(12);
     const auto from = support::randomRotation(random);
-    const glm::dvec4 direction = directionOf(object, {ElementKind::vertex, 0}, from.inverse()(kW));
+    const glm::dvec4 direction = elementDirectionOf(object, {ElementKind::vertex, 0}, from.inverse()(kW));
     EXPECT_LT(glm::distance(glm::normalize(direction), from.inverse()(kW)), 1e-12);
-    EXPECT_LT(glm::distance(glm::normalize(directionOf(object, {ElementKind::vertex, 1}, kW)), {1, 0, 0, 0}), 1e-12);
+    EXPECT_LT(glm::distance(glm::normalize(elementDirectionOf(object, {ElementKind::vertex, 1}, kW)), {1, 0, 0, 0}),
+              1e-12);
     EXPECT_EQ(elementCount(object, ElementKind::cell), 0U);
     EXPECT_FALSE(elementToTurnTo(object, ElementKind::cell, from));
 }
@@ -125,7 +126,9 @@ TEST(Elements, ClosestToWIsChosenAndThenTheNext) {
         const auto from = support::randomRotation(random);
         const auto closest = elementToTurnTo(object, kind, from);
         ASSERT_TRUE(closest);
-        const auto cosineOf = [&](std::size_t i) { return glm::normalize(from(directionOf(object, {kind, i}, kW))).w; };
+        const auto cosineOf = [&](std::size_t i) {
+            return glm::normalize(from(elementDirectionOf(object, {kind, i}, kW))).w;
+        };
         for (std::size_t i = 0; i < elementCount(object, kind); ++i)
             EXPECT_LE(cosineOf(i), cosineOf(closest->index) + 1e-9) << kindName;
         std::set<std::size_t> visited;
@@ -243,7 +246,7 @@ TEST(ElementMeasurements, AreThoseOfRegularPolygonsAndPolyhedra) {
                 EXPECT_NEAR(sizeIn(measured, kind), size, 1e-9 * size) << name << ", " << kindName;
                 // The center of an element of a regular polytope is the point of the element's span that is closest to
                 // the origin.
-                EXPECT_LT(glm::distance(measured.center, directionOf(object, element, kW)), 1e-9) << name;
+                EXPECT_LT(glm::distance(measured.center, elementDirectionOf(object, element, kW)), 1e-9) << name;
             }
         }
     }

@@ -123,7 +123,8 @@ TEST(FieldSlicer, SurfacesOfRandomFieldsAreClosed) {
         if (trial % 4 == 3) text += " + 0.1*sqrt(x^2 + y^2 + z^2 + w^2 - 0.5)";
         const auto field = fields::fieldFromFormula("waves", text, {glm::dvec4(-1), glm::dvec4(1, 1, 1, 1.5)});
         ASSERT_TRUE(field) << field.error().message;
-        FieldSettings settings{{-0.5, normal(random)}, trial % 2 == 0 ? fields::Inside::below : fields::Inside::above};
+        FieldSettings settings{{-0.5, normal(random)},
+                               trial % 2 == 0 ? fields::BodySide::below : fields::BodySide::above};
         const SliceSet slices = slicesOf(*field, support::randomRotation(random), settings, 24, {-1, 3, 0.5, 0.05});
         for (const SliceSurface& surface : slices.surfaces) {
             triangles += surface.triangles.size();
@@ -184,9 +185,9 @@ TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
         for (int trial = 0; trial < 4; ++trial) {
             // These rotations do not change w, so the slice at w = 0 contains the whole rim.
             const geometry::Rotation orientation =
-                geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.3 + trial, {}}) *
-                geometry::Rotation(geometry::Turn{geometry::Plane::xz, 0.8 * trial, {}}) *
-                geometry::Rotation(geometry::Turn{geometry::Plane::yz, 0.1 + 0.6 * trial, {}});
+                geometry::Rotation(geometry::RotationAngles{geometry::Plane::xy, 0.3 + trial, {}}) *
+                geometry::Rotation(geometry::RotationAngles{geometry::Plane::xz, 0.8 * trial, {}}) *
+                geometry::Rotation(geometry::RotationAngles{geometry::Plane::yz, 0.1 + 0.6 * trial, {}});
             const SliceSet slices = slicesOf(field, orientation, {}, 64, {0, 1, 1, 0});
             const SliceSurface& surface = slices.surfaces.front();
             EXPECT_EQ(measure(surface, 0).unpaired, 0U);
@@ -213,9 +214,9 @@ TEST(FieldSlicer, RimsAreSmoothWhereASurfaceMeetsTheBoxAtASmallAngle) {
 TEST(FieldSlicer, LevelsAreIndependentOfEachOther) {
     const auto ball = fields::fieldFromFormula("ball", "x^2 + y^2 + z^2 + w^2", {glm::dvec4(-1), glm::dvec4(1)});
     ASSERT_TRUE(ball);
-    const SliceSet both = slicesOf(*ball, {}, {{0.25, 0.81}, fields::Inside::below}, 64, {0, 1, 1});
-    const SliceSet inner = slicesOf(*ball, {}, {{0.25}, fields::Inside::below}, 64, {0, 1, 1});
-    const SliceSet outside = slicesOf(*ball, {}, {{0.25}, fields::Inside::above}, 64, {0, 1, 1});
+    const SliceSet both = slicesOf(*ball, {}, {{0.25, 0.81}, fields::BodySide::below}, 64, {0, 1, 1});
+    const SliceSet inner = slicesOf(*ball, {}, {{0.25}, fields::BodySide::below}, 64, {0, 1, 1});
+    const SliceSet outside = slicesOf(*ball, {}, {{0.25}, fields::BodySide::above}, 64, {0, 1, 1});
     const double volume = 4.0 / 3 * std::numbers::pi * 0.125;
     EXPECT_NEAR(measure(both.surfaces[0], 0).volume / volume, 1, 0.01);
     EXPECT_EQ(measure(both.surfaces[0], 0).volume, measure(inner.surfaces[0], 0).volume);
@@ -256,7 +257,7 @@ TEST(FieldSlicer, AnArrayOfAFormulasValuesHasItsSurfaces) {
         const auto formula = fields::fieldFromFormula("flow", flow.speed, {{-1, -1, -1, 0}, {1, 1, 1, 0.6}});
         ASSERT_TRUE(formula) << formula.error().message;
         const fields::Field array = sampledField(*formula, 33);
-        const FieldSettings settings{{flow.level}, fields::Inside::above};
+        const FieldSettings settings{{flow.level}, fields::BodySide::above};
         // The errors are of second order in the distances h of the samples, and in those of the lattice points of the
         // slice. The error of linear interpolation is at most h²/8 times the sum of the second derivatives. A point of
         // the surface is the mean of the places where the surface crosses the edges of a cube. The sum reaches 160
@@ -295,7 +296,7 @@ TEST(FieldSlicer, HeatIsWarmerThanALevelInABallOfKnownRadius) {
                                                {{-1.5, -1.5, -1.5, kBegin}, {1.5, 1.5, 1.5, kEnd}});
     ASSERT_TRUE(heat) << heat.error().message;
     const geometry::Hyperplanes planes{-1, 3, 0.1, 0};
-    const SliceSet slices = slicesOf(*heat, {}, {{kLevel}, fields::Inside::above}, 64, planes);
+    const SliceSet slices = slicesOf(*heat, {}, {{kLevel}, fields::BodySide::above}, 64, planes);
     for (int i = 0; i < planes.count; ++i) {
         const double w = (kBegin + kEnd) / 2 + planes.w(i);
         const double radius = std::sqrt(-4 * w * std::log(kLevel * std::pow(w, 1.5)));
@@ -316,7 +317,7 @@ TEST(FieldSlicer, SecondValuesAreThoseOfTheFieldsOwnPoints) {
          {geometry::ReferenceFrame{}, geometry::ReferenceFrame{2, glm::dvec3(0.3, 0, 0), glm::dvec3(0, 0.4, 0)}}) {
         const fields::Field image = transformedTo(*field, frame, 1);
         const geometry::Rotation orientation = support::randomRotation(random);
-        const SliceSet slices = slicesOf(image, orientation, {{0.8, 1.5}, fields::Inside::below}, 40);
+        const SliceSet slices = slicesOf(image, orientation, {{0.8, 1.5}, fields::BodySide::below}, 40);
         std::size_t points = 0;
         for (int i = 0; i < kPlanes.count; ++i) {
             const SliceSurface& surface = slices.surfaces[static_cast<std::size_t>(i)];
@@ -338,7 +339,7 @@ TEST(FieldSlicer, EvaluatesTheSecondFunctionOnlyIfItsValuesAreNeeded) {
     SurfaceDetail detail = detailOf(*field, kPlanes, 40);
     detail.secondValues = false;
     SliceSet slices;
-    FieldSlicer().slice(*field, {}, kPlanes, {{0.5}, fields::Inside::below}, detail, slices);
+    FieldSlicer().slice(*field, {}, kPlanes, {{0.5}, fields::BodySide::below}, detail, slices);
     EXPECT_FALSE(slices.surfaces[10].points.empty());
     EXPECT_TRUE(slices.surfaces[10].secondValues.empty());
 }

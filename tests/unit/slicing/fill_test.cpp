@@ -22,11 +22,11 @@ using namespace oval4d;
 using namespace oval4d::support;
 using namespace oval4d::slicing;
 
-constexpr polytopes::Branch k3{3, 1}, k4{4, 1}, k5{5, 1}, kStar{5, 2};
+constexpr polytopes::DiagramBranch k3{3, 1}, k4{4, 1}, k5{5, 1}, kStar{5, 2};
 
-polytopes::Polytope regular(polytopes::Branch p, polytopes::Branch q, polytopes::Branch r) {
-    const polytopes::Diagram diagram = polytopes::Diagram::linear(p, q, r, {true, false, false, false});
-    return wythoff("regular", diagram, mirrorsOf(diagram));
+polytopes::Polytope regular(polytopes::DiagramBranch p, polytopes::DiagramBranch q, polytopes::DiagramBranch r) {
+    const polytopes::CoxeterDiagram diagram = polytopes::CoxeterDiagram::linear(p, q, r, {true, false, false, false});
+    return wythoffConstruction("regular", diagram, mirrorsOf(diagram));
 }
 
 std::vector<polytopes::Polytope> starPolychora() {
@@ -333,8 +333,8 @@ TEST(Convexity, HoldsForConvexUniformPolychoraAndNoStar) {
                                                   {false, true, false, false},
                                                   {true, false, true, false},
                                                   all}) {
-            const polytopes::Diagram diagram = polytopes::Diagram::linear(p, q, r, ringed);
-            EXPECT_TRUE(polytopes::wythoff("convex", diagram, polytopes::mirrorsOf(diagram)).convex);
+            const polytopes::CoxeterDiagram diagram = polytopes::CoxeterDiagram::linear(p, q, r, ringed);
+            EXPECT_TRUE(polytopes::wythoffConstruction("convex", diagram, polytopes::mirrorsOf(diagram)).convex);
         }
     }
     for (const polytopes::Polytope& star : starPolychora()) EXPECT_FALSE(star.convex);
@@ -345,7 +345,7 @@ TEST(Convexity, DoesNotHoldForACompound) {
     std::vector<glm::dvec4> vertices = one.vertices;
     geometry::JaggedArray faces = one.faces, cells = one.cells;
     const auto shift = static_cast<std::uint32_t>(one.vertices.size());
-    const geometry::Rotation turn(geometry::Turn{geometry::Plane::xy, 0.4, {}});
+    const geometry::Rotation turn(geometry::RotationAngles{geometry::Plane::xy, 0.4, {}});
     for (const glm::dvec4& v : one.vertices) vertices.push_back(turn(v));
     for (std::size_t f = 0; f < one.faces.size(); ++f) {
         std::vector<std::uint32_t> loop;

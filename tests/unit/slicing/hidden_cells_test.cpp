@@ -67,7 +67,7 @@ TEST(HiddenCells, LeaveOnlyCellsTurnedAwayOutIfStepsAreTooFew) {
                                   .culled = true,
                                   .hiddenTypes = hiddenTypes,
                                   .occlusionSteps = 10});
-    EXPECT_TRUE(projector.lacksSteps());
+    EXPECT_TRUE(projector.exceededOcclusionSteps());
     EXPECT_EQ(seen.edges.size(), 12U);
 }
 

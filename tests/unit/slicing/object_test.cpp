@@ -113,7 +113,7 @@ SliceContent contentOfSlices(const Object& object, double middle) {
     if (const fields::Field* field = fieldIn(object)) detail = detailOf(*field, planes, 16);
     Slicer().slice(object, {}, planes, {}, detail, slices);
     if (!slices.surfaces.empty()) return SliceContent::level_surfaces;
-    const SliceCounts size = slices.totalCounts();
+    const SliceElementCounts size = slices.totalCounts();
     EXPECT_GT(size.vertices, 0U);
     return size.faces > 0 ? SliceContent::solids : size.edges > 0 ? SliceContent::curves : SliceContent::points;
 }
@@ -360,7 +360,7 @@ TEST(ObjectBytes, FieldsKeepTheirUnits) {
         EXPECT_EQ(back.units, field.units);
         EXPECT_EQ(back.quantity, field.quantity);
         EXPECT_EQ(back.second->quantity, field.second->quantity);
-        EXPECT_EQ(back.imageLevel, (fields::ImageLevel{2, 3, 1}));
+        EXPECT_EQ(back.imageLevel, (fields::MultiscaleImageLevel{2, 3, 1}));
     }
     for (const std::string unit : {"km", "hours since 2020-01-01", "temperature", "Pa"}) {
         std::string damaged = parts;

@@ -140,17 +140,17 @@ TEST(Occlusion, LeavesOutOnlyCellsTurnedAwayIfStepsAreTooFew) {
     for (const std::size_t steps : {0U, 10U, 500U}) {
         const Drawn seen =
             drawnWith(projector, p, {}, {.projection = {0.0}, .cells = true, .culled = true, .occlusionSteps = steps});
-        EXPECT_TRUE(projector.lacksSteps()) << steps;
+        EXPECT_TRUE(projector.exceededOcclusionSteps()) << steps;
         EXPECT_EQ(seen.vertices.size(), 16U) << steps;
         EXPECT_EQ(seen.edges.size(), 24U) << steps;
         EXPECT_EQ(seen.faces.size(), 12U) << steps;
     }
     drawnWith(projector, p, {}, {.projection = {0.0}, .cells = true, .occlusionSteps = 0});
-    EXPECT_FALSE(projector.lacksSteps()) << "nothing is to be left out";
+    EXPECT_FALSE(projector.exceededOcclusionSteps()) << "nothing is to be left out";
     drawnWith(projector, p, {}, {.projection = {0.0}, .cells = true, .culled = true});
-    EXPECT_FALSE(projector.lacksSteps());
+    EXPECT_FALSE(projector.exceededOcclusionSteps());
     drawnWith(projector, named("tesseract"), {}, {.projection = {0.0}, .culled = true, .occlusionSteps = 0});
-    EXPECT_FALSE(projector.lacksSteps()) << "a convex polytope needs no steps";
+    EXPECT_FALSE(projector.exceededOcclusionSteps()) << "a convex polytope needs no steps";
 }
 
 TEST(Occlusion, IsNotSoughtForConvexPolytopes) {

@@ -119,7 +119,7 @@ TEST(SectionNamePair, ofTheRegularPolytopesThroughTheirVertices) {
         for (const double w : levels) {
             const SliceSet cut = cutAt(p, orientation, w);
             slices.emplace_back(namer.nameOfSlice(cut, 0));
-            vertices.emplace_back(namer.nameOfObjectVertices(cut, 0, p.edges.size()));
+            vertices.emplace_back(namer.nameOfHullOfObjectVertices(cut, 0, p.edges.size()));
         }
         const auto complete = [&](Names names) {
             for (std::size_t i = names.size(); i < levels.size(); ++i) names.push_back(names[levels.size() - 1 - i]);
@@ -179,7 +179,7 @@ TEST(SectionNamePair, inTheHyperplaneOfACellAreTheNamesOfTheCells) {
             const double w = offsets[cell] / glm::length(normals[cell]);
             const SliceSet cut = cutAt(p, ontoW(normals[cell]), w);
             EXPECT_EQ(nameOfSlice(cut), p.cellTypes[type].name);
-            EXPECT_EQ(SectionNamer().nameOfObjectVertices(cut, 0, p.edges.size()), p.cellTypes[type].name);
+            EXPECT_EQ(SectionNamer().nameOfHullOfObjectVertices(cut, 0, p.edges.size()), p.cellTypes[type].name);
             ++seen[p.cellTypes[type].name];
         }
     }
@@ -271,7 +271,7 @@ TEST(SectionNamePair, areThoseOfRightPolyhedraOverRegularPolygonsOnly) {
             {"pentagonal antiprism", sliceWith(antiprism, joined(base, lateral))}};
         for (const auto& [name, slice] : shapes) {
             EXPECT_EQ(nameOfSlice(slice), name);
-            EXPECT_EQ(SectionNamer().nameOfObjectVertices(slice, 0, 0), name);
+            EXPECT_EQ(SectionNamer().nameOfHullOfObjectVertices(slice, 0, 0), name);
             SliceSet oblique = slice, stretched = slice;
             for (glm::dvec3& v : oblique.vertices) v.x += 0.1 * v.z;
             for (glm::dvec3& v : stretched.vertices) v.x *= 1.1;
@@ -297,7 +297,7 @@ TEST(SectionNamePair, dependNeitherOnTheOrientationNorOnTheSize) {
             const double scale = std::exp(5 * normal(random));
             for (glm::dvec3& v : cut.vertices) v = v * scale + glm::dvec3(scale, 0, -scale);
             EXPECT_EQ(namer.nameOfSlice(cut, 0), sections.slices[i]);
-            EXPECT_EQ(namer.nameOfObjectVertices(cut, 0, p.edges.size()), sections.vertices[i]);
+            EXPECT_EQ(namer.nameOfHullOfObjectVertices(cut, 0, p.edges.size()), sections.vertices[i]);
         }
     }
 }
@@ -321,7 +321,7 @@ TEST(SectionNamePair, areNotThoseOfStretchedSolids) {
     for (const auto& [stretch, name] : {std::pair{1 + 1e-8, "icosahedron"}, {1 + 1e-4, ""}, {1.01, ""}, {2.0, ""}}) {
         for (std::size_t i = 0; i < vertices.size(); ++i) cut.vertices[i] = vertices[i] * glm::dvec3(1, stretch, 1);
         EXPECT_EQ(nameOfSlice(cut), name) << stretch;
-        EXPECT_EQ(SectionNamer().nameOfObjectVertices(cut, 0, 0), name) << stretch;
+        EXPECT_EQ(SectionNamer().nameOfHullOfObjectVertices(cut, 0, 0), name) << stretch;
     }
 }
 
@@ -385,7 +385,7 @@ TEST(SectionNamePair, areNotThoseOfSolidsWithTurnedCaps) {
             ASSERT_EQ(slice.edges.size(), sliceOf(solid).edges.size());
             const std::string name = halves == 1 ? "" : row.solid;
             EXPECT_EQ(nameOfSlice(slice), name);
-            EXPECT_EQ(SectionNamer().nameOfObjectVertices(slice, 0, 0), name);
+            EXPECT_EQ(SectionNamer().nameOfHullOfObjectVertices(slice, 0, 0), name);
         }
     }
 }
@@ -404,7 +404,7 @@ TEST(SectionNamePair, areThoseOfRegularStars) {
         }
         // The convex hull has a name: its vertices are those of an icosahedron or a dodecahedron.
         const SliceSet base = cutAt(p, geometry::Rotation(), 1);
-        EXPECT_EQ(SectionNamer().nameOfObjectVertices(base, 0, p.edges.size()),
+        EXPECT_EQ(SectionNamer().nameOfHullOfObjectVertices(base, 0, p.edges.size()),
                   base.vertexCount(0) == 12 ? "icosahedron" : "dodecahedron");
     }
     EXPECT_EQ(stars, 4U);

@@ -44,8 +44,8 @@ TEST_P(Slices, throughVerticesEdgesFacesAndCellsAreSound) {
         for (int k = 0; k < 3; ++k) {
             const double step = pi / (i % 2 == 0 ? 2 : 4);
             const geometry::Plane plane = geometry::kPlanes.at(random() % 6);
-            geometry::Turn turn(plane, step * int(random() % 8));
-            if (random() % 2 == 0) turn[perpendicular(plane)] = step * int(random() % 8);
+            geometry::RotationAngles turn(plane, step * int(random() % 8));
+            if (random() % 2 == 0) turn[orthogonalComplement(plane)] = step * int(random() % 8);
             orientation = geometry::Rotation(turn) * orientation;
         }
         const double spacing = i % 3 == 0 ? 0.25 : i % 3 == 1 ? std::numbers::sqrt2 / 4 : p.circumradius / 8;
@@ -162,7 +162,8 @@ TEST(Sections, ofThe600CellVertexFirstHaveTheKnownLayers) {
 TEST(Sections, ofThePapersPanelsAreExact) {
     const polytopes::Polytope& p = named("5-cell");
     geometry::Rotation quarter;
-    for (int i = 0; i < 3; ++i) quarter = geometry::Rotation(geometry::Turn{geometry::Plane::yw, pi / 6, {}}) * quarter;
+    for (int i = 0; i < 3; ++i)
+        quarter = geometry::Rotation(geometry::RotationAngles{geometry::Plane::yw, pi / 6, {}}) * quarter;
     const SliceSet third = cutAt(p, quarter, 0);
     EXPECT_EQ(
         std::count_if(third.vertexSource.begin(), third.vertexSource.end(), [](auto source) { return source >= 10; }),
@@ -171,7 +172,8 @@ TEST(Sections, ofThePapersPanelsAreExact) {
 
     geometry::Rotation four;
     for (int i = 0; i < 4; ++i)
-        four = geometry::Rotation(geometry::Turn{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}) * four;
+        four = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, pi / 8, pi / std::sqrt(3) - pi / 8}) *
+               four;
     const SliceSet sixth = cutAt(p, four, 0);
     EXPECT_EQ(sliceCounts(sixth), (ElementsOfSlice{4, 6, 4}));
     EXPECT_EQ(
@@ -197,8 +199,8 @@ TEST(Symmetry, ofThePolytopePreservesTheSlices) {
             const glm::dquat left = quaternion();
             const geometry::Rotation symmetry =
                 group ? geometry::Rotation(left, quaternion())
-                      : geometry::Rotation(
-                            geometry::Turn{geometry::kPlanes.at(random() % 6), pi / 2, pi / 2 * int(random() % 4)});
+                      : geometry::Rotation(geometry::RotationAngles{geometry::kPlanes.at(random() % 6), pi / 2,
+                                                                    pi / 2 * int(random() % 4)});
             const geometry::Rotation orientation = randomRotation(random);
             SliceSet a;
             SliceSet b;

@@ -21,9 +21,9 @@ inline slicing::Object objectOf(const polytopes::Polytope& polytope) {
 
 /// Returns the rectified 5-cell. Its cells of type 0 are octahedra, and those of type 1 are tetrahedra.
 inline polytopes::Polytope rectifiedFiveCell() {
-    const polytopes::Branch three{3, 1};
-    const auto diagram = polytopes::Diagram::linear(three, three, three, {false, true, false, false});
-    auto polytope = polytopes::wythoff("rectified 5-cell", diagram, polytopes::mirrorsOf(diagram));
+    const polytopes::DiagramBranch three{3, 1};
+    const auto diagram = polytopes::CoxeterDiagram::linear(three, three, three, {false, true, false, false});
+    auto polytope = polytopes::wythoffConstruction("rectified 5-cell", diagram, polytopes::mirrorsOf(diagram));
     polytope.cellTypes = {{"octahedron"}, {"tetrahedron"}};
     for (std::size_t c = 0; c < polytope.cells.size(); ++c)
         polytope.typeOfCell[c] = polytope.cells[c].size() == 8 ? 0 : 1;

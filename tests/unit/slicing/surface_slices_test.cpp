@@ -142,7 +142,7 @@ TEST(SurfaceSlices, TurnWithTheSurface) {
     const SurfacePtr bottle = kleinBottle(14, 10);
     const Hyperplanes planes{-4, 9, 0.431};
     for (const Plane plane : {Plane::xy, Plane::xz, Plane::yz}) {
-        const Rotation first = support::randomRotation(random), turn(geometry::Turn{plane, 0.7, {}});
+        const Rotation first = support::randomRotation(random), turn(geometry::RotationAngles{plane, 0.7, {}});
         const SliceSet before = cut(bottle, first, planes), after = cut(bottle, turn * first, planes);
         ASSERT_EQ(after.edges, before.edges);
         EXPECT_EQ(after.vertexSource, before.vertexSource);
@@ -158,8 +158,8 @@ TEST(SurfaceSlices, HaveTheSymmetriesOfTheTorus) {
     const SurfacePtr torus = cliffordTorus(10, 14);
     const Hyperplanes planes{-4, 9, 0.231};
     const double pi = std::numbers::pi;
-    for (const Rotation& symmetry :
-         {Rotation(geometry::Turn{Plane::xy, 2 * pi / 10, {}}), Rotation(geometry::Turn{Plane::zw, 2 * pi / 14, {}})}) {
+    for (const Rotation& symmetry : {Rotation(geometry::RotationAngles{Plane::xy, 2 * pi / 10, {}}),
+                                     Rotation(geometry::RotationAngles{Plane::zw, 2 * pi / 14, {}})}) {
         const Rotation turn = support::randomRotation(random);
         const SliceSet one = cut(torus, turn, planes), other = cut(torus, turn * symmetry, planes);
         for (int i = 0; i < planes.count; ++i) {
@@ -194,7 +194,7 @@ TEST(SurfaceSlices, HaveTheLengthsOfTheCoareaFormula) {
 TEST(SurfaceSlices, ShowTheEdgesOfFacesInTheHyperplane) {
     // If both polygons have four sides, the torus in this orientation consists of 16 squares of a tesseract.
     const double eighth = std::numbers::pi / 4;
-    const Rotation turn(geometry::Turn{Plane::xy, eighth, eighth});
+    const Rotation turn(geometry::RotationAngles{Plane::xy, eighth, eighth});
     const SliceSet slices = cut(cliffordTorus(4, 4), turn, {-1, 3, 0.5});
     EXPECT_EQ(slices.vertexCount(1), 8U);
     EXPECT_EQ(slices.edgeCount(1), 8U) << "two squares";

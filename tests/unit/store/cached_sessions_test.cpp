@@ -14,31 +14,31 @@ namespace {
 /// overwrite the newest state in the store.
 TEST(CachedSessions, AnIdLeftInTheQueueDoesNotQueueTheSessionWhenItIsAddedAgain) {
     CachedSessions sessions;
-    sessions.add({"id", "secret"});
+    sessions.addNew({"id", "secret"});
     sessions.enqueue("id", *sessions.find("id"));
     EXPECT_TRUE(sessions.remove("id"));
     sessions.addStored({"id", "secret"}, 2);
-    EXPECT_FALSE(sessions.takeQueued());
+    EXPECT_FALSE(sessions.takeFirstQueued());
     sessions.enqueue("id", *sessions.find("id"));
-    EXPECT_EQ(sessions.takeQueued(), "id");
-    EXPECT_FALSE(sessions.takeQueued());
+    EXPECT_EQ(sessions.takeFirstQueued(), "id");
+    EXPECT_FALSE(sessions.takeFirstQueued());
 }
 
 TEST(CachedSessions, ASessionWithAnIdLeftInTheQueueIsTakenOnce) {
     CachedSessions sessions;
-    sessions.add({"id", "secret"});
+    sessions.addNew({"id", "secret"});
     sessions.enqueue("id", *sessions.find("id"));
     EXPECT_TRUE(sessions.remove("id"));
     sessions.addStored({"id", "secret"}, 2);
     sessions.enqueue("id", *sessions.find("id"));
-    EXPECT_EQ(sessions.takeQueued(), "id");
-    EXPECT_FALSE(sessions.takeQueued());
+    EXPECT_EQ(sessions.takeFirstQueued(), "id");
+    EXPECT_FALSE(sessions.takeFirstQueued());
 }
 
 TEST(CachedSessions, EvictedSessionsLeaveTheQueue) {
     CachedSessions sessions;
     for (const char* const id : {"open", "closed"}) {
-        sessions.add({id, "secret"});
+        sessions.addNew({id, "secret"});
         CachedSession& cached = *sessions.find(id);
         cached.pending.whole = std::make_shared<const session::Session>();
         sessions.enqueue(id, cached);
@@ -56,7 +56,7 @@ TEST(CachedSessions, EvictsSessionsBeyondTheWholeQuotaFirst) {
     CachedSessions sessions;
     CachedSession::Clock::time_point time;
     for (const auto& [id, bytes] : {std::pair("small", 40U), std::pair("large", 200U), std::pair("last", 40U)}) {
-        sessions.add({id, "secret"});
+        sessions.addNew({id, "secret"});
         CachedSession& cached = *sessions.find(id);
         cached.pending.whole = std::make_shared<const session::Session>();
         cached.closed = true;

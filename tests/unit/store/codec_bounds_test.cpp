@@ -91,7 +91,7 @@ TEST(Codec, ReadsSessionsWhoseFieldHasGrown) {
             };
             execute();
             const double radius = slicing::infoOf(session.current.object).circumradius;
-            session::Set set;
+            session::ChangeSettings set;
             set.spacing = 9 * radius;
             if (alongW) set.offset = -9 * radius;
             set.focusPoint = glm::dvec4(9, -9, 9, -9) * radius;
@@ -119,9 +119,9 @@ TEST(Codec, ReadsSessionsWhoseFileHasBeenReplaced) {
         array.box = {-end, end};
         array.samples = fields::SampleStorage(std::vector<float>(16));
         fields::Field field = *fields::fieldFromArray("run", array);
-        fields::FileSource source;
+        fields::FieldFileSource source;
         source.dataName = "run.npy";
-        field.source = std::make_shared<const fields::FileSource>(std::move(source));
+        field.source = std::make_shared<const fields::FieldFileSource>(std::move(source));
         return std::make_shared<const fields::Field>(std::move(field));
     };
     Session session;
@@ -160,21 +160,21 @@ TEST(Codec, ReadsTheFocusPointAtItsBoundsFarFromTheOrigin) {
     ASSERT_EQ(info.originInFile, glm::dvec4(kFar, 0, 0, 0));
     const double reach = session::kMaxOffset * info.circumradius;
     ASSERT_GT(kFar + reach - kFar, reach * (1 + 1e-6)) << "the sum is rounded up";
-    session::Set set;
+    session::ChangeSettings set;
     set.focusPoint = glm::dvec4(kFar + reach, 0, 0, 0);
     session::must(session, set);
     EXPECT_EQ(session.current.look.focusPoint.x, reach);
     EXPECT_TRUE(same(session, readAgain(session)));
 }
 
-// Values beyond the bounds throw LaterRecord, because a later version may have wider bounds. Clients keep a session of
-// a later version, but forget an unreadable session.
+// Values beyond the bounds throw NewerVersionRecord, because a later version may have wider bounds. Clients keep a
+// session of a later version, but forget an unreadable session.
 TEST(Codec, TakesValuesBeyondItsBoundsForThoseOfALaterVersion) {
     using session::State;
     const auto expectLater = [](auto change) {
         Session session;
         change(session.current);
-        EXPECT_THROW(readAgain(session), LaterRecord);
+        EXPECT_THROW(readAgain(session), NewerVersionRecord);
     };
     expectLater([](State& state) { state.alpha = 7; });
     expectLater([](State& state) { state.slices.count = 200'001; });
@@ -193,7 +193,7 @@ TEST(Codec, TakesValuesBeyondItsBoundsForThoseOfALaterVersion) {
     expectLater([](State& state) { state.look.cellTypes.hidden = {1'000}; });
 }
 
-// Too many vertices throw LaterRecord, because a later version may have a higher limit.
+// Too many vertices throw NewerVersionRecord, because a later version may have a higher limit.
 TEST(Codec, TakesTooManyVerticesForThoseOfALaterVersion) {
     ObjectTable table;
     const auto list = nlohmann::json::array({nlohmann::json::array({"5-cell"})});
@@ -201,7 +201,7 @@ TEST(Codec, TakesTooManyVerticesForThoseOfALaterVersion) {
         try {
             read();
             FAIL() << "too many vertices were built";
-        } catch (const LaterRecord& fault) {
+        } catch (const NewerVersionRecord& fault) {
             EXPECT_NE(std::string(fault.what()).find("too many vertices"), std::string::npos) << fault.what();
         }
     };

@@ -137,9 +137,9 @@ TEST(Codec, ReadsRecordsOfVersionsWithFewerParts) {
 }
 
 TEST(Codec, StoresEachPartUnderItsNumber) {
-    for (const scene::NamedPart& part : scene::kParts) {
+    for (const scene::NamedPicturePart& part : scene::kParts) {
         Session session;
-        for (const scene::NamedPart& each : scene::kParts) session.current.look.parts.*each.flag = false;
+        for (const scene::NamedPicturePart& each : scene::kParts) session.current.look.parts.*each.flag = false;
         session.current.look.parts.*part.flag = true;
         ObjectTable table;
         const std::string bytes = encodeWhole(session, 10, table.keyOf);
@@ -160,7 +160,7 @@ TEST(Codec, RefusesMembersOfLaterVersions) {
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     session::line(session, "set pace=2");
     session::press(session, "r");
-    geometry::Turn inThreePlanes(geometry::Plane::xy, 1, 1);
+    geometry::RotationAngles inThreePlanes(geometry::Plane::xy, 1, 1);
     inThreePlanes[geometry::Plane::xz] = 1;
     session.undoSteps.at(0).lastTurn = inThreePlanes;
     session.current.look.highlight = slicing::Element{slicing::ElementKind::cell, 0};
@@ -171,7 +171,7 @@ TEST(Codec, RefusesMembersOfLaterVersions) {
     const auto refusalOf = [&](const json& record, const std::string& head = "") -> std::string {
         try {
             decodeSession(encodeCbor(record), head, table.objectOf, support::cache());
-        } catch (const LaterRecord& fault) {
+        } catch (const NewerVersionRecord& fault) {
             return fault.what();
         }
         return "";
@@ -210,7 +210,7 @@ TEST(Codec, MakesTheImageOfAnObjectOnce) {
     EXPECT_EQ(back.undoSteps[5].object, back.current.object);
     EXPECT_NE(back.undoSteps[4].object, back.undoSteps[5].object);
     EXPECT_EQ(back.current.source, session.current.source) << "the object itself comes from the catalogue";
-    EXPECT_EQ(session::ownObjectMemory(back), session::ownObjectMemory(session));
+    EXPECT_EQ(session::unsharedMemoryOfObjects(back), session::unsharedMemoryOfObjects(session));
 }
 
 TEST(Codec, BuildsComposedPolytopesFromTheirNames) {
@@ -302,7 +302,7 @@ TEST(Codec, RefusesOtherVersionsAndOtherData) {
     try {
         decodeSession(bytes, "", none, support::cache());
         FAIL() << "a later version was read";
-    } catch (const LaterRecord& fault) {
+    } catch (const NewerVersionRecord& fault) {
         EXPECT_NE(std::string(fault.what()).find("version 2"), std::string::npos) << fault.what();
     }
     for (const std::string other : {"", "x", "\x80", "\xa0", "\x81\x01", "{\"a\":1}"}) {
@@ -336,7 +336,7 @@ TEST(Codec, RefusesInvalidValues) {
     refused([](State& state) { state.look.opacity = 0.2; });
     refused([](State& state) { state.turning = true; });
     refused([](State& state) { state.playSpeed = 0; });
-    refused([](State& state) { state.lastTurn = geometry::Turn{geometry::Plane::xy, 1e7, {}}; });
+    refused([](State& state) { state.lastTurn = geometry::RotationAngles{geometry::Plane::xy, 1e7, {}}; });
     refused([](State& state) { state.look.cellTypes = {{0}, {0}}; });
     refused([](State& state) { state.referenceFrame.pace = 0; });
     refused([](State& state) { state.referenceFrame.follow.y = 1e4; });
@@ -385,7 +385,7 @@ TEST(Codec, MakesNoImageBeyondTheLimitOfVertices) {
     const slicing::Object image = objects.transformedTo(objects.at(0), frame);
     EXPECT_TRUE(objects.transformedTo(objects.at(0), frame) == image);
     const std::uint64_t before = geometry::nextSerial();
-    EXPECT_THROW(objects.transformedTo(objects.at(0), other), LaterRecord);
+    EXPECT_THROW(objects.transformedTo(objects.at(0), other), NewerVersionRecord);
     EXPECT_EQ(geometry::nextSerial(), before + 1);
 }
 

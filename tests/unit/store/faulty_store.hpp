@@ -22,10 +22,10 @@ namespace oval4d::store {
 /// The controls of a FaultyStore, and what a test observes of it.
 struct StoreControl {
     explicit StoreControl(std::size_t quota = kDefaultQuota,
-                          Store::WritePolicy writePolicy = Store::WritePolicy::at_once)
-        : policy(writePolicy), kept(quota, clock.now<MemoryStore::Clock>()) {}
+                          Store::WriteTiming writeTiming = Store::WriteTiming::at_once)
+        : policy(writeTiming), kept(quota, clock.now<MemoryStore::Clock>()) {}
 
-    const Store::WritePolicy policy;
+    const Store::WriteTiming policy;
     support::VirtualClock clock;
     std::atomic<bool> fails = false;
     // The numbers of all operations, of saved updates, and of calls of expire().
@@ -41,7 +41,7 @@ struct StoreControl {
 class FaultyStore final : public Store {
   public:
     explicit FaultyStore(std::shared_ptr<StoreControl> control) : control_(std::move(control)) {}
-    WritePolicy writePolicy() const override { return control_->policy; }
+    WriteTiming writeTiming() const override { return control_->policy; }
     std::string name() const override { return "faulty"; }
     std::optional<std::string> tokenHash(const std::string& id) override {
         return attempt([&](MemoryStore& kept) { return kept.tokenHash(id); });
@@ -60,7 +60,7 @@ class FaultyStore final : public Store {
             return results;
         });
     }
-    std::size_t evict(std::span<const RecordUpdate> updates, const IsPinned& isPinned) override {
+    std::size_t evict(std::span<const RecordUpdate> updates, const PinnedPredicate& isPinned) override {
         return attempt([&](MemoryStore& kept) { return kept.evict(updates, isPinned); });
     }
     void remove(std::span<const std::string> ids) override {

@@ -89,7 +89,7 @@ TEST(ObjectCodec, FieldsKeepTheirSecondFunction) {
     }
     EXPECT_THROW(decodeObjectRecord(encodeCbor(nlohmann::json::parse(
                      R"([2,2,false,[["a",[0,0,0,0]],null,"x",[[0,0,0,0],[1,1,1,1]],null,["y*","",null]]])"))),
-                 LaterRecord);
+                 NewerVersionRecord);
 }
 
 // Returns a field of an array with units. If `hasSecond` is true, the field has a second array.
@@ -160,9 +160,9 @@ TEST(ObjectCodec, RefusesInvalidUnits) {
 // Returns a field in the data folder, whose samples are not stored.
 fields::Field fieldInFile() {
     fields::Field field = fieldWithUnits(false);
-    field.source = std::make_shared<const fields::FileSource>(
-        fields::FileSource{"large.zarr", "zarr", "tzyx", "v", "x*y", "p", fields::Box{glm::dvec4(-3), glm::dvec4(3)},
-                           fields::Box{glm::dvec4(0), glm::dvec4(1, 1, 0, 1)}});
+    field.source = std::make_shared<const fields::FieldFileSource>(fields::FieldFileSource{
+        "large.zarr", "zarr", "tzyx", "v", "x*y", "p", fields::Box{glm::dvec4(-3), glm::dvec4(3)},
+        fields::Box{glm::dvec4(0), glm::dvec4(1, 1, 0, 1)}});
     return field;
 }
 
@@ -249,7 +249,7 @@ TEST(ObjectCodec, RefusesRecordsOfLaterVersions) {
     const auto refusal = [](const json& record) {
         try {
             decodeObjectRecord(encodeCbor(record));
-        } catch (const LaterRecord& fault) {
+        } catch (const NewerVersionRecord& fault) {
             return std::string(fault.what());
         }
         return std::string();
@@ -283,11 +283,11 @@ class MemberValues {
         add(place_ + '/' + std::to_string(number), value);
     }
     template <typename T, typename... Ranges>
-    void addedMember(std::size_t number, const T& value, Ranges... /*range*/) {
+    void memberAddedLater(std::size_t number, const T& value, Ranges... /*range*/) {
         add(place_ + '/' + std::to_string(number), value);
     }
     template <typename T>
-    void computedMember(const T& /*value*/) {}
+    void recomputableMember(const T& /*value*/) {}
 
   private:
     template <typename T>
@@ -344,7 +344,7 @@ TEST(ObjectCodec, LosesNoMember) {
     collect("surface", geometry::SurfaceMesh());
     collect("cloud", geometry::PointCloud());
     fields::FieldDefinition empty;
-    fields::FileSource& source = empty.source.emplace();
+    fields::FieldFileSource& source = empty.source.emplace();
     source.box.emplace();
     source.region.emplace();
     empty.array.emplace();

@@ -134,7 +134,7 @@ TEST(RedisStore, SavesTheOtherSessionsOfABatchIfRedisRefusesOne) {
     redis.execute("SET oval4d:{first} text");
     const std::vector<RecordUpdate> updates{{{"first", "secret"}, 1, "", "whole", {}, {}, false},
                                             {{"second", "secret"}, 1, "", "whole", {}, {}, false}};
-    EXPECT_THROW(store->save(updates), NotWritable);
+    EXPECT_THROW(store->save(updates), StoreNotWritable);
     EXPECT_TRUE(store->tokenHash("second"));
     EXPECT_EQ(store->save({&updates[1], 1}).at(0), SaveResult::saved);
 }
@@ -146,7 +146,7 @@ TEST(RedisStore, OpensSessionsWhileRedisIsFull) {
     const RecordUpdate update{{"id", "secret"}, 1, "", "whole", {}, {}, false};
     EXPECT_EQ(store->save({&update, 1}).at(0), SaveResult::saved);
     redis.execute("CONFIG SET maxmemory 1");
-    EXPECT_THROW(store->save({&update, 1}), NotWritable);
+    EXPECT_THROW(store->save({&update, 1}), StoreNotWritable);
     EXPECT_EQ(store->claim("id")->whole, "whole");
 }
 

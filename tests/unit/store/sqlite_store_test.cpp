@@ -48,7 +48,7 @@ TEST(SqliteStore, StaysWithinItsQuotaAndReleasesFreePages) {
                                       true};
             try {
                 store.save({&update, 1});
-            } catch (const NotWritable&) {
+            } catch (const StoreNotWritable&) {
                 EXPECT_GT(store.evict({&update, 1}, [](const std::string&) { return false; }), 0U);
                 store.save({&update, 1});
             }

@@ -36,10 +36,10 @@ class AnyStore : public testing::TestWithParam<std::string> {
         ASSERT_TRUE(store) << "is redis-server installed?";
     }
 
-    RecordUpdate whole(Fence fence, const std::string& bytes, const std::string& id = "one") const {
+    RecordUpdate whole(FencingToken fence, const std::string& bytes, const std::string& id = "one") const {
         return {{id, "secret of " + id}, fence, "", bytes, {}, {}, false};
     }
-    RecordUpdate head(Fence fence, const std::string& bytes) const {
+    RecordUpdate head(FencingToken fence, const std::string& bytes) const {
         return {{"one", "secret of one"}, fence, bytes, "", {}, {}, false};
     }
     SaveResult save(const RecordUpdate& update) { return store->save({&update, 1}).at(0); }
@@ -184,7 +184,7 @@ void expectEvictionOrder(Store& store, support::VirtualClock& clock, std::size_t
     const RecordUpdate large{{"large", "secret"}, 1, "", std::string(bytes, 'x'), {}, {}, false, true};
     const auto isPinned = [](const std::string& id) { return id == "held" || id == "large"; };
     for (int i = 0; i < 10; ++i) saved("filler " + std::to_string(i), i > 0, 20'000);
-    EXPECT_THROW(store.save({&large, 1}), NotWritable);
+    EXPECT_THROW(store.save({&large, 1}), StoreNotWritable);
     EXPECT_FALSE(store.tokenHash("large"));
     EXPECT_GT(store.evict({&large, 1}, isPinned), 0U);
     EXPECT_TRUE(store.tokenHash("held"));
@@ -196,9 +196,9 @@ void expectEvictionOrder(Store& store, support::VirtualClock& clock, std::size_t
     // even fit into the empty store.
     for (const std::size_t size : {2 * bytes, std::size_t{2'000'000}}) {
         const RecordUpdate largest{{"largest", "secret"}, 1, "", std::string(size, 'x'), {}, {}, false, true};
-        EXPECT_THROW(store.save({&largest, 1}), NotWritable);
+        EXPECT_THROW(store.save({&largest, 1}), StoreNotWritable);
         EXPECT_EQ(store.evict({&largest, 1}, isPinned), 0U);
-        EXPECT_THROW(store.save({&largest, 1}), NotWritable);
+        EXPECT_THROW(store.save({&largest, 1}), StoreNotWritable);
         EXPECT_TRUE(store.tokenHash("held") && store.tokenHash("large"));
         EXPECT_TRUE(store.tokenHash("changed, new")) << "no session is evicted in vain";
     }

@@ -53,7 +53,7 @@ TEST(StoredNumbers, OfPlanesStayTheSame) {
 
 TEST(StoredNumbers, OfPartsStayTheSame) {
     Numbers numbers;
-    for (const scene::NamedPart& part : scene::kParts)
+    for (const scene::NamedPicturePart& part : scene::kParts)
         numbers.emplace_back(part.name, static_cast<unsigned>(part.number));
     EXPECT_EQ(numbers, (Numbers{{"faces", 0},
                                 {"bars", 1},

@@ -58,18 +58,19 @@ inline void applyRandomCommands(session::Session& session, std::mt19937& random,
     const std::string keys = "234567rtykjKJhl0G[]{}u.nNompfbe";
     std::uniform_real_distribution<double> angle(-7, 7);
     for (int i = 0; i < steps; ++i) {
-        session::Command command = session::Key{std::string(1, keys[random() % keys.size()]), random() % 4 == 0, false};
-        session::Set set;
+        session::Command command =
+            session::KeyPress{std::string(1, keys[random() % keys.size()]), random() % 4 == 0, false};
+        session::ChangeSettings set;
         switch (random() % 10) {
             case 0:
                 command = session::Rotate{{static_cast<geometry::Plane>(random() % 6), angle(random), {}}};
                 break;
             case 1:
-                set.plain.of<double>("azimuth") = angle(random);
-                set.plain.of<double>("zoom") = 1.5;
-                set.plain.of<scene::Coloring>("color") = static_cast<scene::Coloring>(random() % 7);
-                set.plain.of<scene::CapStyle>("caps") = static_cast<scene::CapStyle>(random() % 3);
-                set.plain.of<scene::Background>("background") =
+                set.plain.valueOf<double>("azimuth") = angle(random);
+                set.plain.valueOf<double>("zoom") = 1.5;
+                set.plain.valueOf<scene::Coloring>("color") = static_cast<scene::Coloring>(random() % 7);
+                set.plain.valueOf<scene::CapStyle>("caps") = static_cast<scene::CapStyle>(random() % 3);
+                set.plain.valueOf<scene::Background>("background") =
                     static_cast<scene::Background>(random() % scene::kBackgrounds.size());
                 set.hidden = {{0}};
                 command = set;
@@ -100,7 +101,7 @@ inline void applyRandomCommands(session::Session& session, std::mt19937& random,
                 break;
         }
         (void)session::apply(session, command);  // some commands fail, for example with nothing to undo
-        if (session.current.isMoving()) session::advance(session, 0.01);
+        if (session.current.isMoving()) session::advanceMotionBy(session, 0.01);
     }
 }
 

@@ -27,7 +27,8 @@ class WriteBehindStoreTest : public testing::Test {
         return promise.get_future().get();
     }
     bool save(const std::string& id, const Session& session,
-              WriteBehindStore::SaveScope scope = WriteBehindStore::SaveScope::whole, Fence fence = kFirstFence) {
+              WriteBehindStore::SaveScope scope = WriteBehindStore::SaveScope::whole,
+              FencingToken fence = kFirstFence) {
         std::promise<bool> promise;
         writeBehind.save(id, fence, session, scope, [&](bool ours) { promise.set_value(ours); });
         return promise.get_future().get();
@@ -71,7 +72,7 @@ class WriteBehindStoreTest : public testing::Test {
 };
 
 TEST_F(WriteBehindStoreTest, SavedSessionsAreInTheStore) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     EXPECT_EQ(writeBehind.sessionCount(), 1U);
     EXPECT_TRUE(save(credentials.id, at(5)));
     EXPECT_EQ(writeBehind.unsaved(), 0U);
@@ -79,8 +80,8 @@ TEST_F(WriteBehindStoreTest, SavedSessionsAreInTheStore) {
 }
 
 TEST_F(WriteBehindStoreTest, FetchRequiresTheToken) {
-    const SessionCredentials credentials = writeBehind.create();
-    writeBehind.close(credentials.id, at(3));
+    const SessionCredentials credentials = writeBehind.createSession();
+    writeBehind.closeSession(credentials.id, at(3));
     eventually([&] { return writeBehind.unsaved() == 0; });
     EXPECT_EQ(fetch({credentials.id, "wrong"}).error().code, ErrorCode::bad_token);
     EXPECT_EQ(fetch({"nobody", credentials.token}).error().code, ErrorCode::not_found);
@@ -90,14 +91,14 @@ TEST_F(WriteBehindStoreTest, FetchRequiresTheToken) {
 }
 
 TEST_F(WriteBehindStoreTest, AFailingStoreDoesNotDelayCallers) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     control->fails = true;
     EXPECT_TRUE(save(credentials.id, at(1)));
     eventually([&] { return !writeBehind.lastError().empty(); });
     EXPECT_TRUE(save(credentials.id, at(2)));
     EXPECT_EQ(fetch({"other", "x"}).error().code, ErrorCode::internal) << "not not_found";
-    const SessionCredentials closed = writeBehind.create();
-    writeBehind.close(closed.id, at(9));
+    const SessionCredentials closed = writeBehind.createSession();
+    writeBehind.closeSession(closed.id, at(9));
     EXPECT_EQ(fetch({closed.id, "wrong"}).error().code, ErrorCode::bad_token);
     const auto again = fetch(closed);
     ASSERT_TRUE(again && again->session) << "it is still in memory";
@@ -113,7 +114,7 @@ TEST_F(WriteBehindStoreTest, AFailingStoreDoesNotDelayCallers) {
 }
 
 TEST_F(WriteBehindStoreTest, DoesNotWriteSessionsClaimedByOthers) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     EXPECT_TRUE(save(credentials.id, at(1)));
     {
         const std::lock_guard lock(control->mutex);
@@ -127,13 +128,13 @@ TEST_F(WriteBehindStoreTest, DoesNotWriteSessionsClaimedByOthers) {
 
 /// A session stays open if another server has claimed it and this server has claimed it back before the next poll.
 TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
-    const SessionCredentials credentials = writeBehind.create();
-    writeBehind.close(credentials.id, at(1));
+    const SessionCredentials credentials = writeBehind.createSession();
+    writeBehind.closeSession(credentials.id, at(1));
     eventually([&] { return writeBehind.unsaved() == 0; });
     const auto fetched = fetch(credentials);
     ASSERT_TRUE(fetched);
-    const Fence own = fetched->record.fence;
-    const auto poll = [&](Fence fence) {
+    const FencingToken own = fetched->record.fence;
+    const auto poll = [&](FencingToken fence) {
         {
             const std::lock_guard lock(control->mutex);
             control->lost.push_back({credentials.id, fence});
@@ -153,47 +154,47 @@ TEST_F(WriteBehindStoreTest, KeepsSessionsThatItHasClaimedBack) {
 }
 
 TEST_F(WriteBehindStoreTest, CountsChangesThatWillSoonBeSaved) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     EXPECT_TRUE(save(credentials.id, at(1)));
     EXPECT_EQ(writeBehind.unsaved(), 0U);
-    writeBehind.noteChange(credentials.id, kFirstFence + 1);
-    writeBehind.noteChange("nobody", kFirstFence);
+    writeBehind.recordUnsavedChange(credentials.id, kFirstFence + 1);
+    writeBehind.recordUnsavedChange("nobody", kFirstFence);
     EXPECT_EQ(writeBehind.unsaved(), 0U);
-    writeBehind.noteChange(credentials.id, kFirstFence);
+    writeBehind.recordUnsavedChange(credentials.id, kFirstFence);
     EXPECT_EQ(writeBehind.unsaved(), 1U);
     EXPECT_TRUE(save(credentials.id, at(2), WriteBehindStore::SaveScope::head));
     EXPECT_EQ(writeBehind.unsaved(), 0U);
-    writeBehind.noteChange(credentials.id, kFirstFence);
-    writeBehind.close(credentials.id, at(3));
+    writeBehind.recordUnsavedChange(credentials.id, kFirstFence);
+    writeBehind.closeSession(credentials.id, at(3));
     eventually([&] { return writeBehind.unsaved() == 0; });
 }
 
 /// The cache knows whether it still owns a fetched session. So the server does not serve a session that another server
 /// has claimed while the record was decoded.
 TEST_F(WriteBehindStoreTest, KnowsWhetherItStillOwnsAFetchedSession) {
-    const SessionCredentials credentials = writeBehind.create();
-    EXPECT_TRUE(writeBehind.owns(credentials.id, kFirstFence));
-    writeBehind.close(credentials.id, at(1));
+    const SessionCredentials credentials = writeBehind.createSession();
+    EXPECT_TRUE(writeBehind.ownsSession(credentials.id, kFirstFence));
+    writeBehind.closeSession(credentials.id, at(1));
     eventually([&] { return writeBehind.unsaved() == 0; });
-    EXPECT_FALSE(writeBehind.owns(credentials.id, kFirstFence));
+    EXPECT_FALSE(writeBehind.ownsSession(credentials.id, kFirstFence));
     const auto fetched = fetch(credentials);
     ASSERT_TRUE(fetched);
-    const Fence own = fetched->record.fence;
-    EXPECT_TRUE(writeBehind.owns(credentials.id, own));
-    EXPECT_FALSE(writeBehind.owns(credentials.id, kFirstFence));
+    const FencingToken own = fetched->record.fence;
+    EXPECT_TRUE(writeBehind.ownsSession(credentials.id, own));
+    EXPECT_FALSE(writeBehind.ownsSession(credentials.id, kFirstFence));
     {
         const std::lock_guard lock(control->mutex);
         control->lost.push_back({credentials.id, own + 1});
     }
-    eventually([&] { return !writeBehind.owns(credentials.id, own); });
+    eventually([&] { return !writeBehind.ownsSession(credentials.id, own); });
     writeBehind.setStoredKeys(credentials.id, {});
-    EXPECT_FALSE(writeBehind.owns(credentials.id, own));
+    EXPECT_FALSE(writeBehind.ownsSession(credentials.id, own));
 }
 
 /// A save with the fence of an earlier fetch is refused. A command may end after another server has claimed the session
 /// and this server has fetched it again.
 TEST_F(WriteBehindStoreTest, DoesNotSaveAnEarlierFetchOfASession) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     EXPECT_TRUE(save(credentials.id, at(1)));
     {
         const std::lock_guard lock(control->mutex);
@@ -202,7 +203,7 @@ TEST_F(WriteBehindStoreTest, DoesNotSaveAnEarlierFetchOfASession) {
     EXPECT_FALSE(save(credentials.id, at(2)));
     const auto fetched = fetch(credentials);
     ASSERT_TRUE(fetched);
-    const Fence own = fetched->record.fence;
+    const FencingToken own = fetched->record.fence;
     EXPECT_TRUE(save(credentials.id, at(3), WriteBehindStore::SaveScope::head, own));
     EXPECT_FALSE(save(credentials.id, at(9)));
     EXPECT_TRUE(save(credentials.id, at(4), WriteBehindStore::SaveScope::head, own));
@@ -210,7 +211,7 @@ TEST_F(WriteBehindStoreTest, DoesNotSaveAnEarlierFetchOfASession) {
 }
 
 TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     writeBehind.save(credentials.id, kFirstFence, at(1), WriteBehindStore::SaveScope::head);
     eventually([&] { return wanted == 1; });
     EXPECT_TRUE(save(credentials.id, at(2)));
@@ -218,7 +219,7 @@ TEST_F(WriteBehindStoreTest, RequestsSessionsThatTheStoreLacks) {
 }
 
 TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     EXPECT_TRUE(save(credentials.id, at(1)));
     for (std::uint64_t i = 2; i < 5000; ++i)
         writeBehind.save(credentials.id, kFirstFence, at(i), WriteBehindStore::SaveScope::head);
@@ -230,7 +231,7 @@ TEST_F(WriteBehindStoreTest, WritesTheNewestOfManyChanges) {
 /// Changes are written even if requests always wait. Here, each fetch requests the next fetch.
 TEST_F(WriteBehindStoreTest, WritesBetweenFetches) {
     constexpr int kMost = 1000;
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     std::atomic<bool> saved = false;
     int fetches = 0;  // used only on the cache's thread
     std::promise<int> ended;
@@ -247,9 +248,10 @@ TEST_F(WriteBehindStoreTest, WritesBetweenFetches) {
 }
 
 TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
-    const SessionCredentials open = writeBehind.create(), closed = writeBehind.create(), waiting = writeBehind.create();
+    const SessionCredentials open = writeBehind.createSession(), closed = writeBehind.createSession(),
+                             waiting = writeBehind.createSession();
     EXPECT_TRUE(save(open.id, at(1)));
-    writeBehind.close(closed.id, at(2));
+    writeBehind.closeSession(closed.id, at(2));
     eventually([&] { return writeBehind.unsaved() == 0; });
     writeBehind.remove(open.id);
     writeBehind.remove(closed.id);
@@ -258,7 +260,7 @@ TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
     EXPECT_EQ(kept(open.id), 3U);
     EXPECT_EQ(kept(closed.id), 0U);
     control->fails = true;
-    writeBehind.close(waiting.id, at(4));
+    writeBehind.closeSession(waiting.id, at(4));
     eventually([&] { return !writeBehind.lastError().empty(); });
     writeBehind.remove(waiting.id);
     EXPECT_EQ(fetch(waiting).error().code, ErrorCode::not_found);
@@ -272,7 +274,7 @@ TEST_F(WriteBehindStoreTest, ForgetsClosedSessionsOnly) {
 /// Objects are written again after a failure, because the store may have lost them. Otherwise, an object is written
 /// only once.
 TEST_F(WriteBehindStoreTest, WritesPolytopesAgainAfterAFailure) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     Session session;
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     EXPECT_TRUE(save(credentials.id, session));
@@ -302,15 +304,15 @@ class SmallWriteBehindStoreTest : public WriteBehindStoreTest {
 TEST_F(SmallWriteBehindStoreTest, EvictsClosedSessionsBeyondTheQuota) {
     control->fails = true;
     eventually([&] { return !writeBehind.lastError().empty(); });
-    const SessionCredentials open = writeBehind.create();
+    const SessionCredentials open = writeBehind.createSession();
     writeBehind.save(open.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole);
     std::vector<SessionCredentials> credentialsList;
     for (int i = 0; i < 2000; ++i) {
-        credentialsList.push_back(writeBehind.create());
-        writeBehind.close(credentialsList.back().id, at(i == 1999 ? 1 : 0));
+        credentialsList.push_back(writeBehind.createSession());
+        writeBehind.closeSession(credentialsList.back().id, at(i == 1999 ? 1 : 0));
         control->clock.advance(1us);
     }
-    writeBehind.close(writeBehind.create().id, Session{});
+    writeBehind.closeSession(writeBehind.createSession().id, Session{});
     EXPECT_LT(writeBehind.unsaved(), 300U);
     EXPECT_GT(writeBehind.unsaved(), 10U);
     EXPECT_EQ(writeBehind.sessionCount(), writeBehind.unsaved());
@@ -334,7 +336,7 @@ TEST_F(FullStoreTest, EvictsNoSessionsInVain) {
         return control->kept.size();
     };
     for (int i = 0; i < 30; ++i) {
-        writeBehind.close(writeBehind.create().id, at(1));
+        writeBehind.closeSession(writeBehind.createSession().id, at(1));
         atOnce([&] { return writeBehind.unsaved() == 0; });
         control->clock.advance(1us);
     }
@@ -348,7 +350,7 @@ TEST_F(FullStoreTest, EvictsNoSessionsInVain) {
     }
     Session large;
     ASSERT_TRUE(session::apply(large, session::LoadObject{"cloud", "cloud", points}));
-    const SessionCredentials tooLarge = writeBehind.create(), small = writeBehind.create();
+    const SessionCredentials tooLarge = writeBehind.createSession(), small = writeBehind.createSession();
     writeBehind.save(tooLarge.id, kFirstFence, large, WriteBehindStore::SaveScope::whole);
     atOnce([&] { return !writeBehind.lastError().empty(); });
     EXPECT_EQ(stored(), before);
@@ -364,7 +366,7 @@ TEST_F(FullStoreTest, EvictsNoSessionsInVain) {
 
 TEST_F(WriteBehindStoreTest, RetriesAfterLongerAndLongerPauses) {
     control->fails = true;
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     writeBehind.save(credentials.id, kFirstFence, at(1), WriteBehindStore::SaveScope::whole);
     atOnce([&] { return !writeBehind.lastError().empty(); });
     for (const Milliseconds longest : {100ms, 200ms, 400ms, 800ms, 1600ms, 3200ms, 5000ms, 5000ms}) {
@@ -380,9 +382,9 @@ TEST_F(WriteBehindStoreTest, RetriesAfterLongerAndLongerPauses) {
 }
 
 TEST_F(WriteBehindStoreTest, ClosedSessionsExpireAndOpenOnesDoNot) {
-    const SessionCredentials open = writeBehind.create(), closed = writeBehind.create();
+    const SessionCredentials open = writeBehind.createSession(), closed = writeBehind.createSession();
     EXPECT_TRUE(save(open.id, at(1)));
-    writeBehind.close(closed.id, at(1));
+    writeBehind.closeSession(closed.id, at(1));
     eventually([&] { return writeBehind.unsaved() == 0; });
     const auto isStored = [&](const SessionCredentials& credentials) {
         const std::lock_guard lock(control->mutex);
@@ -399,7 +401,7 @@ TEST_F(WriteBehindStoreTest, ClosedSessionsExpireAndOpenOnesDoNot) {
 }
 
 TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
-    const SessionCredentials credentials = writeBehind.create();
+    const SessionCredentials credentials = writeBehind.createSession();
     Session session;
     ASSERT_TRUE(session::apply(session, ownObject("own", 1)));
     const auto polytopes = [&] {
@@ -417,8 +419,8 @@ TEST_F(WriteBehindStoreTest, WritesAPolytopeOnce) {
 TEST_F(WriteBehindStoreTest, StopWritesPendingChanges) {
     std::vector<SessionCredentials> credentialsList;
     for (std::uint64_t i = 1; i <= 600; ++i) {
-        credentialsList.push_back(writeBehind.create());
-        writeBehind.close(credentialsList.back().id, at(i));
+        credentialsList.push_back(writeBehind.createSession());
+        writeBehind.closeSession(credentialsList.back().id, at(i));
     }
     writeBehind.stop(support::hangLimit());
     for (std::uint64_t i = 1; i <= 600; ++i) EXPECT_EQ(kept(credentialsList[i - 1].id), i);

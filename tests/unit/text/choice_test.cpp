@@ -60,10 +60,10 @@ TEST(NamedValue, ListsAllNames) {
 
 TEST(NamedValue, IsOneOfTheAlternatives) {
     using Names = std::vector<std::string_view>;
-    EXPECT_EQ(alternatives(Names{}), "");
-    EXPECT_EQ(alternatives(Names{"a"}), "a");
-    EXPECT_EQ(alternatives(Names{"a", "b"}), "a or b");
-    EXPECT_EQ(alternatives(namesOf(kFruits)), "apple, pear or pome");
+    EXPECT_EQ(joinedWithOr(Names{}), "");
+    EXPECT_EQ(joinedWithOr(Names{"a"}), "a");
+    EXPECT_EQ(joinedWithOr(Names{"a", "b"}), "a or b");
+    EXPECT_EQ(joinedWithOr(namesOf(kFruits)), "apple, pear or pome");
 }
 
 }  // namespace

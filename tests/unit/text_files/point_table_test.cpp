@@ -20,10 +20,10 @@ std::string read(const std::string& bytes, bool radii = true) {
         result += "r " + std::to_string(row.radius).substr(0, 3) + '\n';
     };
     try {
-        for (const std::string& warning : readPoints(plainText(bytes), {.maxPoints = 3, .radii = radii}, add))
+        for (const std::string& warning : readPoints(decodePlainText(bytes), {.maxPoints = 3, .radii = radii}, add))
             result += warning + '\n';
     } catch (const FileError& error) {
-        return message(error);
+        return fileErrorText(error);
     }
     return result;
 }
@@ -232,23 +232,23 @@ std::string utf16(const std::string& ascii, bool bigEndian, bool mark) {
 
 TEST(PlainText, IsReadFromUtf16) {
     for (const bool bigEndian : {false, true}) {
-        for (const bool mark : {false, true}) EXPECT_EQ(plainText(utf16("1 2\r\n3", bigEndian, mark)), "1 2\n3");
+        for (const bool mark : {false, true}) EXPECT_EQ(decodePlainText(utf16("1 2\r\n3", bigEndian, mark)), "1 2\n3");
     }
 }
 
 TEST(PlainText, HasOneKindOfSpace) {
     for (const char* space : {"\u00A0", "\u2000", "\u2002", "\u2007", "\u2009", "\u200A", "\u200B", "\u202F", "\u205F",
                               "\u3000", "\uFEFF", "\v", "\f"})
-        EXPECT_EQ(plainText("1" + std::string(space) + "2"), "1 2") << space;
-    EXPECT_EQ(plainText("\u2212\u201C\u3001\xE2\x80"), "\u2212\u201C\u3001\xE2\x80");
+        EXPECT_EQ(decodePlainText("1" + std::string(space) + "2"), "1 2") << space;
+    EXPECT_EQ(decodePlainText("\u2212\u201C\u3001\xE2\x80"), "\u2212\u201C\u3001\xE2\x80");
 }
 
 TEST(PlainText, IsNotMadeOfOtherFiles) {
     const auto refusal = [](const std::string& bytes) {
         try {
-            plainText(bytes);
+            decodePlainText(bytes);
         } catch (const FileError& error) {
-            return message(error);
+            return fileErrorText(error);
         }
         return std::string("not refused");
     };

@@ -33,7 +33,7 @@ Session randomSession(unsigned seed) {
     const std::string keys = "234567rtyRTYkjKJlh[]{}nNopfbe";
     Session session;
     for (int i = 0; i < 100; ++i) {
-        const session::Key key{
+        const session::KeyPress key{
             std::string(1, keys[std::uniform_int_distribution<std::size_t>(0, keys.size() - 1)(random)])};
         EXPECT_TRUE(apply(session, key));
     }
@@ -44,7 +44,7 @@ Session randomSession(unsigned seed) {
         EXPECT_TRUE(apply(session, session::CommandLine{"set pace=2 follow=0.3,0,-0.1 boost=0,0.5,0"}));
     }
     if (seed % 2 == 0) {
-        EXPECT_TRUE(apply(session, session::Key{" "}));
+        EXPECT_TRUE(apply(session, session::KeyPress{" "}));
     }
     return session;
 }
@@ -117,19 +117,19 @@ TEST(StateMessage, HasTheSerialNumberOfTheSourceInSessionsOnly) {
 }
 
 TEST(StateMessage, HasTheColorsThatTheViewerSees) {
-    using scene::Scheme;
+    using scene::ColorScheme;
     Session session;
-    const auto colorFor = [&](Scheme viewer) {
+    const auto colorFor = [&](ColorScheme viewer) {
         const json message = fitting(wire::stateMessage(session.current, {}, 0, {}, slicing::Quality::full, viewer));
         return message.at("polytope").at("kinds").at(0).at("color");
     };
-    const scene::Color onDark = scene::cellTypeColor(0, 1), onLight = scene::cellTypeColor(0, 1, Scheme::light);
-    EXPECT_EQ(colorFor(Scheme::dark), onDark);
-    EXPECT_EQ(colorFor(Scheme::light), onLight);
+    const scene::Color onDark = scene::cellTypeColor(0, 1), onLight = scene::cellTypeColor(0, 1, ColorScheme::light);
+    EXPECT_EQ(colorFor(ColorScheme::dark), onDark);
+    EXPECT_EQ(colorFor(ColorScheme::light), onLight);
     session.current.look.background = scene::Background::dark;
-    EXPECT_EQ(colorFor(Scheme::light), onDark);
+    EXPECT_EQ(colorFor(ColorScheme::light), onDark);
     session.current.look.background = scene::Background::white;
-    EXPECT_EQ(colorFor(Scheme::dark), onLight);
+    EXPECT_EQ(colorFor(ColorScheme::dark), onLight);
     EXPECT_EQ(fitting(wire::stateMessage(session.current, {}, 0)).at("background"), "white");
 }
 
@@ -167,7 +167,7 @@ TEST(StateMessage, RestoresAFormulaInANewSession) {
     load.box = fields::Box{glm::dvec4(-1), glm::dvec4(1, 1, 1, 2)};
     load.secondFormula = "x*y";
     ASSERT_TRUE(apply(session, load));
-    session::Set look;
+    session::ChangeSettings look;
     look.levels = std::vector<double>{0.25, 0.5};
     look.pace = 2;
     ASSERT_TRUE(apply(session, look));
@@ -241,7 +241,7 @@ TEST(StateMessage, HasTheMomentOfTheFocusSlice) {
     EXPECT_NEAR(coordinate.at("value").get<double>(), 150, 1e-9);
     EXPECT_EQ(coordinate.at("unit"), "s");
     EXPECT_TRUE(setCommandFromState(wire::stateMessage(session.current, {}, 1)));
-    session.current.orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, 0.3});
+    session.current.orientation = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, 0.3});
     EXPECT_FALSE(section().contains("coordinate")) << "the slice is not a moment";
     const Session ofPolytope;
     EXPECT_FALSE(fitting(wire::stateMessage(ofPolytope.current, {}, 1)).at("section").contains("coordinate"));
@@ -257,15 +257,15 @@ TEST(StateMessage, HasTheRegionAndTheLevelOfAPart) {
         return fitting(wire::stateMessage(session.current, {}, 1)).at("field");
     };
     EXPECT_FALSE(fieldIn(field).contains("resolution")) << "no array in the data folder";
-    fields::FileSource source{"run.zarr", "", "", "", "", "", {}, {}};
-    field.source = std::make_shared<const fields::FileSource>(source);
+    fields::FieldFileSource source{"run.zarr", "", "", "", "", "", {}, {}};
+    field.source = std::make_shared<const fields::FieldFileSource>(source);
     const json overview = fieldIn(field);
     EXPECT_EQ(overview.at("resolution"), json::parse(R"({"level":1,"levels":3})"));
     EXPECT_FALSE(overview.contains("region"));
     field.imageLevel = {2, 3, 1};
     EXPECT_EQ(fieldIn(field).at("resolution"), json::parse(R"({"level":2,"levels":3,"refining":true})"));
     source.region = fields::Box{{0, 1, 2, 3}, {4, 5, 6, 7}};
-    field.source = std::make_shared<const fields::FileSource>(source);
+    field.source = std::make_shared<const fields::FieldFileSource>(source);
     field.imageLevel = {};
     const json part = fieldIn(field);
     EXPECT_EQ(part.at("region"), json::parse("[[0,4],[1,5],[2,6],[3,7]]"));
@@ -295,7 +295,7 @@ TEST(StateMessage, BecomesASetByItsType) {
     json message = json::parse(wire::stateMessage(session.current, {}, session.revision));
     message["type"] = "set";
     Session fresh;
-    ASSERT_TRUE(apply(fresh, parsedCommand<session::Set>(message.dump())));
+    ASSERT_TRUE(apply(fresh, parsedCommand<session::ChangeSettings>(message.dump())));
     expectSame(fresh.current, session.current);
 }
 

@@ -22,32 +22,32 @@ TEST(Parse, Hello) {
         parsed(
             R"({"type":"hello","id":1,"stream":"frames","encoding":"cbor","width":640,"height":480,"token":"abc","scheme":"light"})")
             .body);
-    EXPECT_EQ(hello.stream, Stream::frames);
+    EXPECT_EQ(hello.stream, StreamKind::frames);
     EXPECT_EQ(hello.encoding, Encoding::cbor);
     EXPECT_EQ(hello.viewport, (scene::Viewport{640, 480}));
     EXPECT_EQ(hello.token, "abc");
-    EXPECT_EQ(hello.scheme, scene::Scheme::light);
+    EXPECT_EQ(hello.scheme, scene::ColorScheme::light);
     const auto plain = std::get<Hello>(parsed(R"({"type":"hello","stream":"geometry"})").body);
-    EXPECT_EQ(plain.stream, Stream::geometry);
+    EXPECT_EQ(plain.stream, StreamKind::geometry);
     EXPECT_EQ(plain.encoding, Encoding::json);
     EXPECT_FALSE(plain.viewport);
     EXPECT_FALSE(plain.token);
-    EXPECT_EQ(plain.scheme, scene::Scheme::dark);
-    EXPECT_EQ(std::get<Hello>(parsed(R"({"type":"hello"})").body).stream, Stream::none);
+    EXPECT_EQ(plain.scheme, scene::ColorScheme::dark);
+    EXPECT_EQ(std::get<Hello>(parsed(R"({"type":"hello"})").body).stream, StreamKind::none);
 }
 
 TEST(Parse, Commands) {
     EXPECT_EQ(parsed(R"({"type":"undo","id":11.5})").id, 11.5);
     EXPECT_FALSE(parsed(R"({"type":"undo"})").id);
-    const auto key = parsedCommand<session::Key>(R"({"type":"key","key":"y","shift":true})");
+    const auto key = parsedCommand<session::KeyPress>(R"({"type":"key","key":"y","shift":true})");
     EXPECT_EQ(key.key, "y");
     EXPECT_TRUE(key.shift);
     EXPECT_FALSE(key.ctrl);
     const auto turn =
         parsedCommand<session::Rotate>(R"({"type":"rotate","planes":["yz","xw"],"angles":[1,-2.5]})").turn;
-    EXPECT_EQ(turn, (geometry::Turn{geometry::Plane::yz, 1, -2.5}));
+    EXPECT_EQ(turn, (geometry::RotationAngles{geometry::Plane::yz, 1, -2.5}));
     EXPECT_EQ(parsedCommand<session::Rotate>(R"({"type":"rotate","planes":["xy"],"angles":[0.5]})").turn,
-              (geometry::Turn{geometry::Plane::xy, 0.5, {}}));
+              (geometry::RotationAngles{geometry::Plane::xy, 0.5, {}}));
     const auto toward = parsedCommand<session::TurnToward>(R"({"type":"toward","element":"edge","number":3})");
     EXPECT_EQ(toward.element, slicing::ElementKind::edge);
     EXPECT_EQ(toward.number, 3U);
@@ -57,7 +57,7 @@ TEST(Parse, Commands) {
     EXPECT_FALSE(parsedCommand<session::TurnAtRandom>(R"({"type":"random"})").seed);
     parsedCommand<session::Undo>(R"({"type":"undo"})");
     parsedCommand<session::Redo>(R"({"type":"redo"})");
-    parsedCommand<session::Reset>(R"({"type":"reset"})");
+    parsedCommand<session::ResetOrientationAndFocus>(R"({"type":"reset"})");
     EXPECT_EQ(parsedCommand<session::CommandLine>(R"({"type":"command","line":"polytope 600-cell"})").line,
               "polytope 600-cell");
     const auto load =
@@ -110,7 +110,7 @@ TEST(Parse, GetAndShown) {
 
 TEST(Parse, SetsEverySetting) {
     nlohmann::json message{{"type", "set"}};
-    session::Set expected;
+    session::ChangeSettings expected;
     std::set<std::string> tested;
     const auto add = [&](const std::string& place, const nlohmann::json& value) {
         message[nlohmann::json::json_pointer(place)] = value;
@@ -127,7 +127,7 @@ TEST(Parse, SetsEverySetting) {
     add("/orientation", nlohmann::json::parse("[[1,0,0,0],[0,0,-1,0],[0,1,0,0],[0,0,0,1]]"));
     add("/last", nlohmann::json::parse(R"({"planes":["xw"],"angles":[0.3]})"));
 
-    const auto set = parsedCommand<session::Set>(message.dump());
+    const auto set = parsedCommand<session::ChangeSettings>(message.dump());
     EXPECT_EQ(settingTexts(set), settingTexts(expected)) << "the values that the command line sets";
     EXPECT_TRUE(set.continues);
     ASSERT_TRUE(set.formula);
@@ -137,7 +137,7 @@ TEST(Parse, SetsEverySetting) {
     EXPECT_EQ(set.formula->secondFormula, "w");
     ASSERT_TRUE(set.orientation);
     EXPECT_EQ(*set.orientation * glm::dvec4(0, 0, 1, 0), glm::dvec4(0, -1, 0, 0));
-    EXPECT_EQ(set.lastTurn, (geometry::Turn{geometry::Plane::xw, 0.3, {}}));
+    EXPECT_EQ(set.lastTurn, (geometry::RotationAngles{geometry::Plane::xw, 0.3, {}}));
 
     // Expects that the list contains each setting of the schema.
     std::set<std::string> settings;
@@ -152,8 +152,8 @@ TEST(Parse, SetsEverySetting) {
             settings.insert("/" + name + "/" + member);
     }
     EXPECT_EQ(tested, settings);
-    EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","polytope":"5-cell"})").object, "5-cell");
-    EXPECT_EQ(parsedCommand<session::Set>(R"({"type":"set","slices":{"count":21.0}})").count, 21)
+    EXPECT_EQ(parsedCommand<session::ChangeSettings>(R"({"type":"set","polytope":"5-cell"})").object, "5-cell");
+    EXPECT_EQ(parsedCommand<session::ChangeSettings>(R"({"type":"set","slices":{"count":21.0}})").count, 21)
         << "an integer, however it is written";
 }
 
@@ -182,7 +182,7 @@ TEST_P(BadMessages, GetTheirError) {
 std::string quotedViews() {
     std::vector<std::string> quoted;
     for (const scene::ViewRow& row : scene::kViews) quoted.push_back('"' + std::string(row.name) + '"');
-    return text::alternatives(std::vector<std::string_view>(quoted.begin(), quoted.end()));
+    return text::joinedWithOr(std::vector<std::string_view>(quoted.begin(), quoted.end()));
 }
 
 constexpr auto kBadJson = ErrorCode::bad_json;

@@ -44,7 +44,7 @@ Variations variationsOf(std::type_identity<session::Rotate> /*type*/) {
     return {{R"({"type": "rotate", "planes": ["xy"], "angles": [1]})",
              R"({"planes": ["xz"], "angles": [2], "continues": true})"}};
 }
-Variations variationsOf(std::type_identity<session::Set> /*type*/) {
+Variations variationsOf(std::type_identity<session::ChangeSettings> /*type*/) {
     return {{R"({"type": "set", "polytope": "mine"})",
              R"({"polytope": "24-cell", "orientation": [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],
                  "field": {"formula": "x", "box": [[-1, 1], [-1, 1], [-1, 1], [-1, 1]]},
@@ -83,10 +83,10 @@ template <typename Body>
 bool isSame(const Body& a, const Body& b) {
     return a == b;
 }
-// Returns whether two Set commands are equal. Compares only members outside the table of settings, because the table
-// has tests of its own.
-bool isSame(const session::Set& a, const session::Set& b) {
-    const auto own = [](const session::Set& set) {
+// Returns whether two ChangeSettings commands are equal. Compares only members outside the table of settings, because
+// the table has tests of its own.
+bool isSame(const session::ChangeSettings& a, const session::ChangeSettings& b) {
+    const auto own = [](const session::ChangeSettings& set) {
         return std::tie(set.continues, set.object, set.formula, set.orientation, set.lastTurn);
     };
     return own(a) == own(b);
@@ -99,7 +99,7 @@ std::set<std::string> membersReadOtherwise(const std::string& type, const json& 
     for (const auto& [name, schema] : properties.items()) {
         if (schema.value("description", "").starts_with("Ignored.")) names.insert(name);
     }
-    if (type == session::Set::kMessageType) {
+    if (type == session::ChangeSettings::kMessageType) {
         session::forEachSetting([&](const auto& setting) {
             names.emplace(setting.name.object.empty() ? setting.name.member : setting.name.object);
         });

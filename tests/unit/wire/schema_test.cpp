@@ -157,7 +157,7 @@ TEST(Tables, SetAndStateHaveTheSettings) {
 
 /// Expects that the schema of a number allows this range, and that its title states the same bounds, if it states
 /// bounds.
-void expectRange(const json& schema, const geometry::Range& range) {
+void expectRange(const json& schema, const geometry::NumberRange& range) {
     const bool isOpen = schema.contains("exclusiveMinimum");
     const double minimum = schema.at(isOpen ? "exclusiveMinimum" : "minimum"), maximum = schema.at("maximum");
     EXPECT_TRUE(isOpen ? minimum < range.least : minimum == range.least) << minimum << ", not " << range.least;
@@ -179,7 +179,7 @@ TEST(Tables, TheRangesOfSettingsAreThoseOfTheSchema) {
         }
     });
     using geometry::ReferenceFrame;
-    const auto symmetric = [](double most) { return geometry::Range{-most, most}; };
+    const auto symmetric = [](double most) { return geometry::NumberRange{-most, most}; };
     const json settings = readSchema("settings.schema.json").at("properties");
     expectRange(settings.at("pace"), ReferenceFrame::kPaceRange);
     expectRange(settings.at("follow").at("items"), ReferenceFrame::kFollowRange);
@@ -338,7 +338,8 @@ TEST(Tables, TheColorsAreThoseOfTheCode) {
          {std::pair("dark", Background::dark), {"light", Background::light}, {"white", Background::white}})
         EXPECT_EQ(table.at("grounds").at(name), hex(scene::style(background).background)) << name;
     for (const auto& [name, scheme] : scene::kSchemes) {
-        const scene::Style& style = scene::style(scheme == scene::Scheme::dark ? Background::dark : Background::white);
+        const scene::PictureStyle& style =
+            scene::style(scheme == scene::ColorScheme::dark ? Background::dark : Background::white);
         const json expected{{"text", hex(style.text)},
                             {"focus", hex(style.focusText)},
                             {"ball", hex(style.ball)},
@@ -356,7 +357,7 @@ TEST(Tables, TheColorsAreThoseOfTheCode) {
 
 TEST(Tables, ThePartsAreThoseOfTheSchemas) {
     Names parts;
-    for (const scene::NamedPart& part : scene::kParts) parts.emplace(part.name);
+    for (const scene::NamedPicturePart& part : scene::kParts) parts.emplace(part.name);
     for (const json& schema : {readSchema("set.schema.json"), readSchema("state.schema.json"),
                                readSchema("slices.schema.json").at("properties").at("scene")}) {
         Names shown;

@@ -34,7 +34,7 @@ export function drawCoordinates(
  * The vertex whose parallel coordinates are at the pixel (x, y); undefined if there is none, or if a histogram or
  * nothing is drawn. For density strips, see vertexInDensityStripAt(). Otherwise, each vertex has a band, the rectangle
  * around its four lines that drawLines() fills to highlight it; the pixel must lie in this band.
- * Picker::pickCoordinates() in pick.cpp finds the same vertex.
+ * ElementPicker::pickCoordinates() in pick.cpp finds the same vertex.
  */
 export function vertexInCoordinatesAt(picture: Slices, { height }: Viewport, x: number, y: number): number | undefined {
     const { coordinates: values, scene } = picture;
@@ -103,12 +103,12 @@ function drawLines(
         const x = left + (i % perRow) * columnStep + (3 * lineStep + thickness) / 2;
         const y = zeroOf(row) + amplitude * height + 1.4 * digits;
         const isOverNextRow = wanted < leastText && row < lastRow && y > zeroOf(row + 1) - amplitude * height;
-        if (!isOverNextRow) drawName(pen, `P${i}`, x, y, viewport);
+        if (!isOverNextRow) drawLabelText(pen, `P${i}`, x, y, viewport);
     }
 }
 
 /** Draws a name centered at x with its baseline at y. Draws nothing if an edge of the picture would cut the name. */
-function drawName(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
+function drawLabelText(pen: CanvasRenderingContext2D, name: string, x: number, y: number, { width, height }: Viewport): void {
     const half = pen.measureText(name).width / 2;
     if (x >= half && x <= width - half && Math.round(y) <= height) pen.fillText(name, Math.round(x), Math.round(y));
 }
@@ -133,7 +133,7 @@ function drawDensityStrip(
         const left = Math.round(centerOf(k) - thickness / 2);
         pen.fillStyle = cssColor(colors.axes[k]!);
         pen.fillRect(left, zero - amplitude, thickness, 2 * amplitude);
-        if (layout.named) drawName(pen, "xyzw"[k]!, left + thickness / 2, zero + amplitude + 1.4 * digits, viewport);
+        if (layout.named) drawLabelText(pen, "xyzw"[k]!, left + thickness / 2, zero + amplitude + 1.4 * digits, viewport);
     }
     drawLinesOverDensityStrip(pen, picture, viewport, highlighted.ownVertices);
     const focus = picture.slices.find((slice) => slice.focus);
@@ -180,7 +180,7 @@ function drawHistogram(
         pen.fillRect(left, bottom, width, thickness);
         const label = axisLabel(k, units);
         const fits = pen.measureText(label).width <= width;
-        drawName(pen, fits ? label : label.slice(0, 1), left + width / 2, bottom + 1.4 * digits, viewport);
+        drawLabelText(pen, fits ? label : label.slice(0, 1), left + width / 2, bottom + 1.4 * digits, viewport);
     }
     const edges = { left: Math.round(leftOf(0)), right: Math.round(leftOf(3)) + width, top };
     if (quantity !== undefined) drawQuantity(pen, quantity, edges, digits, colors);

@@ -67,8 +67,8 @@ export function vertexInDensityStripAt(picture: Slices, atX: number, atY: number
         return Math.abs(zero + (from + (along - axis) * (to - from)) * unit - atY);
     };
     return (
-        nearestOf(verticesWithLines(highlight?.own_vertices ?? []), distanceOf, width) ??
-        nearestOf(Array(values.length / 4).keys(), distanceOf, kLineReach)
+        nearestVertexWithin(verticesWithLines(highlight?.own_vertices ?? []), distanceOf, width) ??
+        nearestVertexWithin(Array(values.length / 4).keys(), distanceOf, kLineReach)
     );
 }
 
@@ -76,7 +76,7 @@ export function vertexInDensityStripAt(picture: Slices, atX: number, atY: number
  * The vertex with the least distance; the first if several have equal distances. Undefined if the least distance
  * exceeds `reach`. The vertices must be in ascending order.
  */
-function nearestOf(
+function nearestVertexWithin(
     vertices: Iterable<number>,
     distanceOf: (vertex: number) => number,
     reach: number,

@@ -7,7 +7,7 @@ import type { SceneDescription, Slice, Slices, Vector } from "@oval4d/protocol";
 export type IndexRange = [begin: number, end: number];
 
 /** A slice, and the ranges of its vertices, edges and faces in the arrays. */
-export interface SliceRanges {
+export interface SliceElementRanges {
     slice: Slice;
     position: Vector;
     vertices: IndexRange;
@@ -18,7 +18,7 @@ export interface SliceRanges {
 
 /** The flat arrays of the vertices, edges and faces of all drawn slices. */
 export class SliceElements {
-    sliceRanges: SliceRanges[] = [];
+    sliceRanges: SliceElementRanges[] = [];
     vertexCount = 0;
     edgeCount = 0;
     faceCount = 0;
@@ -31,7 +31,7 @@ export class SliceElements {
     normals = new Float32Array(0); // x, y, z of each face's outward normal
     // The edges of a slice, grouped by the smaller vertex index of each edge.
     readonly edgesByVertex = new EdgeBuckets();
-    private readonly spare: SliceRanges[] = []; // unused objects, kept for pictures with more slices
+    private readonly spare: SliceElementRanges[] = []; // unused objects, kept for pictures with more slices
 
     /** Replaces the elements by the elements of a new picture. */
     update({ slices, scene }: Slices): void {
@@ -49,7 +49,7 @@ export class SliceElements {
         for (const ranges of this.sliceRanges) this.writeSlice(ranges, scene);
     }
 
-    private addSlice(slice: Slice): SliceRanges {
+    private addSlice(slice: Slice): SliceElementRanges {
         const { vertexCount, edgeCount, faceCount } = this;
         this.vertexCount += slice.vertices.length / 3;
         this.edgeCount += slice.edges.length / 2;
@@ -64,7 +64,7 @@ export class SliceElements {
         return ranges;
     }
 
-    private writeSlice({ slice, position, vertices, edges, faces }: SliceRanges, scene: SceneDescription): void {
+    private writeSlice({ slice, position, vertices, edges, faces }: SliceElementRanges, scene: SceneDescription): void {
         const begin = slice.faces.begin;
         const firstCorner = this.cornerBegin[faces[0]]!;
         for (let i = 0; i < slice.vertices.length; ++i) {
@@ -117,7 +117,7 @@ export class SliceElements {
     }
 }
 
-function emptyRanges(slice: Slice): SliceRanges {
+function emptyRanges(slice: Slice): SliceElementRanges {
     return { slice, position: slice.position, vertices: [0, 0], edges: [0, 0], faces: [0, 0], distance: 0 };
 }
 

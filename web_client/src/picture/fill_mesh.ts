@@ -22,7 +22,7 @@ interface SliceFill {
     first: number; // the index in the mesh of the first point of `fill`
 }
 
-export class FillMesh {
+export class FilledFacesMesh {
     readonly geometry = new BufferGeometry();
     private parts: SliceFill[] = [];
     private readonly shapes = new ShapeBuffers();

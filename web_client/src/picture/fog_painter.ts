@@ -44,8 +44,8 @@ uniform vec3 low;            // the first point of the lattice
 uniform vec3 size;           // the numbers of lattice points along x, y and z
 uniform float latticeStep;
 out vec4 pixel;
-// Returns the distance of the nearest shape at this pixel, from a depth texture, along the view axis; 1e30 if there is
-// no shape.
+// Returns the distance from the eye, along the view axis, of the nearest shape at this pixel; 1e30 if there is none.
+// The argument is a depth texture.
 float distanceIn(sampler2D depths) {
     float depth = texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r;
     return depth < 1.0 ? toDepth.y / (2.0 * depth - 1.0 - toDepth.x) : 1e30;
@@ -153,7 +153,7 @@ export class FogPainter {
     }
 
     /** Whether the picture has fog. */
-    get isShown(): boolean {
+    get hasFog(): boolean {
         return this.picture !== undefined;
     }
 
@@ -179,7 +179,7 @@ export class FogPainter {
     private upload(): void {
         const { gl } = this;
         if (gl.isContextLost()) return;
-        const resources = (this.resources ??= makeResources(gl));
+        const resources = (this.resources ??= makeFogResources(gl));
         for (const each of resources.lattices.values()) {
             for (const texture of Object.values(each)) gl.deleteTexture(texture);
         }
@@ -210,8 +210,8 @@ export class FogPainter {
      * Stores the depths of all occluders of one kind in a framebuffer of this size, for a later call of draw(). `draw`
      * must draw all occluders of this kind, and nothing else.
      */
-    drawDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
-        this.targets ??= { frame: makeTarget(4), surfaces: makeTarget(0) };
+    captureOccluderDepths({ width, height }: Viewport, occluders: FogOccluders, draw: () => void): void {
+        this.targets ??= { frame: makeDepthReadableTarget(4), surfaces: makeDepthReadableTarget(0) };
         const target = this.targets[occluders];
         target.setSize(width, height);
         this.renderer.setRenderTarget(target);
@@ -220,7 +220,7 @@ export class FogPainter {
         this.renderer.setRenderTarget(null);
     }
 
-    /** Prepares for draw(). Must be called after drawDepths() for both kinds of occluders. */
+    /** Prepares for draw(). Must be called after captureOccluderDepths() for both kinds of occluders. */
     begin(viewCamera: ViewCamera): void {
         const { gl, picture, resources } = this;
         if (!picture || !resources) return;
@@ -290,7 +290,7 @@ export class FogPainter {
  * Makes a framebuffer whose depths can be read. `samples` is the number of samples per pixel; 0 means no multisampling.
  * Balls and bars need multisampling, because alpha to coverage antialiases them.
  */
-function makeTarget(samples: number): WebGLRenderTarget {
+function makeDepthReadableTarget(samples: number): WebGLRenderTarget {
     return new WebGLRenderTarget(1, 1, { samples, stencilBuffer: false, depthTexture: new DepthTexture(1, 1) });
 }
 
@@ -360,7 +360,7 @@ function makeTexture(gl: WebGL2RenderingContext, target: GLenum, filter: GLenum)
     return texture;
 }
 
-function makeResources(gl: WebGL2RenderingContext): FogResources {
+function makeFogResources(gl: WebGL2RenderingContext): FogResources {
     const { program, uniforms } = makeProgram(gl, "fog", kVertexShader, kFragmentShader, kUniforms);
     const arrays = gl.createVertexArray();
     const buffers = [gl.createBuffer(), gl.createBuffer()] as const;

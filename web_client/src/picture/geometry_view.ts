@@ -7,16 +7,16 @@ import { Mesh as Drawing, RawShaderMaterial, Scene, Vector3, Vector4, WebGLRende
 
 import type { Orbit, Slices, Viewport } from "@oval4d/protocol";
 
-import { FillMesh } from "./fill_mesh";
+import { FilledFacesMesh } from "./fill_mesh";
 import { FogPainter } from "./fog_painter";
 import {
-    changeBetween,
-    keptAndPointedElements,
+    highlightChangeBetween,
+    highlightedAndPointedElements,
     type ElementCounts,
     type HighlightedElements,
 } from "./highlighted_elements";
 import { HitTester } from "./hit_tester";
-import { onWhite } from "./on_white";
+import { recolorForWhite } from "./on_white";
 import { drawOverlay } from "./overlay";
 import { ProjectionMesh } from "./projection_mesh";
 import { fragmentShader, vertexShader } from "./shaders";
@@ -33,7 +33,7 @@ export class GeometryView {
     private readonly projectionScene = new Scene();
     private readonly camera = new Camera();
     private readonly slicesMesh = new SlicesMesh();
-    private readonly fillMesh = new FillMesh();
+    private readonly fillMesh = new FilledFacesMesh();
     private readonly drawing: Drawing<BufferGeometry, RawShaderMaterial>;
     private readonly fillDrawing: Drawing<BufferGeometry, RawShaderMaterial>;
     private readonly uniforms = {
@@ -126,7 +126,7 @@ export class GeometryView {
         this.picture = picture;
         this.pictureOrbit = orbit;
         this.hitTester = new HitTester(picture, orbit);
-        const highlighted = (this.highlighted = keptAndPointedElements(picture, this.pointed));
+        const highlighted = (this.highlighted = highlightedAndPointedElements(picture, this.pointed));
         const filled = this.fillMesh.update(picture, highlighted);
         const isField = this.surfacePainter.update(picture) || picture.scene.fog !== undefined;
         this.fogPainter.update(picture);
@@ -149,8 +149,8 @@ export class GeometryView {
         this.pointed = pointed;
         const { picture, highlighted: before } = this;
         if (!picture || !before) return;
-        const highlighted = (this.highlighted = keptAndPointedElements(picture, pointed));
-        const change = changeBetween(before, highlighted);
+        const highlighted = (this.highlighted = highlightedAndPointedElements(picture, pointed));
+        const change = highlightChangeBetween(before, highlighted);
         for (const mesh of [this.slicesMesh, this.fillMesh, this.projectionMesh]) {
             mesh.writeColorsToBuffers(picture, highlighted, change);
         }
@@ -192,7 +192,7 @@ export class GeometryView {
         const { picture, pictureOrbit, counts, pointed } = this;
         if (!picture || !pictureOrbit) return;
         this.pointed = undefined;
-        this.update(onWhite(picture), pictureOrbit, counts);
+        this.update(recolorForWhite(picture), pictureOrbit, counts);
         this.draw(orbit, size, leastText);
         for (const canvas of [this.renderer.domElement, this.overlay]) pen.drawImage(canvas, 0, 0);
         this.pointed = pointed;
@@ -224,14 +224,14 @@ export class GeometryView {
             surfacePainter.draw("translucent", viewCamera, "projection");
             renderer.clearDepth();
         }
-        if (fogPainter.isShown) {
-            fogPainter.drawDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
-            fogPainter.drawDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", viewCamera, "slices"));
+        if (fogPainter.hasFog) {
+            fogPainter.captureOccluderDepths(this.overlay, "frame", () => renderer.render(this.scene, this.camera));
+            fogPainter.captureOccluderDepths(this.overlay, "surfaces", () => surfacePainter.draw("opaque", viewCamera, "slices"));
         }
         surfacePainter.draw("opaque", viewCamera, "slices");
-        if (fogPainter.isShown) this.drawFogAndSurfaces("behind");
+        if (fogPainter.hasFog) this.drawFogAndSurfaces("behind");
         renderer.render(this.scene, this.camera);
-        if (fogPainter.isShown) this.drawFogAndSurfaces("inFront");
+        if (fogPainter.hasFog) this.drawFogAndSurfaces("inFront");
         else surfacePainter.draw("translucent", viewCamera, "slices");
     }
 

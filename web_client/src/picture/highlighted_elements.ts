@@ -6,7 +6,7 @@ import type { Highlight, PolytopeElement, SceneDescription, Slices, State } from
 /** The numbers of edges, faces and cells that the polytope has. */
 export type ElementCounts = Pick<State["polytope"], "edges" | "faces" | "cells">;
 
-/** The parts of a picture that show the highlighted elements. */
+/** The vertices, edges and faces of a picture that are drawn in the highlight color. */
 export interface HighlightedElements {
     /**
      * Numbers in the arrays `of.vertices` and `of.edges` of slices and of the projection; they identify elements of the
@@ -27,7 +27,7 @@ export interface HighlightedElements {
 export function pointedElements(
     pointed: PolytopeElement,
     counts: ElementCounts,
-    highlight: Highlight = ownHighlight(pointed, counts),
+    highlight: Highlight = highlightWithoutAnswer(pointed, counts),
 ): HighlightedElements {
     return {
         vertices: new Set(highlight.vertices),
@@ -41,7 +41,7 @@ export function pointedElements(
  * The parts of a picture that are sections of an element itself. The sections of a cell are faces, which `cell`
  * highlights.
  */
-function ownHighlight({ element, number }: PolytopeElement, { edges, faces }: ElementCounts): Highlight {
+function highlightWithoutAnswer({ element, number }: PolytopeElement, { edges, faces }: ElementCounts): Highlight {
     const own: Record<PolytopeElement["element"], Partial<Highlight>> = {
         vertex: { vertices: [edges + number], own_vertices: [number] },
         edge: { vertices: [number], edges: [faces + number] },
@@ -52,7 +52,7 @@ function ownHighlight({ element, number }: PolytopeElement, { edges, faces }: El
 }
 
 /** The parts of a picture that show the kept element and the element under the pointer. */
-export function keptAndPointedElements(
+export function highlightedAndPointedElements(
     { highlight }: Slices,
     pointed: HighlightedElements | undefined,
 ): HighlightedElements {
@@ -81,7 +81,7 @@ export function isFlagged(flags: Uint8Array, n: number): boolean {
     return n < flags.length && flags[n] === 1;
 }
 
-export function changeBetween(before: HighlightedElements, after: HighlightedElements): HighlightChange {
+export function highlightChangeBetween(before: HighlightedElements, after: HighlightedElements): HighlightChange {
     return {
         vertices: flagsOfDifference(before.vertices, after.vertices),
         edges: flagsOfDifference(before.edges, after.edges),

@@ -118,8 +118,8 @@ export function hitAt(
     let found: HitWithDepth | undefined;
     for (const mesh of meshes) {
         if (found && !(isField && !found.hit.slice)) break;
-        if (!mayContain(mesh, picture, viewCamera, x, y)) continue;
-        const hit = new MeshTest(mesh, viewCamera, x, y, kReach * ratio).nearest();
+        if (!mayHitMesh(mesh, picture, viewCamera, x, y)) continue;
+        const hit = new MeshHitTest(mesh, viewCamera, x, y, kReach * ratio).nearestHit();
         if (hit && hit.depth < (found?.depth ?? Infinity)) found = hit;
     }
     return found?.hit;
@@ -156,7 +156,7 @@ function pickableMeshes({ slices, scene, projection }: Slices, { eye }: ViewCame
 }
 
 /** Whether the pixel (x, y) can lie on the mesh: a quick test with a sphere around the mesh. */
-function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamera, x: number, y: number): boolean {
+function mayHitMesh(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamera, x: number, y: number): boolean {
     const { position, scale, magnification, ball, elements } = mesh;
     const center = viewCamera.project(position);
     const depth = viewCamera.depthOf(position);
@@ -173,7 +173,7 @@ function mayContain(mesh: PickableMesh, { scene }: Slices, viewCamera: ViewCamer
  * Finds the nearest element or surface of one mesh at the pixel (x, y). `reach` is the least radius of balls and bars,
  * in pixels.
  */
-class MeshTest {
+class MeshHitTest {
     private depth = Infinity;
     private hit: ElementHit | LevelHit | undefined;
 
@@ -187,7 +187,7 @@ class MeshTest {
         this.projectVertices();
     }
 
-    nearest(): HitWithDepth | undefined {
+    nearestHit(): HitWithDepth | undefined {
         const { ball, bar, hasFaces, surface } = this.mesh;
         if (ball > 0) this.testBalls();
         if (bar > 0) this.testBars();
@@ -270,7 +270,10 @@ class MeshTest {
         this.hit = { level, cap, point, ...(slice && { slice }) };
     }
 
-    /** Tests all faces. Consecutive loops with the same source form one face, as in the class Picker in pick.cpp. */
+    /**
+     * Tests for all faces whether they are at the pixel. Each entry of `elements.faces` is one loop. Consecutive loops
+     * with the same number in `of.faces` form one face.
+     */
     private testFaces(): void {
         const { of, seen: visibility } = this.mesh.elements;
         for (let f = 0, end = 0; f < of.faces.length; f = end) {

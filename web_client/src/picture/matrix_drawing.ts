@@ -3,7 +3,7 @@
 import type { SceneDescription, SectionMatrix, Slices, Vector, Viewport } from "@oval4d/protocol";
 
 import { cellColor, type ElementCounts, type HighlightedElements, isPointHighlighted } from "./highlighted_elements";
-import { type MatrixPanel, nameCenter, panelsOf } from "./matrix_panel";
+import { type MatrixPanel, axisNameCenter, panelsOf } from "./matrix_panel";
 import { cssColor, setFontAndMeasureDigits } from "./pen";
 import type { ViewCamera } from "./view_camera";
 
@@ -21,7 +21,7 @@ const kFocusReach = 0.12;
 const kFocusWidth = 0.0028;
 
 /** Data for drawing a panel that are the same for all panels of a picture. */
-interface PanelContext {
+interface PanelDrawingContext {
     pen: CanvasRenderingContext2D;
     matrix: SectionMatrix;
     scene: SceneDescription;
@@ -43,7 +43,7 @@ export function drawMatrix(
     if (!matrix) return;
     drawFocusPoint(pen, picture, matrix, viewCamera, viewport);
     const context = { pen, matrix, scene, viewport, highlighted, counts };
-    drawNames(context);
+    drawAxisNames(context);
     for (const panel of panelsOf(matrix, viewport)) drawPanel(panel, context);
     pen.globalAlpha = 1;
 }
@@ -78,10 +78,10 @@ function drawFocusPoint(
     pen.lineCap = "butt";
 }
 
-function drawNames({ pen, matrix, scene, viewport }: PanelContext): void {
+function drawAxisNames({ pen, matrix, scene, viewport }: PanelDrawingContext): void {
     const panel = matrix.panel * viewport.height;
     const digits = setFontAndMeasureDigits(pen, kNameHeight * panel);
-    const axes = kAxes.map((name, axis) => ({ name, color: scene.colors.axes[axis]!, ...nameCenter(matrix, axis, viewport) }));
+    const axes = kAxes.map((name, axis) => ({ name, color: scene.colors.axes[axis]!, ...axisNameCenter(matrix, axis, viewport) }));
     for (const { name, color, x, y } of axes) {
         pen.fillStyle = cssColor(color);
         pen.fillText(name, Math.round(x), Math.round(y + digits / 2));
@@ -95,7 +95,7 @@ function drawNames({ pen, matrix, scene, viewport }: PanelContext): void {
     }
 }
 
-function drawPanel(panel: MatrixPanel, context: PanelContext): void {
+function drawPanel(panel: MatrixPanel, context: PanelDrawingContext): void {
     const { pen, matrix, scene, viewport } = context;
     const { shown, colors } = scene;
     const box = boxOf(panel);
@@ -123,7 +123,7 @@ function boxOf({ x, y, half }: MatrixPanel) {
 type Quadruple = [number, number, number, number];
 
 /** Fills the section of a convex polytope. Does nothing if the edges of the section do not form one closed polygon. */
-function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelContext): void {
+function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen, scene }: PanelDrawingContext): void {
     const isConvex = scene.opacity < 1; // see `opacity` in protocol/README.md
     if (boundary.length === 0 || !isConvex) return;
     pen.globalAlpha = kFillOpacity;
@@ -137,7 +137,7 @@ function drawFill({ section: { boundary } }: MatrixPanel, points: Pixel[], { pen
  * Draws two lines through the focus point. In them, the panel's plane meets the planes of the other panels in its row
  * and in its column.
  */
-function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelContext): void {
+function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, viewport }: PanelDrawingContext): void {
     const { row, column, section } = panel;
     const [first, second] = section.axes;
     const [x, y] = panel.pixelOf([matrix.point[first]!, matrix.point[second]!]);
@@ -153,7 +153,7 @@ function drawFocusLines(panel: MatrixPanel, box: Box, { pen, matrix, scene, view
     }
 }
 
-function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: PanelContext): void {
+function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: PanelDrawingContext): void {
     pen.globalAlpha = 1;
     pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
     pen.lineCap = pen.lineJoin = "round";
@@ -171,7 +171,7 @@ function drawContours(panel: MatrixPanel, { pen, matrix, scene, viewport }: Pane
 function drawEdges(
     { section }: MatrixPanel,
     points: Pixel[],
-    { pen, matrix, scene, viewport, highlighted }: PanelContext,
+    { pen, matrix, scene, viewport, highlighted }: PanelDrawingContext,
 ): void {
     const opacities = [0, scene.faded, 1];
     pen.lineWidth = Math.max(1, matrix.line_width * viewport.height);
@@ -189,7 +189,7 @@ function drawEdges(
     pen.lineCap = "butt";
 }
 
-function drawPoints({ section }: MatrixPanel, points: Pixel[], context: PanelContext): void {
+function drawPoints({ section }: MatrixPanel, points: Pixel[], context: PanelDrawingContext): void {
     const { pen, matrix, scene, viewport, highlighted, counts } = context;
     const { balls, of, seen } = section;
     const opacities = [0, scene.faded, 1];

@@ -52,7 +52,7 @@ function contourAt(panel: MatrixPanel, { point }: SectionMatrix, pixel: Pixel, r
             const distance = distanceFromSegment(pixel, places[i]!, places[i + 1]!);
             if (distance > nearest) continue;
             nearest = distance;
-            const part = nearestPart(pixel, places[i]!, places[i + 1]!);
+            const part = nearestSegmentParameter(pixel, places[i]!, places[i + 1]!);
             const at: LevelHit["point"] = [...point];
             axes.forEach((axis, k) => (at[axis] = points[i]![k]! + part * (points[i + 1]![k]! - points[i]![k]!)));
             found = { level, cap: false, point: at };
@@ -63,12 +63,12 @@ function contourAt(panel: MatrixPanel, { point }: SectionMatrix, pixel: Pixel, r
 
 /** The distance of a pixel from a line segment. */
 export function distanceFromSegment(pixel: Pixel, from: Pixel, to: Pixel): number {
-    const part = nearestPart(pixel, from, to);
+    const part = nearestSegmentParameter(pixel, from, to);
     return Math.hypot(from[0] + part * (to[0] - from[0]) - pixel[0], from[1] + part * (to[1] - from[1]) - pixel[1]);
 }
 
 /** The position on a line segment that is nearest to a pixel: 0 at the segment's start, 1 at its end. */
-function nearestPart([x, y]: Pixel, [fromX, fromY]: Pixel, [toX, toY]: Pixel): number {
+function nearestSegmentParameter([x, y]: Pixel, [fromX, fromY]: Pixel, [toX, toY]: Pixel): number {
     const [dx, dy] = [toX - fromX, toY - fromY];
     const along = ((x - fromX) * dx + (y - fromY) * dy) / (dx * dx + dy * dy || 1);
     return Math.min(1, Math.max(0, along));

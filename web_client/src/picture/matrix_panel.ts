@@ -52,7 +52,7 @@ export function panelsOf(matrix: SectionMatrix, viewport: Viewport): MatrixPanel
 }
 
 /** The center, in pixels, of the diagonal panel that shows the name of `axis`, 0 to 3. */
-export function nameCenter({ left, bottom, panel, step }: SectionMatrix, axis: number, { height }: Viewport) {
+export function axisNameCenter({ left, bottom, panel, step }: SectionMatrix, axis: number, { height }: Viewport) {
     return {
         x: (left + axis * step + panel / 2) * height,
         y: (1 - bottom - (3 - axis) * step - panel / 2) * height,

@@ -26,7 +26,7 @@ const kReplaced = new Map(
 /**
  * Returns the picture with colors for a white background. The result shares with `picture` most data other than colors.
  */
-export function onWhite(picture: Slices): Slices {
+export function recolorForWhite(picture: Slices): Slices {
     const { scene, slices, projection, histogram } = picture;
     const background = numberOf(table.grounds.white);
     if (scene.colors.text === numberOf(light.text)) {
@@ -53,7 +53,7 @@ export function onWhite(picture: Slices): Slices {
         scene: {
             ...scene,
             colors,
-            opacity: onLightGround(scene.opacity),
+            opacity: faceOpacityOnLightGround(scene.opacity),
             ...(scene.surfaces && { surfaces: scene.surfaces.map((one) => ({ ...one, color: convert(one.color) })) }),
             ...(scene.fog && {
                 fog: { table: Uint32Array.from(scene.fog.table, (entry) => (entry & opaque) | convert(entry & ~opaque)) },
@@ -88,7 +88,7 @@ export function onWhite(picture: Slices): Slices {
 }
 
 /** Converts the opacity of faces from dark to light ground. Translucent faces stay translucent. */
-function onLightGround(opacity: number): number {
+function faceOpacityOnLightGround(opacity: number): number {
     return opacity < 1 ? Math.min((opacity * light.faces) / dark.faces, kMostTranslucent) : opacity;
 }
 

@@ -32,7 +32,7 @@ export function drawOverlay(
 
 /**
  * The height of the parallel coordinates, from the bottom of the picture to their upper edge, in pixels.
- * CoordinatesLayout::top() in C++ computes the same height.
+ * ParallelCoordinatesLayout::top() in C++ computes the same height.
  */
 export function heightOfCoordinates({ coordinates: { zero, amplitude } }: SceneDescription, { height }: Viewport): number {
     return (zero + amplitude + 0.01) * height;
@@ -49,7 +49,7 @@ function clearCoordinatesArea(pen: CanvasRenderingContext2D, scene: SceneDescrip
 }
 
 /** The label of a slice, with its position in the picture. All lengths are in canvas pixels. */
-interface OverlayLabel {
+interface PlacedSliceLabel {
     slice: Slice;
     x: number;
     y: number;
@@ -72,7 +72,7 @@ function drawLabels(
     viewport: Viewport,
     leastText: number,
 ): void {
-    const placed: OverlayLabel[] = [];
+    const placed: PlacedSliceLabel[] = [];
     const bottom =
         scene.shown.coordinates && viewCamera.isMoved
             ? viewport.height - heightOfCoordinates(scene, viewport)
@@ -101,7 +101,7 @@ function drawLabels(
             label.x <= viewport.width - label.half &&
             label.y >= 0 &&
             label.y <= bottom - digits;
-        const apart = (other: OverlayLabel): boolean =>
+        const apart = (other: PlacedSliceLabel): boolean =>
             Math.abs(other.x - label.x) > other.room + label.room + digits / 2 ||
             Math.abs(other.y - label.y) > 1.1 * digits;
         if (slice.focus || (whole && placed.every(apart))) placed.push(label);
@@ -109,7 +109,7 @@ function drawLabels(
     for (const label of placed.reverse()) drawLabel(pen, scene, label); // the focus slice's label last, on top
 }
 
-function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: OverlayLabel): void {
+function drawLabel(pen: CanvasRenderingContext2D, { colors }: SceneDescription, label: PlacedSliceLabel): void {
     const { slice, digits } = label;
     const { focus } = slice;
     setFontAndMeasureDigits(pen, label.size);

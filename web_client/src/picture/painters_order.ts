@@ -6,15 +6,15 @@
 
 import type { Parts } from "@oval4d/protocol";
 
-import { EdgeBuckets, ensureCapacity, type SliceElements, type SliceRanges } from "./elements";
+import { EdgeBuckets, ensureCapacity, type SliceElements, type SliceElementRanges } from "./elements";
 import { kQuadTriangles } from "./shape_buffers";
 import { sortByKey } from "./sort";
 import type { ViewCamera } from "./view_camera";
 
-type SolidParts = Pick<Parts, "faces" | "bars" | "balls">;
+type ShownSolidParts = Pick<Parts, "faces" | "bars" | "balls">;
 
 export class PaintersOrder {
-    private shown: SolidParts = { faces: true, bars: true, balls: true };
+    private shown: ShownSolidParts = { faces: true, bars: true, balls: true };
     private vertexInFront = new Uint8Array(0);
     private edgeInFront = new Uint8Array(0);
     private faceInFront = new Uint8Array(0);
@@ -22,7 +22,7 @@ export class PaintersOrder {
     private order = new Uint32Array(0); // the vertices of each slice, from far to near
     private scratch = new Uint32Array(0); // working memory of sortByKey()
     private rank = new Uint32Array(0); // the index of each vertex in `order`
-    private readonly sliceRanges: SliceRanges[] = []; // the slices from far to near
+    private readonly sliceRanges: SliceElementRanges[] = []; // the slices from far to near
     // The edges of a slice, grouped by the rank of each edge's farther vertex.
     private readonly edgesByRank = new EdgeBuckets();
     private out = new Uint32Array(0);
@@ -31,7 +31,7 @@ export class PaintersOrder {
     constructor(private readonly elements: SliceElements) {}
 
     /** Sets which parts are painted, and makes room for the elements of a new picture. */
-    update(parts: SolidParts): void {
+    update(parts: ShownSolidParts): void {
         this.shown = parts;
         const { vertexCount, edgeCount, faceCount } = this.elements;
         this.vertexInFront = ensureCapacity(this.vertexInFront, vertexCount);
@@ -70,7 +70,7 @@ export class PaintersOrder {
     }
 
     /** Finds the faces of a slice that are turned toward the viewer. A vertex or an edge of such a face is in front. */
-    private findFrontElements({ vertices, edges, faces }: SliceRanges, { eye }: ViewCamera): void {
+    private findFrontElements({ vertices, edges, faces }: SliceElementRanges, { eye }: ViewCamera): void {
         const { points, corners, cornerBegin, cornerEdges, normals } = this.elements;
         this.vertexInFront.fill(0, ...vertices);
         this.edgeInFront.fill(0, ...edges);
@@ -89,7 +89,7 @@ export class PaintersOrder {
         }
     }
 
-    private sortVerticesAndEdgesByDepth({ vertices, edges: range }: SliceRanges, { view: { elements: view } }: ViewCamera): void {
+    private sortVerticesAndEdgesByDepth({ vertices, edges: range }: SliceElementRanges, { view: { elements: view } }: ViewCamera): void {
         const { nearness, order, rank } = this;
         const { points, edges } = this.elements;
         for (let v = vertices[0]; v < vertices[1]; ++v) {
@@ -101,7 +101,7 @@ export class PaintersOrder {
         this.edgesByRank.groupEdges(vertices, range, (e) => Math.min(rank[edges[2 * e]!]!, rank[edges[2 * e + 1]!]!));
     }
 
-    private writeFaceIndices({ faces }: SliceRanges, front: number): void {
+    private writeFaceIndices({ faces }: SliceElementRanges, front: number): void {
         const { cornerBegin, vertexCount, edgeCount } = this.elements;
         for (let f = faces[0]; f < faces[1]; ++f) {
             if (this.faceInFront[f] !== front) continue;
@@ -114,7 +114,7 @@ export class PaintersOrder {
         }
     }
 
-    private writeBallAndBarIndices({ vertices }: SliceRanges, front: number): void {
+    private writeBallAndBarIndices({ vertices }: SliceElementRanges, front: number): void {
         const { begin, items } = this.edgesByRank;
         const { balls, bars } = this.shown;
         for (let i = vertices[0]; i < vertices[1]; ++i) {

@@ -27,7 +27,7 @@ const kNearEnd = 3;
 type ProjectionPart = ObjectProjection["parts"][number];
 
 /** The convex polygons that show the faces of one part of the projection. */
-interface PartPolygons {
+interface ProjectionPartPolygons {
     /** The coordinates x, y, z of each point. */
     points: Float32Array;
     /** The corners of the polygons, in the format of Elements.faces, with indices into `points`. */
@@ -49,7 +49,7 @@ export class ProjectionMesh {
     private readonly solidIndex = new GrowingBuffer(Uint32Array, 1);
     private readonly translucentIndex = new GrowingBuffer(Uint32Array, 1);
     private used = 0; // number of vertices in `shapes`
-    private polygons: PartPolygons[] = []; // the polygons of each part of the picture
+    private polygons: ProjectionPartPolygons[] = []; // the polygons of each part of the picture
     // Arrays with one entry for each translucent shape: its first vertex, its number of vertices, and its depth point
     // (kMiddle …).
     private first = new Uint32Array(0);
@@ -204,9 +204,9 @@ export class ProjectionMesh {
     }
 
     private addPolygons(
-        { points, faces: { begin, corners }, seen }: PartPolygons,
+        { points, faces: { begin, corners }, seen }: ProjectionPartPolygons,
         place: (points: Float32Array, p: number) => [number, number, number],
-        opacities: PartOpacities,
+        opacities: ShapeAlphas,
     ): void {
         for (let f = 0; f + 1 < begin.length; ++f) {
             if (opacities.ofPolygon(seen, f) === 0) continue;
@@ -228,7 +228,7 @@ export class ProjectionMesh {
         this.depthKind[this.count++] = depthKind;
     }
 
-    private resizeBuffers(parts: ProjectionPart[], polygons: PartPolygons[]): void {
+    private resizeBuffers(parts: ProjectionPart[], polygons: ProjectionPartPolygons[]): void {
         let [quads, faces, corners] = [0, 0, 0];
         for (const part of parts) quads += part.vertices.length / 3 + part.edges.length / 2;
         for (const { faces: own } of polygons) {
@@ -252,14 +252,14 @@ export class ProjectionMesh {
 }
 
 /** The opacities of the shapes of a part, from 0 to 1. Shapes with the opacity 0 are not drawn. */
-interface PartOpacities {
+interface ShapeAlphas {
     ofVertex(vertex: number): number;
     ofEdge(edge: number): number;
     /** `seen` has the visibility of each polygon, or is undefined if all are visible. */
     ofPolygon(seen: Uint32Array | undefined, polygon: number): number;
 }
 
-function opacitiesOf({ balls, opacity, seen: visibility }: ProjectionPart, { faded }: SceneDescription): PartOpacities {
+function opacitiesOf({ balls, opacity, seen: visibility }: ProjectionPart, { faded }: SceneDescription): ShapeAlphas {
     const opacities = [0, faded, 1];
     return {
         ofVertex: (v) => opacities[visibility?.vertices[v] ?? 2]! * (balls?.opacity[v] ?? 1),
@@ -269,12 +269,12 @@ function opacitiesOf({ balls, opacity, seen: visibility }: ProjectionPart, { fad
 }
 
 /** The convex polygons to draw for a part: its faces or, if these may be nonconvex, the polygons that fill them. */
-function polygonsOf({ vertices, faces, of, tints, seen, fill }: ProjectionPart): PartPolygons {
+function polygonsOf({ vertices, faces, of, tints, seen, fill }: ProjectionPart): ProjectionPartPolygons {
     return fill ? polygonsOfFill(fill) : { points: vertices, faces, tints: tints ?? of.faces, seen: seen?.faces };
 }
 
 /** Joins consecutive triangles of a fill to convex polygons (see Fill). */
-function polygonsOfFill({ points, triangles, tints, seen }: Fill): PartPolygons {
+function polygonsOfFill({ points, triangles, tints, seen }: Fill): ProjectionPartPolygons {
     const begin = [0];
     const corners: number[] = [];
     const first: number[] = []; // the first triangle of each polygon

@@ -24,7 +24,7 @@ export class SlicesMesh {
 
     /**
      * Writes the elements of a new picture. If `faces` is false, the mesh omits the faces, because the picture shows a
-     * field or because FillMesh (fill_mesh.ts) draws the faces.
+     * field or because FilledFacesMesh (fill_mesh.ts) draws the faces.
      */
     update(picture: Slices, faces: boolean, highlighted: HighlightedElements): void {
         const { elements } = this;

@@ -15,7 +15,7 @@ export function sortByKey(
     let [source, target] = [items, scratch];
     for (let run = kRun; run < end - begin; run *= 2) {
         for (let from = begin; from < end; from += 2 * run) {
-            merge(source, target, from, Math.min(from + run, end), Math.min(from + 2 * run, end), keys);
+            mergeRuns(source, target, from, Math.min(from + run, end), Math.min(from + 2 * run, end), keys);
         }
         [source, target] = [target, source];
     }
@@ -31,7 +31,7 @@ function insertionSort(items: Uint32Array, begin: number, end: number, keys: Flo
     }
 }
 
-function merge(
+function mergeRuns(
     from: Uint32Array,
     to: Uint32Array,
     begin: number,

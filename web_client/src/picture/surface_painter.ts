@@ -62,14 +62,14 @@ const kUniforms = ["view", "projection", "place", "color", "hasPointColors", "is
  * The buffers for the attributes 0 (points), 1 (normals) and 2 (colors or capColors), and for the indices (triangles).
  */
 const kBuffers = ["points", "normals", "colors", "capColors", "triangles"] as const;
-type BufferName = (typeof kBuffers)[number];
+type SurfaceBufferName = (typeof kBuffers)[number];
 
 /** The WebGL objects of the painter. The browser may lose them together with their context. */
 interface SurfaceResources {
     program: WebGLProgram;
     uniforms: Record<(typeof kUniforms)[number], WebGLUniformLocation | null>;
     arrays: WebGLVertexArrayObject;
-    buffers: Record<BufferName, { buffer: WebGLBuffer; size: number }>;
+    buffers: Record<SurfaceBufferName, { buffer: WebGLBuffer; size: number }>;
 }
 
 /** The surfaces of one slice, and their place in the buffers. */
@@ -184,7 +184,7 @@ export class SurfacePainter {
     }
 
     /** Binds a buffer, and enlarges it if it has fewer than `bytes` bytes. Enlarging discards the contents. */
-    private bindAndReserve(name: BufferName, bytes: number): void {
+    private bindAndReserve(name: SurfaceBufferName, bytes: number): void {
         const { gl } = this;
         const target = name === "triangles" ? gl.ELEMENT_ARRAY_BUFFER : gl.ARRAY_BUFFER;
         const entry = this.resources!.buffers[name];
@@ -251,11 +251,11 @@ export class SurfacePainter {
         const color = part.surface.color ?? level.color;
         gl.uniform4f(uniforms.color, (color >> 16) / 255, ((color >> 8) & 255) / 255, (color & 255) / 255, level.opacity);
         if (!isOpaque(level)) {
-            for (const hidden of [gl.FRONT, gl.BACK]) this.drawSides(part, level, hidden);
+            for (const hidden of [gl.FRONT, gl.BACK]) this.drawLevelTriangles(part, level, hidden);
         } else if (level.caps) {
-            this.drawSides(part, level, gl.BACK); // a surface with caps is closed, so its back is invisible
+            this.drawLevelTriangles(part, level, gl.BACK); // a surface with caps is closed, so its back is invisible
         } else {
-            this.drawSides(part, level, undefined);
+            this.drawLevelTriangles(part, level, undefined);
         }
     }
 
@@ -263,7 +263,7 @@ export class SurfacePainter {
      * Draws the triangles of a level. `hidden` is the side that is not drawn, gl.FRONT or gl.BACK; undefined draws both
      * sides.
      */
-    private drawSides(
+    private drawLevelTriangles(
         { groups, firstByte, firstPoint }: SliceSurfaces,
         { level, caps }: SurfaceLevel,
         hidden: GLenum | undefined,

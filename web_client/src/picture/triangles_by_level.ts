@@ -20,7 +20,7 @@ export class TrianglesByLevel {
         begin.fill(0);
         let sorted = true;
         for (let t = 0, previous = 0; t < level.length; ++t) {
-            const group = groupOf(level[t]!, cap[t]!);
+            const group = triangleGroupOf(level[t]!, cap[t]!);
             ++begin[group + 1]!;
             sorted &&= group >= previous;
             previous = group;
@@ -31,7 +31,7 @@ export class TrianglesByLevel {
         next.set(begin.subarray(0, kGroups));
         const out = this.triangles;
         for (let t = 0; t < level.length; ++t) {
-            const to = 3 * next[groupOf(level[t]!, cap[t]!)]!++;
+            const to = 3 * next[triangleGroupOf(level[t]!, cap[t]!)]!++;
             out[to] = triangles[3 * t]!;
             out[to + 1] = triangles[3 * t + 1]!;
             out[to + 2] = triangles[3 * t + 2]!;
@@ -40,7 +40,7 @@ export class TrianglesByLevel {
 
     /** The range of a level's triangles: the triangles of its caps (cap = 1), or all others (cap = 0). */
     range(level: number, cap: number): [begin: number, end: number] {
-        const group = groupOf(level, cap);
+        const group = triangleGroupOf(level, cap);
         return [this.begin[group]!, this.begin[group + 1]!];
     }
 
@@ -57,6 +57,6 @@ export class TrianglesByLevel {
     }
 }
 
-function groupOf(level: number, cap: number): number {
+function triangleGroupOf(level: number, cap: number): number {
     return (2 * level + cap) & (kGroups - 1);
 }

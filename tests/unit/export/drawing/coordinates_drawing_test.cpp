@@ -58,9 +58,9 @@ TEST(CoordinatesDrawing, HasALineOverTheDensityStripForEachHighlightedVertex) {
     const auto* axes = drawn.group("axes");
     const auto* highlight = drawn.group("highlight");
     ASSERT_TRUE(axes != nullptr && highlight != nullptr);
-    std::vector<exports::Line> scales;
+    std::vector<exports::LineSegment> scales;
     for (const exports::DrawnShape& shape : *axes)
-        if (const auto* line = std::get_if<exports::Line>(&shape)) scales.push_back(*line);
+        if (const auto* line = std::get_if<exports::LineSegment>(&shape)) scales.push_back(*line);
     ASSERT_EQ(scales.size(), 4U);
     const std::vector<std::uint32_t>& own = drawn.scene.highlight.ownVertices;
     ASSERT_EQ(own.size(), 20U) << "a dodecahedron";
@@ -90,7 +90,7 @@ TEST(CoordinatesDrawing, HasABandBehindTheLinesOfEachHighlightedVertex) {
         const auto* lines = drawn.group(axis);
         ASSERT_TRUE(lines != nullptr && lines->size() == 24) << axis;
         for (std::size_t v = 0; v < lines->size(); ++v) {
-            const auto& line = std::get<exports::Line>((*lines)[v]);
+            const auto& line = std::get<exports::LineSegment>((*lines)[v]);
             const auto holds = [&](const exports::DrawnShape& shape) {
                 const std::vector<glm::dvec2>& corners = std::get<exports::FilledPolygon>(shape).corners;
                 const glm::dvec2 least = corners[0] - 1e-9, most = corners[2] + 1e-9;

@@ -30,7 +30,7 @@ std::vector<double> opacities(const scene::CellTypeFilter& filter) {
     std::vector<double> found;
     for (const exports::ShapeGroup& group : exports::drawProjection(scene).groups) {
         for (const exports::DrawnShape& shape : group.shapes) {
-            std::visit(slicing::Overloaded{[&](const exports::Line& line) { found.push_back(line.opacity); },
+            std::visit(slicing::Overloaded{[&](const exports::LineSegment& line) { found.push_back(line.opacity); },
                                            [&](const exports::FilledPolygon& face) { found.push_back(face.opacity); },
                                            [&](const exports::Disk& ball) { found.push_back(ball.opacity); },
                                            [](const auto& /*other*/) {}},

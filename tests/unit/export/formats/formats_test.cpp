@@ -33,9 +33,9 @@ TEST(Formats, areThoseOfTheTable) {
         EXPECT_EQ(formatNames()[i], format.name);
         EXPECT_TRUE(names.insert(format.name).second);
         const std::string bodies = rows[i].value("bodies", "");
-        EXPECT_EQ(format.arrangement, bodies == "plate"  ? Format::Arrangement::plate
-                                      : bodies == "oval" ? Format::Arrangement::oval
-                                                         : Format::Arrangement::none);
+        EXPECT_EQ(format.arrangement, bodies == "plate"  ? Format::BodyArrangement::plate
+                                      : bodies == "oval" ? Format::BodyArrangement::oval
+                                                         : Format::BodyArrangement::none);
         EXPECT_EQ(format.writeBodies != nullptr, !bodies.empty());
         const std::string group = rows[i].at("group");
         EXPECT_EQ(format.writeBodies != nullptr, group == "print" || group == "model");
@@ -70,7 +70,7 @@ TEST(Formats, areAllWritten) {
             if (contents == projection || contents == matrix || contents == highlight) continue;
             const Hyperplanes planes = contents == oval ? Hyperplanes{-2, 5, 0.5} : Hyperplanes{0, 1, 0.5};
             const ExportRequest request{.format = &format, .contents = contents};
-            const std::string bytes = format.objects == Format::Objects::fields
+            const std::string bytes = format.objects == Format::ObjectKinds::fields
                                           ? bytesOf(SlicedBall(planes).exported(request))
                                           : fileOf(named("24-cell"), {}, planes, request);
             ASSERT_GT(bytes.size(), 100U) << format.name;
@@ -91,13 +91,13 @@ PlacedMesh tetrahedron(const std::string& name) {
 }
 
 // Returns a file with two bodies, both called `name`.
-std::string fileOfBodies(const Format& format, const std::string& name, const Budget& budget = unhurried()) {
+std::string fileOfBodies(const Format& format, const std::string& name, const ExportBudget& budget = unhurried()) {
     const std::vector<PlacedMesh> solids{tetrahedron(name), tetrahedron(name)};
     return format.writeBodies({solids, {}, name, budget});
 }
 
 TEST(Formats, ofBodiesStopWhenTheirTimeIsOver) {
-    const Budget spent({.time = std::chrono::seconds(-1)}, {});
+    const ExportBudget spent({.time = std::chrono::seconds(-1)}, {});
     for (const Format& format : formats()) {
         if (format.writeBodies == nullptr) continue;
         EXPECT_THROW((void)fileOfBodies(format, "body", spent), ExportRefused) << format.name;
@@ -306,7 +306,7 @@ TEST(Off, isReadAgainAsTheSamePolytope) {
         const Polytope& p = named(name);
         const Rotation turned = randomRotation(random);
         const std::string text = fileOf(p, turned, {0, 1, 1}, defaultRequestFor(*formatNamed("off")));
-        const auto read = importPolytope(FileFormat::off4, text, "again", {});
+        const auto read = importPolytope(PolytopeFileFormat::off4, text, "again", {});
         ASSERT_TRUE(std::holds_alternative<ImportedPolytope>(read)) << std::get<FileError>(read).reason;
         EXPECT_TRUE(std::get<ImportedPolytope>(read).warnings.empty());
         const Polytope& again = std::get<ImportedPolytope>(read).polytope;

@@ -15,7 +15,7 @@ std::string documentOf(const exports::DrawnShape& shape) {
     return exports::pdf({"lines", exports::kDrawingWidth, exports::kDrawingWidth, {{"shapes", {shape}}}});
 }
 
-std::string lineTo(const glm::dvec2& end) { return documentOf(exports::Line{.from = {0, 0}, .to = end}); }
+std::string lineTo(const glm::dvec2& end) { return documentOf(exports::LineSegment{.from = {0, 0}, .to = end}); }
 
 std::string triangleTo(const glm::dvec2& end) {
     return documentOf(exports::FilledPolygon{{{0, 0}, {0, 100}, end}, 0x123456});

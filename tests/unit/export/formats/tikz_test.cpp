@@ -22,7 +22,8 @@ std::string tikzOf(const exports::DrawnShape& shape, double size = exports::kDra
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(Tikz, WritesShapesWithTheirColorsAndOpacities) {
-    const std::string line = tikzOf(exports::Line{.from = {1, 2}, .to = {3.5, 4}, .color = 0x12AB34, .opacity = 0.5});
+    const std::string line =
+        tikzOf(exports::LineSegment{.from = {1, 2}, .to = {3.5, 4}, .color = 0x12AB34, .opacity = 0.5});
     EXPECT_TRUE(line.starts_with("% shapesof a test\n% A figure of 170 mm by 85 mm"));
     EXPECT_TRUE(has(line, "\\definecolor{oval12AB34}{HTML}{12AB34}"));
     EXPECT_TRUE(has(line, "\\draw[oval12AB34,line width=0.354mm,draw opacity=0.5] (1,2) -- (3.5,4);"));
@@ -53,7 +54,7 @@ TEST(Tikz, CutsShapesWhereTexHasNoLengths) {
     for (const double size : {10.0, exports::kDrawingSize, 5000.0}) {
         const double pointsPerUnit = size / exports::kDrawingWidth * 72.27 / 25.4;
         for (const exports::DrawnShape& shape :
-             {exports::DrawnShape(exports::Line{.from = {0, 0}, .to = {1e9, 5e8}}),
+             {exports::DrawnShape(exports::LineSegment{.from = {0, 0}, .to = {1e9, 5e8}}),
               exports::DrawnShape(exports::Polyline{{{0, 0}, {1e9, 0}, {0, -1e9}, {5, 5}}, 1, 0}),
               exports::DrawnShape(exports::FilledPolygon{{{0, 0}, {1e9, 0}, {0, -1e9}}, 0}),
               exports::DrawnShape(exports::Disk{{1e6, 0}, 1e6 - 100, 0})}) {

@@ -48,7 +48,7 @@ TEST(Tessellate, anOutlineIsAllThatIsWoundAround) {
 }
 
 TEST(Letters, areCenteredAndOneHigh) {
-    const Lettering text = letteringOf({"HIH"});
+    const TextOutlines text = letteringOf({"HIH"});
     EXPECT_NEAR(text.size.y, 1, 1e-9);
     glm::dvec2 least(1e300);
     for (const Contour& contour : text.contours) {
@@ -103,7 +103,7 @@ TEST(Label, engravingObeysTheTimeLimit) {
     Mesh mesh = solidOf(cutAt(p, {}, 0.1), 0, 40 / p.circumradius, grid, unhurried());
     const std::size_t triangles = mesh.triangles.size();
     std::chrono::steady_clock::time_point now;
-    const Budget budget({.time = std::chrono::seconds(20), .now = [&] { return now; }}, {});
+    const ExportBudget budget({.time = std::chrono::seconds(20), .now = [&] { return now; }}, {});
     now += std::chrono::seconds(21);
     EXPECT_THROW(LabelText("8-cell", "w = 0.1").engrave(mesh, 80, grid, budget), ExportRefused);
     EXPECT_EQ(mesh.triangles.size(), triangles);
@@ -112,7 +112,7 @@ TEST(Label, engravingObeysTheTimeLimit) {
 TEST(Label, aPlateIsABodyOfItsOwn) {
     for (const double size : {10.0, 60.0, 500.0}) {
         const RoundingGrid grid(size, size);
-        const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").labelBody(size, grid);
+        const Mesh plate = LabelText("omnitruncated 120-cell", "w = 1.25").makeLabelPlate(size, grid);
         expectPrintable(plate);
         const glm::dvec3 extent = boxOf(plate).size();
         EXPECT_NEAR(extent.z, 2, 0.01);

@@ -183,7 +183,7 @@ TEST(ExactSurfaces, areClosedAndHaveTheVolumeOfTheTable) {
         const bool isAligned = trial % 4 == 0;
         const geometry::Rotation orientation = isAligned ? geometry::Rotation() : randomRotation(random);
         const slicing::FieldSettings settings{{levels(random)},
-                                              trial % 2 == 0 ? fields::Inside::below : fields::Inside::above};
+                                              trial % 2 == 0 ? fields::BodySide::below : fields::BodySide::above};
         const double w = isAligned ? 0 : height(random);
         const ExactField field(noise(5, random), orientation, {0, 1, 1, w}, settings);
         const double expected = field.cubicMillimeters(field.measured("volume"));

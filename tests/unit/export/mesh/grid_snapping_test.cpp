@@ -73,7 +73,7 @@ TEST(GridSnapping, keepsSurfacesClosedManifolds) {
 TEST(GridSnapping, keepsTheVolumeOnAGridForDoubles) {
     std::mt19937 random(51);
     const double size = 60, extent = 1500;
-    const RoundingGrid grid = RoundingGrid::forDoubles(size, extent);
+    const RoundingGrid grid = RoundingGrid::forDoublePrecision(size, extent);
     EXPECT_LE(grid.step(), size * 0x1p-39);
     EXPECT_EQ(std::log2(grid.step()), std::round(std::log2(grid.step())));
     for (int trial = 0; trial < 6; ++trial) {
@@ -122,7 +122,7 @@ TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
     EXPECT_EQ(snapSurface(points, triangles, grid, unhurried()).mesh.triangles.size(), 4U);
     triangles.pop_back();
     EXPECT_THROW(snapSurface(points, triangles, grid, unhurried()), std::invalid_argument);
-    const Budget late({.time = std::chrono::duration<double>(0)}, {});
+    const ExportBudget late({.time = std::chrono::duration<double>(0)}, {});
     triangles.push_back({5, 6, 7});
     EXPECT_THROW(snapSurface(points, triangles, grid, late), ExportRefused);
 }
@@ -132,7 +132,7 @@ TEST(GridSnapping, leavesOutSpecksAndRefusesOpenSurfaces) {
 TEST(GridSnapping, flipsTrianglesWithoutArea) {
     const std::vector<glm::dvec3> points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}, {1, 0, 0}};
     const Triangles triangles{{0, 2, 1}, {0, 4, 3}, {4, 1, 3}, {0, 3, 2}, {1, 2, 3}, {0, 1, 4}};
-    for (const RoundingGrid& grid : {RoundingGrid(60, 60), RoundingGrid::forDoubles(60, 60)}) {
+    for (const RoundingGrid& grid : {RoundingGrid(60, 60), RoundingGrid::forDoublePrecision(60, 60)}) {
         const SnappedSurface snapped = snapSurface(points, triangles, grid, unhurried());
         EXPECT_TRUE(isClosedManifold(snapped.mesh));
         EXPECT_EQ(snapped.mesh.triangles.size(), 6U);

@@ -122,7 +122,7 @@ TEST(Solid, ofAConvexSliceObservesTheLimitOfTime) {
     const Polytope& p = named("600-cell");
     const SliceSet s = cutAt(p, {}, 0.1);
     const RoundingGrid grid(kSize, kSize);
-    const Budget spent({.time = std::chrono::duration<double>(-1)}, {});
+    const ExportBudget spent({.time = std::chrono::duration<double>(-1)}, {});
     EXPECT_THROW(solidOf(s, 0, scaleOf(p), grid, spent), ExportRefused);
     std::vector<glm::dvec3> points;
     for (const glm::dvec3& vertex : s.vertices) points.push_back(grid.snap(vertex * scaleOf(p)));

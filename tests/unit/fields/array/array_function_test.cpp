@@ -58,11 +58,11 @@ TEST(SampleStorage, GrowsInItsOwnMemoryUntilItIsFullAndBranchesIntoCopies) {
     for (int i = 0; i < 1000; ++i) {
         const SampleStorage before = samples;
         const std::vector<float> more{static_cast<float>(i), 2};
-        samples = before.followedBy(more);
+        samples = before.withAppended(more);
         moves += samples.values().data() == before.values().data() ? 0 : 1;
         EXPECT_EQ(valuesOf(before), expected);
         const SampleStorage branch =
-            before.followedBy(std::vector<float>{-1});  // a copy, because `before` is already followed by `more`
+            before.withAppended(std::vector<float>{-1});  // a copy, because `before` is already followed by `more`
         EXPECT_NE(branch.values().data(), samples.values().data());
         expected.insert(expected.end(), more.begin(), more.end());
         EXPECT_EQ(valuesOf(samples), expected);

@@ -61,7 +61,7 @@ TEST(Downsampling, LongStepsUseTheCoarsestVersionWhoseCellsAreNoLonger) {
     const ArrayFunction fine(shape, box, SampleStorage(randomSamples(shape, 0, random)));
     const auto shapeFor = [&](double x, double y, double z) {
         const std::array<glm::dvec4, 3> steps{{{x, 0, 0, 0}, {0, y, 0, 0}, {0, 0, 0.6 * z, 0.8 * z}}};
-        const auto* used = dynamic_cast<const ArrayFunction*>(&fine.versionForSteps(steps));
+        const auto* used = dynamic_cast<const ArrayFunction*>(&fine.downsampledForSteps(steps));
         return used == nullptr ? Shape{} : used->shape();
     };
     EXPECT_EQ(shapeFor(1.9, 8, 8), shape);
@@ -91,7 +91,7 @@ TEST(Downsampling, LargeArraysUseASelectionInDraftsWhateverTheSteps) {
     const ArrayFunction large(shape, {glm::dvec4(0), glm::dvec4(39)}, SampleStorage(randomSamples(shape, 0, random)),
                               100'000);
     const std::array<glm::dvec4, 1> step{glm::dvec4(0.1, 0, 0, 0)};
-    const auto* used = dynamic_cast<const ArrayFunction*>(&large.versionForSteps(step));
+    const auto* used = dynamic_cast<const ArrayFunction*>(&large.downsampledForSteps(step));
     ASSERT_NE(used, nullptr);
     EXPECT_LE(sampleCount(used->shape()), 100'000U);
     EXPECT_EQ(used->samples().front(), large.samples().front());

@@ -91,7 +91,7 @@ TEST(MappedFileDeathTest, OtherBusErrorsEndTheProcess) {
 
 TEST(MappedFile, WritesAndReadsTheSameFile) {
     const auto file = fileOf(kSize);
-    const auto writable = *MappedFile::mapToWrite(file);
+    const auto writable = *MappedFile::mapForWriting(file);
     const auto readable = *MappedFile::map(file);
     writable->writableBytes().back() = std::byte{7};
     writable->releasePages();

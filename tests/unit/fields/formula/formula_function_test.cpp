@@ -17,8 +17,8 @@ namespace {
 using std::numbers::pi;
 constexpr float kInfiniteFloat = std::numeric_limits<float>::infinity();
 
-std::vector<Kernels> allKernels() {
-    std::vector<Kernels> kernels{portableKernels()};
+std::vector<TapeKernels> allKernels() {
+    std::vector<TapeKernels> kernels{portableKernels()};
     if (avx2Kernels() != nullptr) kernels.push_back(*avx2Kernels());
     return kernels;
 }
@@ -104,7 +104,7 @@ const std::vector<ReferenceFunction>& references() {
 
 TEST(FormulaFunction, HasTheValuesOfTheFormula) {
     Random random(2);
-    for (const Kernels& kernels : allKernels()) {
+    for (const TapeKernels& kernels : allKernels()) {
         for (const auto& [text, value] : references()) {
             SamplePoints samples;
             for (int i = 0; i < 1000; ++i) samples.addRandom(random, {glm::dvec4(-3), glm::dvec4(3.001)});
@@ -130,7 +130,7 @@ bool isSmooth(const std::string& text) {
 // poles, such differences are not the derivatives.
 TEST(FormulaFunction, HasTheGradientOfTheFormula) {
     Random random(3);
-    for (const Kernels& kernels : allKernels()) {
+    for (const TapeKernels& kernels : allKernels()) {
         for (const auto& [text, value] : references()) {
             SamplePoints samples;
             const auto coordinate = [&] { return uniform(random, -3, 3); };
@@ -190,7 +190,7 @@ TEST(FormulaFunction, SmoothMinimumWithoutSmoothingIsTheMinimum) {
     // In these formulas, k is 0 or negative, as a number or as a function of the point, or its square underflows.
     for (const char* text : {"smin(x,y,0)", "smin(x,y,-1)", "smin(x,y,0*z)", "smin(x,y,-abs(z))", "smin(x,y,1e-30)",
                              "smin(x,y,1e-40)", "smin(x,y,-1e-40)"}) {
-        for (const Kernels& kernels : allKernels()) {
+        for (const TapeKernels& kernels : allKernels()) {
             const FormulaFunction function(parsed(text), kernels);
             SamplePoints samples;
             for (int i = 0; i < 300; ++i) samples.addRandom(random, box);
@@ -215,7 +215,7 @@ TEST(FormulaFunction, SmoothMinimumWithoutSmoothingIsTheMinimum) {
 
 TEST(FormulaFunction, ValuesAreTheSameInAnyBatch) {
     Random random(4);
-    for (const Kernels& kernels : allKernels()) {
+    for (const TapeKernels& kernels : allKernels()) {
         for (int round = 0; round < 60; ++round) {
             const FormulaFunction function(parsed(randomFormula(random, 5)), kernels);
             SamplePoints all;
@@ -258,7 +258,7 @@ TEST(FormulaFunction, HasNoValueOutsideOfDomains) {
           "max(5,log(x))",     "step(log(x))",    "sign(log(x))",    "1^log(x)",      "log(x)^y",
           "floor(log(x))",     "abs(log(x))",     "atan2(log(x),0)", "mod(log(x),1)", "mod(y,0)",
           "clamp(log(x),0,1)", "hypot(log(x),1)", "sqrt(-1)",        "y*0/0"}) {
-        for (const Kernels& kernels : allKernels()) {
+        for (const TapeKernels& kernels : allKernels()) {
             const FormulaFunction function(parsed(text), kernels);
             EXPECT_TRUE(std::isnan(valueAt(function, {-1.5, 1, 0, 0}))) << text;
             EXPECT_FALSE(function.boundsIn({{-1.5, 1, 0, 0}, {-1.5, 1, 0, 0}}).hasValueEverywhere) << text;
@@ -299,7 +299,7 @@ TEST(FormulaFunction, FunctionsAreAccurate) {
         {"atan2(x,2)", [](double x) { return std::atan2(x, 2); }},
     };
     Random random(5);
-    for (const Kernels& kernels : allKernels()) {
+    for (const TapeKernels& kernels : allKernels()) {
         for (const auto& [text, value] : functions) {
             SamplePoints samples;
             for (int i = 0; i < 200'000; ++i) {
@@ -350,7 +350,7 @@ TEST(FormulaFunction, FunctionsTakeInfiniteAndMissingValues) {
                                           {"atan2(x,1)", kInfiniteFloat, static_cast<float>(pi / 2)},
                                           {"floor(x)", kInfiniteFloat, kInfiniteFloat},
                                           {"sqrt(x)", kInfiniteFloat, kInfiniteFloat}}) {
-        for (const Kernels& kernels : allKernels()) {
+        for (const TapeKernels& kernels : allKernels()) {
             const FormulaFunction function(parsed(text), kernels);
             const float computed = valueAt(function, {at, 0, 0, 0});
             EXPECT_TRUE(std::isnan(value) ? std::isnan(computed)

@@ -79,32 +79,32 @@ TEST(Formula, ConstantsChangeWithoutParsing) {
     const glm::dvec4 point(3, 0, 0, 0);
     EXPECT_FLOAT_EQ(valueAt(FormulaFunction(formula), point), 8.5F);
     const FormulaConstant changes[] = {{"n", 3}, {"a", -1}};
-    const auto changed = formula.with(changes);
+    const auto changed = formula.withConstants(changes);
     ASSERT_TRUE(changed) << changed.error().message;
     EXPECT_FLOAT_EQ(valueAt(FormulaFunction(*changed), point), 28);
     EXPECT_EQ(changed->text(), "b*x^n - a; a=-1, n=3, b=1");
     EXPECT_EQ(formula.text(), "b*x^n - a; a=0.5, n=2, b=1");
     EXPECT_EQ(parsed(changed->text()).constants(), changed->constants());
-    EXPECT_EQ(formula.with({})->text(), formula.text());
+    EXPECT_EQ(formula.withConstants({})->text(), formula.text());
 }
 
 TEST(Formula, ChangesOfConstantsCanFail) {
     const Formula formula = parsed("x-radius; radius=1");
     const FormulaConstant misspelled[] = {{"radus", 1}};
-    const auto unknown = formula.with(misspelled);
+    const auto unknown = formula.withConstants(misspelled);
     ASSERT_FALSE(unknown);
     EXPECT_EQ(unknown.error().code, ErrorCode::bad_expression);
     EXPECT_NE(unknown.error().message.find("did you mean 'radius'?"), std::string::npos) << unknown.error().message;
     for (const double value : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()}) {
         const FormulaConstant infinite[] = {{"radius", value}};
-        ASSERT_FALSE(formula.with(infinite));
-        EXPECT_EQ(formula.with(infinite).error().code, ErrorCode::out_of_range);
+        ASSERT_FALSE(formula.withConstants(infinite));
+        EXPECT_EQ(formula.withConstants(infinite).error().code, ErrorCode::out_of_range);
     }
 }
 
 TEST(Formula, EveryFunctionIsDescribed) {
-    for (const auto& function : functions()) {
-        EXPECT_EQ(functionNamed(function.name), static_cast<std::size_t>(&function - functions().data()));
+    for (const auto& function : builtinFunctions()) {
+        EXPECT_EQ(functionNamed(function.name), static_cast<std::size_t>(&function - builtinFunctions().data()));
         EXPECT_FALSE(function.meaning.empty() || function.arguments.empty()) << function.name;
         std::string call = std::string(function.name) + "(x";
         for (std::size_t i = 1; i < function.minArguments; ++i) call += ",y";

@@ -40,9 +40,9 @@ void requireSoundBounds(const std::string& text, const Box& box, Random& random)
     const Formula formula = parsed(text);
     SamplePoints samples;
     for (int i = 0; i < 24; ++i) samples.addRandom(random, box);
-    std::vector<const Kernels*> all{&portableKernels()};
+    std::vector<const TapeKernels*> all{&portableKernels()};
     if (avx2Kernels() != nullptr) all.push_back(avx2Kernels());
-    for (const Kernels* kernels : all) {
+    for (const TapeKernels* kernels : all) {
         const FormulaFunction function(formula, *kernels);
         const ValueBounds bounds = function.boundsIn(box);
         samples.evaluate(function);

@@ -51,7 +51,7 @@ inline std::string randomFormula(Random& random, int depth) {
         default:
             break;
     }
-    const BuiltinFunction& function = functions()[below(random, functions().size())];
+    const BuiltinFunction& function = builtinFunctions()[below(random, builtinFunctions().size())];
     std::string text = std::string(function.name) + "(" + operand();
     const std::size_t count = std::min(function.maxArguments, function.minArguments + below(random, 2));
     for (std::size_t i = 1; i < count; ++i) text += "," + operand();

@@ -17,9 +17,9 @@ TEST(AxisMapping, SlabsCoverTheArrayInItsOrder) {
     for (int round = 0; round < 300; ++round) {
         std::vector<std::size_t> axes{0, 1, 2, 3};
         std::shuffle(axes.begin(), axes.end(), random);
-        std::vector<Dimension> dimensions(1 + below(4));
+        std::vector<ArrayDimension> dimensions(1 + below(4));
         for (std::size_t i = 0; i < dimensions.size(); ++i) dimensions[i] = {1 + below(7), axes[i], below(2) == 1};
-        const auto mapping = AxisMapping::of(dimensions, kMaxSamples);
+        const auto mapping = AxisMapping::fromDimensions(dimensions, kMaxSamples);
         ASSERT_TRUE(mapping);
         // Convert the numbers 0, 1, 2 … at once and slab by slab.
         std::vector<float> numbers(mapping->count()), whole(numbers.size()), parts(numbers.size());

@@ -8,7 +8,7 @@ namespace oval4d::fields::test {
 namespace {
 
 std::string textOfPart(const FilePart& part) {
-    const FileContents contents = FileContents::ofString("0123456789").cutTo(part);
+    const FileContents contents = FileContents::ofString("0123456789").partialContents(part);
     return {reinterpret_cast<const char*>(contents.bytes.data()), contents.bytes.size()};
 }
 

@@ -31,7 +31,7 @@ TEST(FieldFormats, GiveTheSameBits) {
     };
     for (const auto& [name, bytes] : files) {
         const auto file = FileContents::copyOf(bytes);
-        const FieldFormat* const format = formatOfFile(file.bytes);
+        const FieldFileFormat* const format = formatOfFile(file.bytes);
         ASSERT_NE(format, nullptr);
         EXPECT_EQ(format->name, name);
         const auto field = readOrFail(bytes);

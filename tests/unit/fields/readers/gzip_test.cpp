@@ -45,7 +45,7 @@ std::string readInPieces(GzipReader& reader, std::size_t size, std::size_t piece
     std::string text(size, '\0');
     const std::span<std::byte> to(reinterpret_cast<std::byte*>(text.data()), size);
     for (std::size_t done = 0; done < size; done += piece) {
-        const auto filled = reader.fill(to.subspan(done, std::min(piece, size - done)));
+        const auto filled = reader.decompressInto(to.subspan(done, std::min(piece, size - done)));
         if (!filled) return filled.error().message;
     }
     return text;

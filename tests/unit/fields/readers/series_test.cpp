@@ -58,7 +58,7 @@ TEST(FieldSeries, DecompressesLargeFilesIntoFewNewFiles) {
     const auto newFile = [&](std::size_t bytes) {
         const auto path = folder / std::to_string(made++);
         writeFile(path, std::string(bytes, '\0'));
-        return MappedFile::mapToWrite(std::make_shared<const FileHandle>(open(path.c_str(), O_RDWR | O_CLOEXEC)));
+        return MappedFile::mapForWriting(std::make_shared<const FileHandle>(open(path.c_str(), O_RDWR | O_CLOEXEC)));
     };
     const auto series = readSeries(files, {.maxInMemory = 1, .newFile = newFile});
     ASSERT_TRUE(series) << series.error().message;

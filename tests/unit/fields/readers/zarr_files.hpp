@@ -22,7 +22,7 @@ inline Result<FieldArray> readFiles(const Files& files, const FieldReadOptions& 
         if (opened != nullptr) opened->insert(path);
         const auto found = files.find(path);
         if (found == files.end()) return std::optional<FileContents>();
-        return std::optional(FileContents::copyOf(found->second).cutTo(part));
+        return std::optional(FileContents::copyOf(found->second).partialContents(part));
     };
     return readZarr(folder, options);
 }

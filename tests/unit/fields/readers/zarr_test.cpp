@@ -275,16 +275,16 @@ TEST(Zarr, ReadsTheFinestLevelThatFitsIntoMemory) {
     const FieldArray left = read(16, Box{{0, 0, 0, 0}, {3, 3, 0, 0}});
     EXPECT_EQ(left.box, (Box{{0, 0, 0, 0}, {3, 3, 0, 0}}));
     EXPECT_EQ(left.shape, (Shape{4, 4, 1, 1}));
-    EXPECT_EQ(whole.imageLevel, (ImageLevel{0, 2}));
-    EXPECT_EQ(overview.imageLevel, (ImageLevel{1, 2}));
-    EXPECT_EQ(left.imageLevel, (ImageLevel{0, 2}));
+    EXPECT_EQ(whole.imageLevel, (MultiscaleImageLevel{0, 2}));
+    EXPECT_EQ(overview.imageLevel, (MultiscaleImageLevel{1, 2}));
+    EXPECT_EQ(left.imageLevel, (MultiscaleImageLevel{0, 2}));
     const auto named = readFiles(files, FieldReadOptions{.variable = "1"});
     ASSERT_TRUE(named) << named.error().message;
-    EXPECT_EQ(named->imageLevel, (ImageLevel{1, 2}));
+    EXPECT_EQ(named->imageLevel, (MultiscaleImageLevel{1, 2}));
     EXPECT_TRUE(left.isPart);
     const FieldArray first =
         *readFiles(files, FieldReadOptions{.region = Box{{0, 0, 0, 0}, {3, 3, 0, 0}}, .maxInFirstLevel = 15});
-    EXPECT_EQ(first.imageLevel, (ImageLevel{1, 2, 1}));
+    EXPECT_EQ(first.imageLevel, (MultiscaleImageLevel{1, 2, 1}));
     EXPECT_EQ(first.shape, (Shape{3, 2, 1, 1}));
     EXPECT_NE(first.warnings.at(0).find("'1' is shown first; finer ones follow"), std::string::npos);
     // The box of a coarser level does not reach the ends of the box of the finest level.
@@ -310,7 +310,7 @@ TEST(Zarr, ReadsALevelByItsNumberAndSaysHowManyFinerOnesFollow) {
     struct Case {
         std::size_t maxInMemory, maxInFirstLevel;
         std::optional<std::uint32_t> level;
-        ImageLevel expected;
+        MultiscaleImageLevel expected;
     };
     for (const auto& [maxInMemory, maxInFirstLevel, level, expected] :
          {Case{16, 16, {}, {0, 4, 0}}, Case{16, 4, {}, {2, 4, 2}}, Case{8, 4, {}, {2, 4, 1}},

@@ -38,11 +38,11 @@ TEST(AccessControl, AcceptsTheTokenFromQueryHeaderOrCookie) {
     EXPECT_EQ(access.check({.host = "a", .authorization = "bearer wrong"}), Verdict::bad_token);
     EXPECT_EQ(access.check({.host = "a", .cookie = "x=1; oval4d_token=secret; y=2"}), Verdict::allowed);
     EXPECT_EQ(access.check({.host = "a", .cookie = "oval4d_token_=secret; oval4d_token=wrong"}), Verdict::bad_token);
-    EXPECT_EQ(access.cookieFor({.token = "wrong"}), "");
-    EXPECT_TRUE(access.cookieFor({.token = "secret"}).starts_with("oval4d_token=secret;"));
+    EXPECT_EQ(access.tokenCookieFor({.token = "wrong"}), "");
+    EXPECT_TRUE(access.tokenCookieFor({.token = "secret"}).starts_with("oval4d_token=secret;"));
 }
 
-TEST(Authority, IsAHostWithAnOptionalPort) {
+TEST(UrlAuthority, IsAHostWithAnOptionalPort) {
     for (const char* text : {"localhost", "localhost:0", "127.0.0.1:65535", "[::1]", "[::1]:8080", "a-b.example_1"})
         EXPECT_TRUE(parseAuthority(text)) << text;
     for (const char* text : {"", ":80", "a:", "a:b", "a:65536", "a:-1", "a:+1", "a:80:80", "a b", "u@a", "[::1", "::1",

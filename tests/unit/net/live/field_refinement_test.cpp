@@ -61,7 +61,9 @@ class FieldRefinementTest : public testing::Test {
         server.settle();
     }
     void answer(slicing::FieldPtr level) { answer(Result<slicing::Object>(slicing::Object(std::move(level)))); }
-    const fields::ImageLevel& shownLevel() const { return slicing::fieldIn(value.current.source)->imageLevel; }
+    const fields::MultiscaleImageLevel& shownLevel() const {
+        return slicing::fieldIn(value.current.source)->imageLevel;
+    }
 
     VirtualServer server;
     const std::shared_ptr<MeteredSession> metered =
@@ -82,7 +84,7 @@ TEST_F(FieldRefinementTest, LevelsFollowOneAfterAnother) {
     update();
     ASSERT_EQ(readings.size(), 1U);
     EXPECT_EQ(readings[0].load.dataName, "image");
-    EXPECT_EQ(readings[0].load.finer, (session::FinerLevel{1, 3}));
+    EXPECT_EQ(readings[0].load.finer, (session::FinerImageLevel{1, 3}));
     update();
     EXPECT_EQ(readings.size(), 1U) << "it is being read";
     EXPECT_EQ(value.current.source, coarse);
@@ -90,7 +92,7 @@ TEST_F(FieldRefinementTest, LevelsFollowOneAfterAnother) {
     answer(middle);
     EXPECT_EQ(value.current.source, middle);
     ASSERT_EQ(readings.size(), 2U);
-    EXPECT_EQ(readings[1].load.finer, (session::FinerLevel{0, 3}));
+    EXPECT_EQ(readings[1].load.finer, (session::FinerImageLevel{0, 3}));
     session::press(value, "r");  // other changes do not matter
     update();
     EXPECT_FALSE(readings[1].stop.stop_requested());
@@ -163,7 +165,7 @@ TEST_F(FieldRefinementTest, AfterALevelThatCannotBeReadNoneFollows) {
     update();
     ASSERT_EQ(readings.size(), 1U);
     answer(Error{ErrorCode::too_many, "no room"});
-    EXPECT_EQ(shownLevel(), (fields::ImageLevel{2, 3, 0}));
+    EXPECT_EQ(shownLevel(), (fields::MultiscaleImageLevel{2, 3, 0}));
     EXPECT_EQ(slicing::fieldIn(value.current.source)->array, slicing::fieldIn(coarse)->array);
     EXPECT_EQ(refined, 1) << "the state says so";
     update();
@@ -174,7 +176,7 @@ TEST_F(FieldRefinementTest, AnotherLevelThanTheNextIsNotShown) {
     update();
     ASSERT_EQ(readings.size(), 1U);
     answer(levelOfImage(2, 2));
-    EXPECT_EQ(shownLevel(), (fields::ImageLevel{2, 3, 0}));
+    EXPECT_EQ(shownLevel(), (fields::MultiscaleImageLevel{2, 3, 0}));
     EXPECT_EQ(readings.size(), 1U);
 }
 

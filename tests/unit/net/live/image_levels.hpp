@@ -12,7 +12,7 @@
 namespace oval4d::net {
 
 /// Returns one of the three levels of an image called "run" from the entry "image" of the data folder. `finer` is
-/// ImageLevel::finer. The samples are from 0 to 6.
+/// MultiscaleImageLevel::finer. The samples are from 0 to 6.
 inline slicing::FieldPtr levelOfImage(std::uint32_t level, std::uint32_t finer) {
     fields::FieldArray array;
     array.shape = {2, 2, 2, 2};
@@ -23,7 +23,8 @@ inline slicing::FieldPtr levelOfImage(std::uint32_t level, std::uint32_t finer) 
     array.imageLevel = {level, 3, finer};
     array.isPart = level > 0;
     fields::Field field = *fields::fieldFromArray("run", array);
-    field.source = std::make_shared<const fields::FileSource>(fields::FileSource{"image", "", "", "", "", "", {}, {}});
+    field.source =
+        std::make_shared<const fields::FieldFileSource>(fields::FieldFileSource{"image", "", "", "", "", "", {}, {}});
     return std::make_shared<const fields::Field>(std::move(field));
 }
 

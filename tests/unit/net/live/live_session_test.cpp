@@ -42,20 +42,20 @@ class LiveSessionTest : public testing::Test {
   protected:
     LiveSessionTest() {
         cache({}, levelOfImage(2, 2));
-        cache(session::FinerLevel{1, 3}, levelOfImage(1, 1));
-        cache(session::FinerLevel{0, 3}, levelOfImage(0, 0));
-        manager->create(server.account, [this](SessionManager::JoinResult created) { live = *created; });
+        cache(session::FinerImageLevel{1, 3}, levelOfImage(1, 1));
+        cache(session::FinerImageLevel{0, 3}, levelOfImage(0, 0));
+        manager->createSession(server.account, [this](SessionManager::JoinResult created) { live = *created; });
     }
     void TearDown() override { manager->stop(support::hangLimit()); }
 
-    session::LoadObject load(const std::optional<session::FinerLevel>& finer = {}) const {
+    session::LoadObject load(const std::optional<session::FinerImageLevel>& finer = {}) const {
         session::LoadObject message{"run", "", {}};
         message.dataName = "image";
         message.finer = finer;
         return message;
     }
     /// Puts a level of the image into the cache of the data folder. No process then needs to read it.
-    void cache(const std::optional<session::FinerLevel>& finer, const slicing::FieldPtr& level) {
+    void cache(const std::optional<session::FinerImageLevel>& finer, const slicing::FieldPtr& level) {
         const DataFolder::Reader reader =
             [&](const session::LoadObject& /*file*/, const session::Limits& /*limits*/,
                 const file_reading::FileAllocator& /*allocate*/) -> Result<session::ObjectWithWarnings> {

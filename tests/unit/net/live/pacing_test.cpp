@@ -7,58 +7,58 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Pacing::Clock::time_point kStart{};
+constexpr PicturePacing::Clock::time_point kStart{};
 
-TEST(Pacing, AllowsTwoUnshownPictures) {
-    Pacing pacing;
-    EXPECT_FALSE(pacing.newestSentOrSkipped());
+TEST(PicturePacing, AllowsTwoUnshownPictures) {
+    PicturePacing pacing;
+    EXPECT_FALSE(pacing.newestRevisionSentOrSkipped());
     pacing.recordSent(0);
-    EXPECT_TRUE(pacing.hasRoom());
+    EXPECT_TRUE(pacing.maySendMore());
     pacing.recordSent(5);
-    EXPECT_FALSE(pacing.hasRoom());
-    EXPECT_EQ(pacing.newestSentOrSkipped(), 5U);
+    EXPECT_FALSE(pacing.maySendMore());
+    EXPECT_EQ(pacing.newestRevisionSentOrSkipped(), 5U);
     pacing.recordShown(0);
-    EXPECT_TRUE(pacing.hasRoom());
+    EXPECT_TRUE(pacing.maySendMore());
 }
 
-TEST(Pacing, ShownIncludesEarlierRevisions) {
-    Pacing pacing;
+TEST(PicturePacing, ShownIncludesEarlierRevisions) {
+    PicturePacing pacing;
     pacing.recordSent(3);
     pacing.recordSent(4);
     pacing.recordShown(4);
     pacing.recordSent(5);
-    EXPECT_TRUE(pacing.hasRoom());
+    EXPECT_TRUE(pacing.maySendMore());
 }
 
-TEST(Pacing, UnwrittenPicturesDoNotExpire) {
-    Pacing pacing;
+TEST(PicturePacing, UnwrittenPicturesDoNotExpire) {
+    PicturePacing pacing;
     pacing.recordSent(1);
     pacing.recordSent(2);
     EXPECT_FALSE(pacing.deadline(1s));
     pacing.assumeShown(kStart + 1h, 1s);
-    EXPECT_FALSE(pacing.hasRoom());
+    EXPECT_FALSE(pacing.maySendMore());
 }
 
-TEST(Pacing, WrittenPicturesExpireInOrder) {
-    Pacing pacing;
+TEST(PicturePacing, WrittenPicturesExpireInOrder) {
+    PicturePacing pacing;
     pacing.recordSent(1);
     pacing.recordSent(2);
     pacing.recordWritten(1, kStart);
     pacing.recordWritten(2, kStart + 300ms);
     EXPECT_EQ(pacing.deadline(1s), kStart + 1s);
     pacing.assumeShown(kStart + 999ms, 1s);
-    EXPECT_FALSE(pacing.hasRoom());
+    EXPECT_FALSE(pacing.maySendMore());
     pacing.assumeShown(kStart + 1s, 1s);
-    EXPECT_TRUE(pacing.hasRoom());
+    EXPECT_TRUE(pacing.maySendMore());
     EXPECT_EQ(pacing.deadline(1s), kStart + 1300ms);
 }
 
-TEST(Pacing, ASkippedRevisionIsNewestButNotInFlight) {
-    Pacing pacing;
+TEST(PicturePacing, ASkippedRevisionIsNewestButNotInFlight) {
+    PicturePacing pacing;
     pacing.recordSkipped(7);
-    EXPECT_EQ(pacing.newestSentOrSkipped(), 7U);
+    EXPECT_EQ(pacing.newestRevisionSentOrSkipped(), 7U);
     pacing.recordSent(8);
-    EXPECT_TRUE(pacing.hasRoom());
+    EXPECT_TRUE(pacing.maySendMore());
 }
 
 }  // namespace

@@ -14,31 +14,31 @@ namespace {
 
 using slicing::Quality;
 
-const StreamKey kFrames{wire::Stream::frames, {}, {640, 480}};
-const StreamKey kGeometry{wire::Stream::geometry, {}, {640, 480}};
+const PictureStreamKey kFrames{wire::StreamKind::frames, {}, {640, 480}};
+const PictureStreamKey kGeometry{wire::StreamKind::geometry, {}, {640, 480}};
 
-SnapshotPtr snapshotOf(std::uint64_t revision, Quality quality = Quality::full) {
-    auto snapshot = std::make_shared<Snapshot>();
+SessionSnapshotPtr snapshotOf(std::uint64_t revision, Quality quality = Quality::full) {
+    auto snapshot = std::make_shared<SessionSnapshot>();
     snapshot->revision = revision;
     snapshot->quality = quality;
     return snapshot;
 }
 
-SnapshotPictureCache::MessagesByStream pictureOf(const StreamKey& key, const std::string& text) {
+SnapshotPictureCache::MessagesByStream pictureOf(const PictureStreamKey& key, const std::string& text) {
     return {{key, textMessage(text)}};
 }
 
-TEST(Snapshot, MakesOneTextOfTheStateForEachScheme) {
-    const SnapshotPtr snapshot =
+TEST(SessionSnapshot, MakesOneTextOfTheStateForEachScheme) {
+    const SessionSnapshotPtr snapshot =
         makeStateSnapshot(session::initialState(), 7, {}, {0, {}, 0, {"cuboctahedron", "point"}});
-    const SharedBytes dark = snapshot->stateTextFor(scene::Scheme::dark);
-    const SharedBytes light = snapshot->stateTextFor(scene::Scheme::light);
+    const SharedBytes dark = snapshot->stateTextFor(scene::ColorScheme::dark);
+    const SharedBytes light = snapshot->stateTextFor(scene::ColorScheme::light);
     EXPECT_NE(dark.view().find("\"revision\":7,"), std::string_view::npos) << dark.view();
     EXPECT_NE(dark.view().find("cuboctahedron"), std::string_view::npos) << dark.view();
     EXPECT_NE(dark.view(), light.view()) << "their colors of cells differ";
-    EXPECT_EQ(snapshot->stateTextFor(scene::Scheme::dark).view().data(), dark.view().data());
-    EXPECT_EQ(snapshot->stateTextFor(scene::Scheme::light, {}).view().data(), light.view().data());
-    const SharedBytes answer = snapshot->stateTextFor(scene::Scheme::dark, 3);
+    EXPECT_EQ(snapshot->stateTextFor(scene::ColorScheme::dark).view().data(), dark.view().data());
+    EXPECT_EQ(snapshot->stateTextFor(scene::ColorScheme::light, {}).view().data(), light.view().data());
+    const SharedBytes answer = snapshot->stateTextFor(scene::ColorScheme::dark, 3);
     EXPECT_NE(answer.view().find("\"id\":3,"), std::string_view::npos) << answer.view();
     EXPECT_FALSE(snapshot->sliced);
     EXPECT_EQ(snapshot->quality, Quality::full);
@@ -47,7 +47,7 @@ TEST(Snapshot, MakesOneTextOfTheStateForEachScheme) {
 TEST(SnapshotPictureCache, FindsPicturesByKindRevisionAndQuality) {
     SnapshotPictureCache pictures;
     EXPECT_EQ(pictures.find(kFrames, 0, Quality::draft), nullptr);
-    const SnapshotPtr draft = snapshotOf(3, Quality::draft);
+    const SessionSnapshotPtr draft = snapshotOf(3, Quality::draft);
     pictures.addUnlessOlder(draft, pictureOf(kFrames, "frame"));
     pictures.addUnlessOlder(draft, pictureOf(kGeometry, "slices"));
     EXPECT_NE(pictures.find(kFrames, 3, Quality::draft), nullptr);

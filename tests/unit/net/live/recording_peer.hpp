@@ -17,14 +17,14 @@ namespace oval4d::net {
 /// used only on the thread that runs the session's handlers.
 class RecordingPeer final : public Peer {
   public:
-    explicit RecordingPeer(AddressAccountPtr client) : client_(std::move(client)) {}
+    explicit RecordingPeer(ClientAccountPtr client) : client_(std::move(client)) {}
 
     void send(OutgoingMessage message, std::function<void()> written) override {
         const auto& parsed = messages_.emplace_back(nlohmann::json::parse(message.bytes.view()));
         if (written) written();
         if (parsed.at("type") == "slices" && whenPictureArrives) whenPictureArrives(revisionOf(parsed));
     }
-    const AddressAccountPtr& client() const override { return client_; }
+    const ClientAccountPtr& client() const override { return client_; }
     void watchForDisconnect() override {}
     void close(std::uint16_t code, std::string /*reason*/) override { closeCode = code; }
 
@@ -59,7 +59,7 @@ class RecordingPeer final : public Peer {
         return message.at("revision").get<std::uint64_t>();
     }
 
-    const AddressAccountPtr client_;
+    const ClientAccountPtr client_;
     std::vector<nlohmann::json> messages_;
 };
 

@@ -36,7 +36,7 @@ class SessionManagerTest : public testing::Test {
 
     JoinResult create() {
         JoinResult result = kInternalError;
-        manager->create(server.account, [&result](JoinResult created) { result = std::move(created); });
+        manager->createSession(server.account, [&result](JoinResult created) { result = std::move(created); });
         return result;
     }
     JoinResult join(const store::SessionCredentials& credentials) {
@@ -47,7 +47,7 @@ class SessionManagerTest : public testing::Test {
     }
     /// Changes a session. A changed session is not evicted to make room for a new one.
     void change(const std::shared_ptr<LiveSession>& session) {
-        asio::co_spawn(server.io, session->apply(server.account, session::Key{"y", false, false}), asio::detached);
+        asio::co_spawn(server.io, session->apply(server.account, session::KeyPress{"y", false, false}), asio::detached);
         server.settle();
     }
     /// Removes the only client of a session, and waits until the session is in the store.

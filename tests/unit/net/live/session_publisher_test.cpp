@@ -29,8 +29,8 @@ using Revisions = std::vector<std::uint64_t>;
 
 const session::Rotate kRotation{{geometry::Plane::xw, 0.1}};
 
-session::Set turning(bool on) {
-    session::Set set;
+session::ChangeSettings turning(bool on) {
+    session::ChangeSettings set;
     set.turning = on;
     return set;
 }
@@ -38,7 +38,7 @@ session::Set turning(bool on) {
 class SessionPublisherTest : public testing::Test {
   protected:
     explicit SessionPublisherTest(const ServerOptions& options = {}) : server(options) {
-        publisher->whenMoved([this] { ++steps; });
+        publisher->setMotionListener([this] { ++steps; });
     }
 
     /// Calls `work` on the session's strand.
@@ -53,7 +53,7 @@ class SessionPublisherTest : public testing::Test {
             };
         }
         post([this, peer] {
-            publisher->add(peer, {wire::Stream::geometry, wire::Encoding::json, {640, 480}});
+            publisher->addSubscriber(peer, {wire::StreamKind::geometry, wire::Encoding::json, {640, 480}});
             publisher->sendAndRequestPictures();
         });
         return peer;
@@ -76,7 +76,7 @@ class SessionPublisherTest : public testing::Test {
     /// Makes the session show one slice of a field. Must be called before a client is added.
     void showField() {
         session::must(value, session::LoadObject{"ball", "formula", "x^2 + y^2 + z^2 + 0.5*w^2 < 1"});
-        session::Set set;
+        session::ChangeSettings set;
         set.count = 1;
         session::must(value, set);
     }
@@ -124,9 +124,9 @@ TEST_F(SessionPublisherTest, TheObjectTurnsAsFarInASecondAsItsSpeedSays) {
     EXPECT_EQ(peer->pictures().size(), 64U) << "each step has a picture";
     EXPECT_EQ(peer->pictures().back(), 63U);
     const double turns = 1 + session::kRotationRepeatsPerSecond * 61 / 60;
-    const glm::dmat4 expected =
-        (geometry::Rotation(geometry::Turn(geometry::Plane::xw, 0.1 * turns)) * session::Session{}.current.orientation)
-            .matrix();
+    const glm::dmat4 expected = (geometry::Rotation(geometry::RotationAngles(geometry::Plane::xw, 0.1 * turns)) *
+                                 session::Session{}.current.orientation)
+                                    .matrix();
     const glm::dmat4 reached = value.current.orientation.matrix();
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) EXPECT_NEAR(reached[column][row], expected[column][row], 1e-6);
@@ -235,7 +235,7 @@ TEST_F(SessionPublisherTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
     const auto peer = connect(true);
     // Applies a command. Returns the state if it is known without work by a worker, else null.
     const auto stateAfter = [this](const session::Command& command) {
-        SnapshotPtr state;
+        SessionSnapshotPtr state;
         post([&] {
             session::must(value, command);
             state = publisher->currentState();
@@ -244,10 +244,10 @@ TEST_F(SessionPublisherTest, TheSectionOfALargeObjectIsNamedOnceForAllLooks) {
         return state;
     };
     for (const char* look : {"set background=white", "set opacity=0.5", "set labels=off"}) {
-        const SnapshotPtr state = stateAfter(session::CommandLine{look});
+        const SessionSnapshotPtr state = stateAfter(session::CommandLine{look});
         ASSERT_TRUE(state) << look;
         EXPECT_EQ(state->revision, value.revision) << look;
-        const scene::PictureRequest picture = session::pictureOf(value.current);
+        const scene::PictureRequest picture = session::pictureRequestOf(value.current);
         EXPECT_EQ(state->section.names, pipeline::FocusSectionNamer().name(picture).names) << look;
     }
     EXPECT_FALSE(stateAfter(session::CommandLine{"set focus=1"})) << "another section";

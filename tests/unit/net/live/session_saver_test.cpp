@@ -23,14 +23,14 @@ namespace oval4d::net {
 namespace {
 
 using namespace std::chrono_literals;
-using WritePolicy = store::Store::WritePolicy;
+using WriteTiming = store::Store::WriteTiming;
 
 /// A session with its saver, and a store with this write policy.
 struct SavedSession {
-    explicit SavedSession(WritePolicy policy)
+    explicit SavedSession(WriteTiming policy)
         : control(std::make_shared<store::StoreControl>(store::kDefaultQuota, policy)) {}
 
-    std::shared_ptr<SessionSaver> makeSaver(store::Fence fence = store::kFirstFence) {
+    std::shared_ptr<SessionSaver> makeSaver(store::FencingToken fence = store::kFirstFence) {
         return std::make_shared<SessionSaver>(writeBehind, id, fence, value, clock, io.get_executor());
     }
     /// Changes the session, and tells its saver.
@@ -63,7 +63,7 @@ struct SavedSession {
     }
     /// Waits until the store has written all that was handed to it before.
     void waitForWrites() {
-        const std::string other = writeBehind.create().id;
+        const std::string other = writeBehind.createSession().id;
         std::promise<bool> done;
         writeBehind.save(other, store::kFirstFence, {}, store::WriteBehindStore::SaveScope::whole,
                          [&](bool written) { done.set_value(written); });
@@ -82,7 +82,7 @@ struct SavedSession {
         {1h, 100, store::kDefaultQuota},
         {[](const std::string&) {}, [](const std::string&) {}, [] {}, [](const char*, double, bool) {}},
         control->clock.now<store::WriteBehindStore::Clock>()};
-    const std::string id = writeBehind.create().id;
+    const std::string id = writeBehind.createSession().id;
     const std::shared_ptr<session::Session> value = std::make_shared<session::Session>();
     boost::asio::io_context io;
     VirtualTimerClock clock;
@@ -90,7 +90,7 @@ struct SavedSession {
 };
 
 TEST(SessionSaver, SavesAfterADelayThatFurtherChangesDoNotProlong) {
-    SavedSession saved(WritePolicy::soon);
+    SavedSession saved(WriteTiming::soon);
     saved.change();
     EXPECT_EQ(saved.writeBehind.unsaved(), 1U) << "the store knows of the change at once";
     saved.advance(SessionSaver::kDelay - 1ms);
@@ -106,7 +106,7 @@ TEST(SessionSaver, SavesAfterADelayThatFurtherChangesDoNotProlong) {
 }
 
 TEST(SessionSaver, SavesEveryLaterChangeToo) {
-    SavedSession saved(WritePolicy::soon);
+    SavedSession saved(WriteTiming::soon);
     for (std::uint64_t revision = 1; revision < 4; ++revision) {
         saved.change();
         saved.advance(SessionSaver::kDelay);
@@ -119,16 +119,16 @@ TEST(SessionSaver, SavesEveryLaterChangeToo) {
 }
 
 TEST(SessionSaver, LeavesChangesToTheEndIfTheStoreWantsThemOnlyThen) {
-    SavedSession saved(WritePolicy::at_close);
+    SavedSession saved(WriteTiming::at_close);
     saved.change();
     EXPECT_FALSE(saved.isScheduled());
     EXPECT_EQ(saved.writeBehind.unsaved(), 0U);
     EXPECT_FALSE(saved.saver->writeBeforeAcknowledgment(true));
-    EXPECT_FALSE(SavedSession(WritePolicy::soon).saver->writeBeforeAcknowledgment(true));
+    EXPECT_FALSE(SavedSession(WriteTiming::soon).saver->writeBeforeAcknowledgment(true));
 }
 
 TEST(SessionSaver, WritesTheSessionAsItWasBeforeAChangeIsAcknowledged) {
-    SavedSession saved(WritePolicy::at_once);
+    SavedSession saved(WriteTiming::at_once);
     saved.value->revision = 1;
     const auto whole = saved.saver->writeBeforeAcknowledgment(true);
     ASSERT_TRUE(whole);
@@ -145,20 +145,20 @@ TEST(SessionSaver, WritesTheSessionAsItWasBeforeAChangeIsAcknowledged) {
 }
 
 TEST(SessionSaver, SaysIfAnotherServerHasTakenTheSessionOver) {
-    SavedSession saved(WritePolicy::at_once);
+    SavedSession saved(WriteTiming::at_once);
     const auto write = saved.makeSaver(store::kFirstFence + 1)->writeBeforeAcknowledgment(true);
     ASSERT_TRUE(write);
     EXPECT_FALSE(SavedSession::resultOf(*write));
 }
 
 TEST(SessionSaver, NeverWritesADetachedSession) {
-    SavedSession saved(WritePolicy::at_once);
+    SavedSession saved(WriteTiming::at_once);
     saved.change();
     const auto write = saved.saver->writeBeforeAcknowledgment(true);
     ASSERT_TRUE(write);
-    EXPECT_FALSE(saved.saver->isDetached());
-    saved.saver->detach();
-    EXPECT_TRUE(saved.saver->isDetached());
+    EXPECT_FALSE(saved.saver->hasStoppedSaving());
+    saved.saver->stopSaving();
+    EXPECT_TRUE(saved.saver->hasStoppedSaving());
     saved.advance(SessionSaver::kDelay);
     EXPECT_FALSE(SavedSession::resultOf(*write));
     const auto held = std::make_shared<int>();
@@ -171,7 +171,7 @@ TEST(SessionSaver, NeverWritesADetachedSession) {
 }
 
 TEST(SessionSaver, MayBeDestroyedWhileASaveIsScheduled) {
-    SavedSession saved(WritePolicy::soon);
+    SavedSession saved(WriteTiming::soon);
     saved.change();
     saved.saver.reset();
     saved.advance(SessionSaver::kDelay);

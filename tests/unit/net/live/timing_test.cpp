@@ -14,37 +14,37 @@ constexpr MotionTiming::Clock::time_point kOpened{1h};
 
 TEST(MotionTiming, TheFirstStepIsDueAtOnce) {
     MotionTiming timing;
-    EXPECT_EQ(timing.step(kOpened), MotionTiming::kInterval);
+    EXPECT_EQ(timing.stepIfDue(kOpened), MotionTiming::kInterval);
 }
 
 TEST(MotionTiming, StepsAreAtLeastAnIntervalApart) {
     MotionTiming timing;
-    ASSERT_TRUE(timing.step(kOpened));
-    EXPECT_FALSE(timing.step(kOpened + MotionTiming::kInterval / 2));
-    EXPECT_EQ(timing.due(), kOpened + MotionTiming::kInterval);
-    EXPECT_EQ(timing.step(timing.due()), MotionTiming::kInterval);
+    ASSERT_TRUE(timing.stepIfDue(kOpened));
+    EXPECT_FALSE(timing.stepIfDue(kOpened + MotionTiming::kInterval / 2));
+    EXPECT_EQ(timing.nextStepTime(), kOpened + MotionTiming::kInterval);
+    EXPECT_EQ(timing.stepIfDue(timing.nextStepTime()), MotionTiming::kInterval);
 }
 
 // The steps of a motion cover all the time that has passed, whenever the steps are made. An object therefore turns as
 // far in each second.
 TEST(MotionTiming, StepsCoverTheTimeThatHasPassed) {
     MotionTiming timing;
-    ASSERT_TRUE(timing.step(kOpened));
+    ASSERT_TRUE(timing.stepIfDue(kOpened));
     auto now = kOpened;
     MotionTiming::Clock::duration covered{0};
     for (const auto pause : {17ms, 40ms, 5ms, 16ms, 249ms, 100ms, 18ms}) {
         now += pause;
-        covered += timing.step(now).value_or(0ms);
+        covered += timing.stepIfDue(now).value_or(0ms);
     }
     EXPECT_EQ(covered, now - kOpened);
 }
 
 TEST(MotionTiming, NothingJumpsAfterAPause) {
     MotionTiming timing;
-    ASSERT_TRUE(timing.step(kOpened));
-    EXPECT_EQ(timing.step(kOpened + 1h), MotionTiming::kLongestStep);
+    ASSERT_TRUE(timing.stepIfDue(kOpened));
+    EXPECT_EQ(timing.stepIfDue(kOpened + 1h), MotionTiming::kLongestStep);
     timing.stop();
-    EXPECT_EQ(timing.step(kOpened + 2h), MotionTiming::kInterval);
+    EXPECT_EQ(timing.stepIfDue(kOpened + 2h), MotionTiming::kInterval);
 }
 
 TEST(DraftTiming, OneChangeIsNotQuick) {
@@ -60,7 +60,7 @@ TEST(DraftTiming, ChangesThatFollowEachOtherAreQuickUntilTheSessionRests) {
     timing.recordChange(kOpened);
     timing.recordChange(kOpened + 299ms);
     EXPECT_TRUE(timing.hasQuickChanges());
-    EXPECT_EQ(timing.restEnds(), kOpened + 499ms);
+    EXPECT_EQ(timing.restEndTime(), kOpened + 499ms);
     timing.endIfRested(kOpened + 498ms);
     EXPECT_TRUE(timing.hasQuickChanges());
     timing.endIfRested(kOpened + 499ms);
@@ -78,7 +78,7 @@ TEST(DraftTiming, ALaterChangeIsNotQuick) {
 TEST(DraftTiming, APeriodOfQuickChangesMayBegin) {
     DraftTiming timing(kOpened);
     timing.recordChange(kOpened);
-    timing.begin();
+    timing.beginQuickChanges();
     EXPECT_TRUE(timing.hasQuickChanges());
     timing.endIfRested(kOpened + 200ms);
     EXPECT_FALSE(timing.hasQuickChanges());

@@ -61,7 +61,7 @@ class WebSocketConnectionTest : public ConnectionTest {
         upgrade.set(beast::http::field::upgrade, "websocket");
         upgrade.set(beast::http::field::sec_websocket_version, "13");
         upgrade.set(beast::http::field::sec_websocket_key, "dGhlIHNhbXBsZSBub25jZQ==");
-        serve(executor, connection->run(std::move(upgrade)));
+        serve(executor, connection->serveClient(std::move(upgrade)));
         if (reads) read();
         ASSERT_TRUE(server.eventually([&] { return server.metrics.webSockets.Value() == 1; }));
     }
@@ -103,7 +103,7 @@ TEST_F(WebSocketConnectionTest, AClientThatReadsNothingIsDropped) {
     constexpr std::size_t kMoreThanTheKernelHolds = std::size_t{64} << 20U;
     open(false);
     send(clientFrame(kText, R"({"type":"hello"})"));
-    ASSERT_TRUE(server.eventually([&] { return manager->openCount() == 1; }));
+    ASSERT_TRUE(server.eventually([&] { return manager->openSessionCount() == 1; }));
     connection->send(textMessage(std::string(kMoreThanTheKernelHolds, ' ')));
     EXPECT_TRUE(server.eventually([&] {
         server.advance(10s);

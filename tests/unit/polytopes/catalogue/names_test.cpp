@@ -25,7 +25,7 @@ namespace oval4d::polytopes {
 namespace {
 
 // Returns the names in backquotes in `notation.examples`.
-std::vector<std::string> examplesOf(const Notation& notation) {
+std::vector<std::string> examplesOf(const PolytopeNotation& notation) {
     std::vector<std::string> examples;
     std::string_view rest = notation.examples;
     for (std::size_t begin = rest.find('`'); begin != std::string_view::npos; begin = rest.find('`')) {
@@ -39,15 +39,15 @@ std::vector<std::string> examplesOf(const Notation& notation) {
 
 TEST(Notations, parseTheirExamples) {
     const DesignLookup lookup = [](std::string_view name) { return designNamed(name, 100'000); };
-    for (const Notation* notation : kNotations) {
+    for (const PolytopeNotation* notation : kNotations) {
         ASSERT_TRUE(notation->parse != nullptr);
         EXPECT_FALSE(examplesOf(*notation).empty()) << notation->polytopes;
         for (const std::string& example : examplesOf(*notation)) {
             SCOPED_TRACE(example);
             const std::vector<std::string> words = text::lowerCaseWords(example);
             const auto parsed = notation->parse({words, lookup});
-            ASSERT_TRUE(parsed && std::holds_alternative<Design>(*parsed));
-            const std::string& name = std::get<Design>(*parsed).name;
+            ASSERT_TRUE(parsed && std::holds_alternative<PolytopeDesign>(*parsed));
+            const std::string& name = std::get<PolytopeDesign>(*parsed).name;
             EXPECT_EQ(name, support::designFor(example).name) << "an earlier notation fits, too";
             EXPECT_EQ(name, support::designFor(name).name)
                 << "stored sessions could not build the polytope by its name";
@@ -56,10 +56,10 @@ TEST(Notations, parseTheirExamples) {
 }
 
 TEST(Notations, haveExamplesWithTheStatedElements) {
-    for (const Notation* notation : kNotations) {
+    for (const PolytopeNotation* notation : kNotations) {
         for (const std::string& example : examplesOf(*notation)) {
             SCOPED_TRACE(example);
-            const Design design = support::designFor(example);
+            const PolytopeDesign design = support::designFor(example);
             const Polytope p = build(design);
             const ElementCounts found{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()};
             // If the polytope is built as a convex hull, elementCounts() returns only an estimate.
@@ -80,7 +80,7 @@ TEST(Notations, haveExamplesWithTheStatedElements) {
 TEST(Notations, areInTheSpecification) {
     std::ifstream in(std::string(OVAL4D_SOURCE_DIR) + "/protocol/README.md");
     const std::string specification((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-    for (const Notation* notation : kNotations) {
+    for (const PolytopeNotation* notation : kNotations) {
         const std::string row = "| " + std::string(notation->polytopes) + " | " + std::string(notation->examples) +
                                 " | " + std::string(notation->edges) + " |\n";
         EXPECT_NE(specification.find(row), std::string::npos) << row << "run tests/lint --fix";
@@ -89,13 +89,13 @@ TEST(Notations, areInTheSpecification) {
 
 TEST(Constructions, areCounted) {
     std::size_t count = 0;
-    for (const Notation* notation : kNotations) {
+    for (const PolytopeNotation* notation : kNotations) {
         for (const std::string_view word : text::splitAtCommas(notation->constructions)) {
             std::string name = "5-cell";
             for (std::size_t i = 0; i <= kMaxConstructions; ++i) name = std::string(word) + " of " + name;
             const auto named = designNamed(name, 100'000);
-            ASSERT_TRUE(std::holds_alternative<NameError>(named)) << name;
-            EXPECT_EQ(std::get<NameError>(named).message, "the name has 9 constructions; at most 8 are allowed")
+            ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(named)) << name;
+            EXPECT_EQ(std::get<PolytopeNameError>(named).message, "the name has 9 constructions; at most 8 are allowed")
                 << name;
             ++count;
         }
@@ -105,8 +105,8 @@ TEST(Constructions, areCounted) {
 
 TEST(Constructions, areListedForOneThatIsUnknown) {
     const auto named = designNamed("piramid of cube", 100'000);
-    ASSERT_TRUE(std::holds_alternative<NameError>(named));
-    EXPECT_EQ(std::get<NameError>(named).message,
+    ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(named));
+    EXPECT_EQ(std::get<PolytopeNameError>(named).message,
               "'piramid' is not a construction (did you mean 'pyramid'?); there are dual, prism, pyramid, bipyramid, "
               "truncation, rectification, product, hull, intersection");
 }
@@ -117,15 +117,15 @@ TEST(Constructions, takeACircumradiusOnlyWithinHullsAndIntersections) {
           "dual of rectified 5-cell of circumradius 3", "product of 5-gon and 7-gon of circumradius 3",
           "hull of tesseract and 16-cell of circumradius 2 of circumradius 3"}) {
         const auto named = designNamed(name, 100'000);
-        ASSERT_TRUE(std::holds_alternative<NameError>(named)) << name;
-        EXPECT_EQ(std::get<NameError>(named).message,
+        ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(named)) << name;
+        EXPECT_EQ(std::get<PolytopeNameError>(named).message,
                   "'of circumradius' and a number may follow only a polytope of a hull or an intersection, as in hull "
                   "of tesseract and 16-cell of circumradius 3")
             << name;
     }
     for (const char* name : {"hull of prism of cuboctahedron of circumradius 3 and tesseract",
                              "dual of intersection of pyramid of cube and 5,7-duoprism of circumradius 2.5"})
-        EXPECT_TRUE(std::holds_alternative<Design>(designNamed(name, 100'000))) << name;
+        EXPECT_TRUE(std::holds_alternative<PolytopeDesign>(designNamed(name, 100'000))) << name;
 }
 
 TEST(Duoprisms, areNamedAfterTwoPolygons) {

@@ -33,16 +33,16 @@ using FVector = std::array<std::size_t, 4>;
 
 Polytope built(const std::string& name) { return build(support::designFor(name)); }
 
-NameError errorOf(const std::string& name) {
+PolytopeNameError errorOf(const std::string& name) {
     const auto named = designNamed(name, 100'000);
-    if (std::holds_alternative<Design>(named)) throw std::runtime_error(name + " names a polytope");
-    return std::get<NameError>(named);
+    if (std::holds_alternative<PolytopeDesign>(named)) throw std::runtime_error(name + " names a polytope");
+    return std::get<PolytopeNameError>(named);
 }
 
 FVector fVector(const Polytope& p) { return {p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()}; }
 
-// Returns the hypervolume of the polytope by the divergence theorem. It is the sum of the signed hypervolumes of
-// simplices with a corner at the origin, one for each triangle of a 2-face and a vertex of its cell.
+// Returns the hypervolume of the polytope by the divergence theorem. The result is the sum of the signed hypervolumes
+// of simplices with a corner at the origin, one for each triangle of a 2-face and a vertex of its cell.
 double hypervolume(const Polytope& p) {
     double sum = 0;
     for (std::uint32_t c = 0; c < p.cells.size(); ++c) {
@@ -365,11 +365,11 @@ TEST(Compositions, ofRandomNamesAreSound) {
         Grammar grammar(static_cast<unsigned>(seed));
         const std::string name = grammar.polytope(1 + seed % 4);
         const auto named = designNamed(name, 100'000);
-        if (const auto* error = std::get_if<NameError>(&named)) {
-            EXPECT_NE(error->reason, NameError::Reason::unknown) << name << ": " << error->message;
+        if (const auto* error = std::get_if<PolytopeNameError>(&named)) {
+            EXPECT_NE(error->reason, PolytopeNameError::Reason::unknown) << name << ": " << error->message;
             continue;
         }
-        const Design& design = std::get<Design>(named);
+        const PolytopeDesign& design = std::get<PolytopeDesign>(named);
         EXPECT_EQ(support::designFor(design.name).name, design.name) << "the name is that of the same design";
         if (elementCounts(design).vertices > 1500 || design.recipe->hullPointCount() > 3000) continue;
         try {
@@ -430,7 +430,7 @@ TEST(Compositions, areLimitedInSize) {
     for (const std::string name : {"pyramid of 100000-gonal prism", "truncation of omnitruncated 120-cell",
                                    "hull of omnitruncated 120-cell and omnitruncated 120-cell",
                                    "rectification of rectification of rectification of omnitruncated 24-cell"}) {
-        EXPECT_EQ(errorOf(name).reason, NameError::Reason::too_large) << name;
+        EXPECT_EQ(errorOf(name).reason, PolytopeNameError::Reason::too_large) << name;
     }
     EXPECT_THROW((void)built("rectification of 3,1001-duoprism"), TooLarge);
     // The numbers of elements of this hull exceed a limit, which only building the hull can show.

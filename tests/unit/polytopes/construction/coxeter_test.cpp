@@ -17,20 +17,20 @@ namespace {
 using namespace oval4d;
 using namespace oval4d::polytopes;
 
-Diagram diagram(std::string_view symbol) { return std::get<Diagram>(parseDiagram(symbol)); }
+CoxeterDiagram diagram(std::string_view symbol) { return std::get<CoxeterDiagram>(parseDiagram(symbol)); }
 
 /// Returns the error message for a text that names no polytope. For other texts, returns "none: " and the polytope's
 /// name.
 std::string errorFor(std::string_view text, std::size_t maxVertices = 100'000) {
     const auto named = designNamed(text, maxVertices);
-    const auto* error = std::get_if<NameError>(&named);
-    return error == nullptr ? "none: " + std::get<Design>(named).name : error->message;
+    const auto* error = std::get_if<PolytopeNameError>(&named);
+    return error == nullptr ? "none: " + std::get<PolytopeDesign>(named).name : error->message;
 }
 
 std::string nameOf(std::string_view text) {
     const auto named = designNamed(text, 100'000);
-    const auto* design = std::get_if<Design>(&named);
-    return design == nullptr ? "error: " + std::get<NameError>(named).message : design->name;
+    const auto* design = std::get_if<PolytopeDesign>(&named);
+    return design == nullptr ? "error: " + std::get<PolytopeNameError>(named).message : design->name;
 }
 
 TEST(Symbols, roundTrip) {
@@ -51,8 +51,9 @@ TEST(Symbols, agreeWithSchlaefliSymbols) {
                                             {"{5}×{7}", "x5o x7o"},
                                             {"tr{4,3}x{}", "x4x3x x"}}) {
         const auto read = parseSchlaefli(schlaefli);
-        ASSERT_TRUE(std::holds_alternative<Diagram>(read)) << schlaefli << std::get<NameError>(read).message;
-        EXPECT_EQ(linearNotationOf(std::get<Diagram>(read)), symbol);
+        ASSERT_TRUE(std::holds_alternative<CoxeterDiagram>(read))
+            << schlaefli << std::get<PolytopeNameError>(read).message;
+        EXPECT_EQ(linearNotationOf(std::get<CoxeterDiagram>(read)), symbol);
     }
     EXPECT_EQ(schlaefliOf(diagram("x5x3o3x")), "t0,1,3{5,3,3}");
     EXPECT_EQ(schlaefliOf(diagram("x4x3o x")), "t0,1{4,3}×{}");
@@ -86,8 +87,8 @@ TEST(Counts, agreeWithTheBuiltPolytopes) {
             for (char& c : symbol) {
                 if (c == 'o' && (rings >> node++ & 1U) != 0) c = 'x';
             }
-            const Diagram d = diagram(symbol);
-            const Polytope p = wythoff(symbol, d, mirrorsOf(d));
+            const CoxeterDiagram d = diagram(symbol);
+            const Polytope p = wythoffConstruction(symbol, d, mirrorsOf(d));
             EXPECT_EQ((ElementCounts{p.vertices.size(), p.edges.size(), p.faces.size(), p.cells.size()}),
                       elementCounts(d))
                 << symbol;
@@ -167,7 +168,7 @@ TEST(Names, ofNoPolytopeGiveAnError) {
     for (const char* text : {"", " ", "-", "25-cell", "prism", "duo prism", "truncated", "truncated cat", "x",
                              "banana prism", "s", "sxs", "{", "omnitruncated cube"}) {
         const auto named = designNamed(text, 1000);
-        ASSERT_TRUE(std::holds_alternative<NameError>(named)) << text;
+        ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(named)) << text;
     }
 }
 
@@ -182,13 +183,13 @@ TEST(Names, ofAnyLengthAndWithAnyNumbersGiveAnError) {
         const std::string expected =
             "the diagram of a polychoron has four nodes, as in x5o3o3x, not " + std::to_string(nodes);
         for (const char* prefix : {"", "r", "t", "2tr", "t0,3"})
-            EXPECT_EQ(std::get<NameError>(parseSchlaefli(prefix + ("{" + numbers) + "}")).message, expected);
-        EXPECT_EQ(std::get<NameError>(parseDiagram(nodesOfDiagram)).message, expected);
+            EXPECT_EQ(std::get<PolytopeNameError>(parseSchlaefli(prefix + ("{" + numbers) + "}")).message, expected);
+        EXPECT_EQ(std::get<PolytopeNameError>(parseDiagram(nodesOfDiagram)).message, expected);
     }
     for (const char* text : {"{0,3,3}", "{1,3,3}", "{-3,3,3}", "{3/0,3,3}", "{3/-2,3,3}", "{1000001,3,3}",
                              "{4294967299,3,3}", "{18446744073709551619,3,3}", "{3,3,1000000/3}", "{5/4,3,3}",
                              "{1000000,3,3}", "{1000000,1000000,1000000}", "t0,1,0,1,0,1,0,1,4{3,3,3}", "t{}", "{3}×"})
-        EXPECT_TRUE(std::holds_alternative<NameError>(parseSchlaefli(text))) << text;
+        EXPECT_TRUE(std::holds_alternative<PolytopeNameError>(parseSchlaefli(text))) << text;
     EXPECT_EQ(errorFor("1000000,1000000-duoprism"),
               "the 1000000,1000000-duoprism has 1000000000000 vertices; at most 100000 are allowed");
     EXPECT_EQ(errorFor("1000000,1000000-duoantiprism"),
@@ -215,7 +216,7 @@ TEST(Names, ofAnyTextAreParsedSafely) {
 
 TEST(Designs, outsideTheCatalogueAreBuiltAndShared) {
     const auto built = [](std::string_view text) {
-        return support::cache().get(std::get<Design>(designNamed(text, 100'000)));
+        return support::cache().get(std::get<PolytopeDesign>(designNamed(text, 100'000)));
     };
     const auto twenty = built("20,30-duoprism");
     EXPECT_EQ(twenty->vertices.size(), 600U);

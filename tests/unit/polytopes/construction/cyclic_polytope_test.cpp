@@ -60,7 +60,7 @@ class CyclicPolytopeOf : public testing::TestWithParam<std::uint32_t> {
   protected:
     const std::uint32_t n = GetParam();
     const std::string name = "cyclic polytope C(" + std::to_string(n) + ",4)";
-    const Design design = support::designFor(name);
+    const PolytopeDesign design = support::designFor(name);
     const Polytope polytope = build(design);
 };
 
@@ -187,27 +187,27 @@ TEST(CyclicPolytopes, ofOtherNumbersAreRefused) {
           "C(7,4", "C()", "C(1 2,4)", "C(1000001,4)", "4-cyclic polytope", "5/2-cyclic polytope",
           "15/2-cyclic polytope", "1 2-cyclic polytope", "teapot cyclic polytope"}) {
         const auto named = designNamed(text, 100'000);
-        ASSERT_TRUE(std::holds_alternative<NameError>(named)) << text;
-        EXPECT_EQ(std::get<NameError>(named).message,
+        ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(named)) << text;
+        EXPECT_EQ(std::get<PolytopeNameError>(named).message,
                   "a cyclic polytope is named after the number of its vertices, from 5 to 448, as in cyclic polytope "
                   "C(7,4) or 7-cyclic polytope")
             << text;
     }
     for (const char* text : {"polytope C", "acyclic polytope", "7-acyclic polytope", "cyclic", "C 7 4"})
-        EXPECT_TRUE(std::holds_alternative<NameError>(designNamed(text, 100'000))) << text;
+        EXPECT_TRUE(std::holds_alternative<PolytopeNameError>(designNamed(text, 100'000))) << text;
 }
 
 TEST(CyclicPolytopes, areLimitedInTheirVertices) {
     for (const char* text : {"449", "1000000"}) {
         const auto large = designNamed(std::string("C(") + text + ",4)", 10'000'000);
-        ASSERT_TRUE(std::holds_alternative<NameError>(large));
-        const auto& error = std::get<NameError>(large);
-        EXPECT_EQ(error.reason, NameError::Reason::too_large);
+        ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(large));
+        const auto& error = std::get<PolytopeNameError>(large);
+        EXPECT_EQ(error.reason, PolytopeNameError::Reason::too_large);
         EXPECT_EQ(error.message, std::string("the cyclic polytope C(") + text + ",4) has " + text +
                                      " vertices; at most 448 are allowed");
     }
-    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("C(9,4)", 8)));
-    EXPECT_TRUE(std::holds_alternative<Design>(designNamed("C(9,4)", 9)));
+    EXPECT_TRUE(std::holds_alternative<PolytopeNameError>(designNamed("C(9,4)", 8)));
+    EXPECT_TRUE(std::holds_alternative<PolytopeDesign>(designNamed("C(9,4)", 9)));
     const Polytope largest = build(support::designFor("C(448,4)"));
     EXPECT_TRUE(largest.convex);
     EXPECT_EQ(largest.cells.size(), 99'680U);

@@ -20,7 +20,7 @@ class DualOf : public testing::TestWithParam<const char*> {};
 
 TEST_P(DualOf, isItsPolarReciprocal) {
     const Polytope base = build(support::designFor(GetParam()));
-    const Design design = support::designFor(std::string("dual of ") + GetParam());
+    const PolytopeDesign design = support::designFor(std::string("dual of ") + GetParam());
     const Polytope dual = build(design);
     EXPECT_EQ(dual.name, design.name);
     EXPECT_EQ(dual.vertices.size(), base.cells.size());
@@ -53,7 +53,7 @@ TEST_P(DualOf, isItsPolarReciprocal) {
 }
 
 TEST_P(DualOf, hasTheBaseAsItsDual) {
-    const Design twice = support::designFor(std::string("dual of dual of ") + GetParam());
+    const PolytopeDesign twice = support::designFor(std::string("dual of dual of ") + GetParam());
     EXPECT_EQ(twice.name, support::designFor(GetParam()).name);
 }
 
@@ -96,13 +96,13 @@ TEST(Dual, ofARegularPolytopeIsRegular) {
 
 TEST(Dual, ofSomethingUnknownIsUnknown) {
     const auto unknown = designNamed("dual of teapot", 100'000);
-    ASSERT_TRUE(std::holds_alternative<NameError>(unknown));
-    EXPECT_EQ(std::get<NameError>(unknown).message, "'teapot' is not the name of a polytope");
-    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual of", 100'000)));
-    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("dual", 100'000)));
+    ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(unknown));
+    EXPECT_EQ(std::get<PolytopeNameError>(unknown).message, "'teapot' is not the name of a polytope");
+    EXPECT_TRUE(std::holds_alternative<PolytopeNameError>(designNamed("dual of", 100'000)));
+    EXPECT_TRUE(std::holds_alternative<PolytopeNameError>(designNamed("dual", 100'000)));
     const auto large = designNamed("dual of 400,400-duoprism", 100'000);
-    ASSERT_TRUE(std::holds_alternative<NameError>(large));
-    EXPECT_EQ(std::get<NameError>(large).reason, NameError::Reason::too_large);
+    ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(large));
+    EXPECT_EQ(std::get<PolytopeNameError>(large).reason, PolytopeNameError::Reason::too_large);
 }
 
 }  // namespace

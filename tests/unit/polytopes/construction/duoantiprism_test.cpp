@@ -98,7 +98,7 @@ class DuoantiprismOf : public testing::TestWithParam<std::pair<int, int>> {
   protected:
     const int p = GetParam().first, q = GetParam().second;
     const std::size_t pairs = static_cast<std::size_t>(p) * static_cast<std::size_t>(q);
-    const Design design = support::designFor(std::to_string(p) + "," + std::to_string(q) + "-duoantiprism");
+    const PolytopeDesign design = support::designFor(std::to_string(p) + "," + std::to_string(q) + "-duoantiprism");
     const Polytope polytope = build(design);
 };
 
@@ -217,7 +217,7 @@ TEST(Duoantiprisms, areNamedAfterTwoPolygons) {
 }
 
 TEST(Duoantiprisms, haveSymbols) {
-    const Design design = support::designFor("3,4-duoantiprism");
+    const PolytopeDesign design = support::designFor("3,4-duoantiprism");
     EXPECT_EQ(linearNotationOf(design), "s3s2s4s");
     EXPECT_EQ(schlaefliOf(design), "ht0,1,2,3{3,2,4}");
 }
@@ -227,8 +227,8 @@ TEST(Duoantiprisms, ofOtherThanTwoConvexPolygonsAreRefused) {
          {"duoantiprism", "1,5-duoantiprism", "0-5 duoantiprism", "5/2,5-duoantiprism", "pentagrammic duoantiprism",
           "3,4,5-duoantiprism", "3-4-5 duoantiprism", "teapot duoantiprism"}) {
         const auto named = designNamed(text, 100'000);
-        ASSERT_TRUE(std::holds_alternative<NameError>(named)) << text;
-        EXPECT_EQ(std::get<NameError>(named).message,
+        ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(named)) << text;
+        EXPECT_EQ(std::get<PolytopeNameError>(named).message,
                   "a duoantiprism is named after two polygons that have at least two sides and are no stars, as in "
                   "3,4-duoantiprism")
             << text;
@@ -237,13 +237,13 @@ TEST(Duoantiprisms, ofOtherThanTwoConvexPolygonsAreRefused) {
 
 TEST(Duoantiprisms, areLimitedInTheirVerticesOnly) {
     const auto large = designNamed("1000,1000-duoantiprism", 100'000);
-    ASSERT_TRUE(std::holds_alternative<NameError>(large));
-    EXPECT_EQ(std::get<NameError>(large).message,
+    ASSERT_TRUE(std::holds_alternative<PolytopeNameError>(large));
+    EXPECT_EQ(std::get<PolytopeNameError>(large).message,
               "the 1000,1000-duoantiprism has 2000000 vertices; at most 100000 are allowed");
-    EXPECT_TRUE(std::holds_alternative<NameError>(designNamed("3,4-duoantiprism", 23)));
-    EXPECT_TRUE(std::holds_alternative<Design>(designNamed("3,4-duoantiprism", 24)));
+    EXPECT_TRUE(std::holds_alternative<PolytopeNameError>(designNamed("3,4-duoantiprism", 23)));
+    EXPECT_TRUE(std::holds_alternative<PolytopeDesign>(designNamed("3,4-duoantiprism", 24)));
     // A duoantiprism may have more vertices than a convex hull may have points.
-    EXPECT_TRUE(std::holds_alternative<Design>(designNamed("200,250-duoantiprism", 100'000)));
+    EXPECT_TRUE(std::holds_alternative<PolytopeDesign>(designNamed("200,250-duoantiprism", 100'000)));
     // A duoantiprism may have a 2-face with more sides than constructions by convex hulls allow.
     const Polytope wide = build(support::designFor("3,1001-duoantiprism"));
     EXPECT_TRUE(wide.convex);

@@ -40,12 +40,12 @@ TEST(NamedPolyhedra, haveVerticesOnASphereAndEdgesOfLengthTwo) {
 }
 
 TEST(Polygons, haveNouns) {
-    EXPECT_EQ(nounOf({4, 1}), "square");
-    EXPECT_EQ(nounOf({9, 1}), "enneagon");
-    EXPECT_EQ(nounOf({17, 1}), "17-gon");
-    EXPECT_EQ(nounOf({5, 2}), "pentagram");
-    EXPECT_EQ(nounOf({7, 2}), "7/2-gon");
-    for (int n = 3; n < 30; ++n) EXPECT_EQ(polygonNamed(nounOf({n, 1})), (RegularPolygon{n, 1}));
+    EXPECT_EQ(polygonNoun({4, 1}), "square");
+    EXPECT_EQ(polygonNoun({9, 1}), "enneagon");
+    EXPECT_EQ(polygonNoun({17, 1}), "17-gon");
+    EXPECT_EQ(polygonNoun({5, 2}), "pentagram");
+    EXPECT_EQ(polygonNoun({7, 2}), "7/2-gon");
+    for (int n = 3; n < 30; ++n) EXPECT_EQ(polygonNamed(polygonNoun({n, 1})), (RegularPolygon{n, 1}));
 }
 
 }  // namespace

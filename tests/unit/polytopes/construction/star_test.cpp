@@ -124,8 +124,8 @@ TEST(StarProducts, haveTheDensityOfTheirPolygons) {
     std::mt19937 random(43);
     const auto density = [&](std::string_view name) {
         const auto design = designNamed(name, 1000);
-        if (!std::holds_alternative<Design>(design)) return -1;
-        return std::abs(densityAt(*cache().get(std::get<Design>(design)), randomDirection(random)));
+        if (!std::holds_alternative<PolytopeDesign>(design)) return -1;
+        return std::abs(densityAt(*cache().get(std::get<PolytopeDesign>(design)), randomDirection(random)));
     };
     EXPECT_EQ(density("5/2,5-duoprism"), 2);
     EXPECT_EQ(density("5/2,7/3-duoprism"), 6);
@@ -140,9 +140,9 @@ TEST(StarProducts, haveTheDensityOfTheirPolygons) {
 TEST(StarDiagrams, whoseElementsCoincideAreRefused) {
     for (const char* diagram : {"x3o3o5/2x", "x5/2o5o5/2x", "x5o5/2o5x"}) {
         const auto design = designNamed(diagram, 100'000);
-        ASSERT_TRUE(std::holds_alternative<Design>(design)) << diagram;
+        ASSERT_TRUE(std::holds_alternative<PolytopeDesign>(design)) << diagram;
         try {
-            (void)cache().get(std::get<Design>(design));
+            (void)cache().get(std::get<PolytopeDesign>(design));
             ADD_FAILURE() << diagram;
         } catch (const std::invalid_argument& refused) {
             EXPECT_NE(std::string_view(refused.what()).find("coincide"), std::string_view::npos) << refused.what();

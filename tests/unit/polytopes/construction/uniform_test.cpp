@@ -44,7 +44,8 @@ class Uniform : public testing::TestWithParam<CatalogueEntry> {
     const Polytope& p = *polytope;
 };
 
-/// Invariants of a vertex. They are equal for all vertices if the symmetry group is transitive on the vertices.
+/// Invariants of a vertex. The invariants are equal for all vertices if the symmetry group is transitive on the
+/// vertices.
 struct Surroundings {
     std::vector<long> neighbors;               // the distances of the nearest other vertices, rounded
     std::map<std::uint32_t, int> cellTypes;    // for each cell type, the number of cells at the vertex
@@ -197,7 +198,8 @@ TEST_P(Sections, areClosedSpheres) {
     slicing::CellComplexSlicer slicer;
     for (int trial = 0; trial < 4; ++trial) {
         geometry::Rotation orientation = trial < 2 ? geometry::Rotation() : randomRotation(random);
-        if (trial == 1) orientation = geometry::Rotation(geometry::Turn{geometry::Plane::xw, std::numbers::pi / 4, {}});
+        if (trial == 1)
+            orientation = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xw, std::numbers::pi / 4, {}});
         slicer.slice(*polytope, orientation, {-5, 11, polytope->circumradius / 5.5}, s);
         for (int i = 0; i < s.planes.count; ++i) {
             if (s.faceCount(i) < 2) continue;
@@ -287,8 +289,8 @@ TEST(Hypervolume, isTheIntegralOfTheSlices) {
 // Diagrams of subgroups give the same polytopes as the diagrams of the catalogue, which have larger groups.
 TEST(Diagrams, ofSubgroupsGenerateTheSamePolytopes) {
     const auto same = [](const char* symbol, std::string_view name) {
-        const Diagram diagram = std::get<Diagram>(parseDiagram(symbol));
-        const Polytope p = wythoff(symbol, diagram, mirrorsOf(diagram));
+        const CoxeterDiagram diagram = std::get<CoxeterDiagram>(parseDiagram(symbol));
+        const Polytope p = wythoffConstruction(symbol, diagram, mirrorsOf(diagram));
         const Polytope& known = built(name);
         EXPECT_EQ(countsOf(p), countsOf(known)) << symbol;
         EXPECT_EQ(countsOf(p), elementCounts(diagram)) << symbol;

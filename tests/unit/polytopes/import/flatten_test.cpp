@@ -34,7 +34,7 @@ Points noisy(Points points, double amplitude, std::mt19937& random) {
 }
 
 ImportedPolytope imported(const Polytope& polytope, const Points& vertices) {
-    return sound(importPolytope(FileFormat::off4, write4Off(polytope, vertices), "p", {}));
+    return sound(importPolytope(PolytopeFileFormat::off4, write4Off(polytope, vertices), "p", {}));
 }
 
 // Returns the largest distance of a vertex from the hyperplane of its cell, relative to the circumradius.
@@ -146,7 +146,7 @@ TEST(Flatten, LeavesDistantPolytopesAsExactAsTheirCoordinatesAre) {
             for (const auto choice :
                  {geometry::Centering::OriginChoice::origin, geometry::Centering::OriginChoice::object}) {
                 const ImportedPolytope made =
-                    sound(importPolytope(FileFormat::off4, text, "p", {}, {.choice = choice, .place = {}}));
+                    sound(importPolytope(PolytopeFileFormat::off4, text, "p", {}, {.choice = choice, .place = {}}));
                 EXPECT_EQ(made.warnings, std::vector<std::string>()) << name << " at " << distance;
                 EXPECT_EQ(countsOf(made.polytope), countsOf(exact));
                 EXPECT_LT(unevenness(made.polytope), std::max(4e-12, 1e-14 * distance));

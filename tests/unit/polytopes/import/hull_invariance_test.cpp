@@ -187,8 +187,8 @@ std::string shortestSingles(const Points& points) {
     return text;
 }
 
-// The hull of a polytope's vertices is the polytope, even if the coordinates are single-precision numbers. They are
-// written with the numbers of digits that programs use.
+// The hull of a polytope's vertices is the polytope, even if the coordinates are single-precision numbers. The
+// coordinates are written with the numbers of digits that programs use.
 TEST(Hull, OfSinglePrecisionNumbersIsThePolytope) {
     std::mt19937 random(33);
     constexpr std::array kNames{"8-cell", "24-cell", "120-cell", "600-cell", "3,6-duoprism", "rectified 5-cell"};

@@ -26,11 +26,11 @@ using namespace polytopes;
 using Result = std::variant<ImportedPolytope, FileError>;
 
 inline Result importPoints(std::string_view text, std::size_t maxHullCells = 100'000) {
-    return importPolytope(FileFormat::points, text, "p", {.maxHullCells = maxHullCells});
+    return importPolytope(PolytopeFileFormat::points, text, "p", {.maxHullCells = maxHullCells});
 }
 
 inline Result importOff4(std::string_view text, std::size_t maxVertices = 100'000) {
-    return importPolytope(FileFormat::off4, text, "p", {.maxVertices = maxVertices});
+    return importPolytope(PolytopeFileFormat::off4, text, "p", {.maxVertices = maxVertices});
 }
 
 /// Returns the imported polytope. Throws std::runtime_error if the file was not accepted.

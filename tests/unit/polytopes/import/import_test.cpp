@@ -234,7 +234,7 @@ TEST(Points, AreReadFromTables) {
     for (const char* between : {",", ", ", ";", "\t"}) {
         const std::string text = "# a comment\nx,y,z,w\n" + asPoints(points, 17, between);
         EXPECT_EQ(sound(importPoints(text)).polytope.cellCount(), 16U);
-        EXPECT_EQ(detectFileFormat(text), FileFormat::points);
+        EXPECT_EQ(detectFileFormat(text), PolytopeFileFormat::points);
     }
 }
 
@@ -271,8 +271,8 @@ TEST(Points, ThatDoNotSpanFourDimensionsAreRefused) {
 }
 
 TEST(Import, ReadsTheLargestUniformPolychoronBack) {
-    const Diagram diagram = Diagram::linear({5, 1}, {3, 1}, {3, 1}, {true, true, true, true});
-    const Polytope original = wythoff("omnitruncated 120-cell", diagram, mirrorsOf(diagram));
+    const CoxeterDiagram diagram = CoxeterDiagram::linear({5, 1}, {3, 1}, {3, 1}, {true, true, true, true});
+    const Polytope original = wythoffConstruction("omnitruncated 120-cell", diagram, mirrorsOf(diagram));
     ASSERT_EQ(original.vertices.size(), 14'400U);
     const ImportedPolytope imported = sound(importOff4(Lines(original).text(28'800)));
     EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
@@ -281,10 +281,11 @@ TEST(Import, ReadsTheLargestUniformPolychoronBack) {
 }
 
 TEST(Import, ReadsStarPolychoraBack) {
-    for (const auto& [p, q, r] :
-         {std::array<Branch, 3>{{{5, 2}, {5, 1}, {3, 1}}}, {{{5, 1}, {5, 2}, {5, 1}}}, {{{5, 2}, {3, 1}, {3, 1}}}}) {
-        const Diagram diagram = Diagram::linear(p, q, r, {true, false, false, false});
-        const Polytope original = wythoff("star", diagram, mirrorsOf(diagram));
+    for (const auto& [p, q, r] : {std::array<DiagramBranch, 3>{{{5, 2}, {5, 1}, {3, 1}}},
+                                  {{{5, 1}, {5, 2}, {5, 1}}},
+                                  {{{5, 2}, {3, 1}, {3, 1}}}}) {
+        const CoxeterDiagram diagram = CoxeterDiagram::linear(p, q, r, {true, false, false, false});
+        const Polytope original = wythoffConstruction("star", diagram, mirrorsOf(diagram));
         const ImportedPolytope imported = sound(importOff4(Lines(original).text()));
         EXPECT_EQ(countsOf(imported.polytope), countsOf(original));
         EXPECT_EQ(imported.polytope.convexFaces, original.convexFaces);

@@ -89,7 +89,7 @@ TEST(Repair, RemovesRepeatedCornersFromFaces) {
 }
 
 // Four points in a line become one vertex, in any order, although only neighbors are within the distance for merging.
-// They replace a vertex of a 5-cell; each 2-face at this vertex has one of them.
+// The four points replace a vertex of a 5-cell; each 2-face at this vertex has one of them.
 TEST(Repair, MergesAChainOfVertices) {
     const Polytope& simplex = named("5-cell");
     const double distance = 1e-4;

@@ -115,7 +115,7 @@ TEST_P(CrossingFaces, HideEachOtherWhereTheyAreFilled) {
     subject.slicesOnly();
     const image::Image image = subject.draw(renderer);
     const Eye eye(subject);
-    const scene::Style& style = scene::style();
+    const scene::PictureStyle& style = scene::style();
     const glm::dmat3 toCamera(subject.scene.camera.view());
     int clear = 0, hit = 0, wrong = 0;
     for (int y = 0; y < image.height; y += 6) {

@@ -16,16 +16,16 @@ struct Shape {
     float depth;
 };
 
-std::vector<std::uint32_t> sorted(DepthOrder& order, const std::vector<Shape>& shapes) {
+std::vector<std::uint32_t> sorted(DepthSorter& order, const std::vector<Shape>& shapes) {
     std::vector<std::uint32_t> indices;
-    for (const DepthOrder::KeyedShape& entry : order.farToNear(shapes)) indices.push_back(entry.index);
+    for (const DepthSorter::KeyedShape& entry : order.sortedFarToNear(shapes)) indices.push_back(entry.index);
     return indices;
 }
 
-TEST(DepthOrder, IsFromFarToNearAndThenThatOfTheList) {
+TEST(DepthSorter, IsFromFarToNearAndThenThatOfTheList) {
     const float infinity = std::numeric_limits<float>::infinity();
     std::mt19937 random(5);
-    DepthOrder order;
+    DepthSorter order;
     for (const std::size_t count : {0U, 1U, 2U, 255U, 3000U}) {
         std::vector<Shape> shapes;
         for (std::size_t i = 0; i < count; ++i) {
@@ -42,8 +42,8 @@ TEST(DepthOrder, IsFromFarToNearAndThenThatOfTheList) {
     EXPECT_TRUE(sorted(order, {}).empty());
 }
 
-TEST(DepthOrder, OfShapesAtOneDepthIsThatOfTheList) {
-    DepthOrder order;
+TEST(DepthSorter, OfShapesAtOneDepthIsThatOfTheList) {
+    DepthSorter order;
     EXPECT_EQ(sorted(order, std::vector<Shape>(5, {7})), (std::vector<std::uint32_t>{0, 1, 2, 3, 4}));
 }
 

@@ -151,7 +151,7 @@ TEST(FogPainter, IsSeenThroughTheEdgesOfBars) {
     picture.scene.look.parts.balls = false;
     picture.setOpacity(0.95);
     // No pixel is darker than both the fog and a bar without direct light.
-    const scene::Style& style = scene::style();
+    const scene::PictureStyle& style = scene::style();
     const double darkest = style.ambient * rgbOf(style.bar)[0] - 2;
     ASSERT_GT(darkest, rgbOf(style.background)[0] + 20);
     ASSERT_LT(darkest, centerOf(picture)[0]);

@@ -16,7 +16,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 /// Returns the color of a lit surface with this normal, in camera coordinates.
 Rgb litColor(scene::Color color, const glm::dvec3& normal) {
-    const scene::Style& style = scene::style();
+    const scene::PictureStyle& style = scene::style();
     const glm::dvec3 half = glm::normalize(style.light + glm::dvec3(0, 0, 1));
     const double diffuse = style.ambient + style.diffuse * std::max(glm::dot(normal, style.light), 0.0);
     const double highlight = style.specular * std::pow(std::max(glm::dot(normal, half), 0.0), style.shininess);
@@ -139,7 +139,7 @@ TEST_F(Shapes, ThinBarFadesInsteadOfBreakingUp) {
 }
 
 TEST_F(Shapes, FaceIsTintedAndLitAlikeFromBothSides) {
-    const scene::Style& style = scene::style();
+    const scene::PictureStyle& style = scene::style();
     std::vector<image::Image> images;
     for (const bool turned : {false, true}) {
         HandMade hand({{-0.8, -0.8, 0}, {0.8, -0.8, 0}, {0.8, 0.8, 0}, {-0.8, 0.8, 0}});

@@ -138,7 +138,7 @@ class Depths : public testing::Test {
         rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
         rasterizer.add(solid, ShapeRasterizer::DepthUse::written);
         rasterizer.add(translucent, ShapeRasterizer::DepthUse::tested);
-        rasterizer.finish(nullptr);
+        rasterizer.drawAdded(nullptr);
         for (std::size_t i = 0; i < kGuard; ++i) {
             EXPECT_EQ(memory[i], kUntouched);
             EXPECT_EQ(memory[kGuard + kBytes + i], kUntouched);
@@ -185,7 +185,7 @@ TEST_F(Depths, HideNothingWhereTheyHaveBeenCleared) {
     rasterizer.add(solid, ShapeRasterizer::DepthUse::written);
     rasterizer.addDepthClearing({{-5, 10}, {kSize / 2, kSize + 5}});
     rasterizer.add(translucent, ShapeRasterizer::DepthUse::tested);
-    rasterizer.finish(nullptr);
+    rasterizer.drawAdded(nullptr);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             const Rgb color = pixelAt(picture, x, y);
@@ -235,7 +235,7 @@ TEST_F(Depths, FacesInFrontOfAllSolidShapesLookAsWithoutDepths) {
         rasterizer.setDepthArea({{0, 0}, {kSize, kSize}});
         rasterizer.add(solid, ShapeRasterizer::DepthUse::written);
         rasterizer.add(translucent, depth);
-        rasterizer.finish(nullptr);
+        rasterizer.drawAdded(nullptr);
         return pixels;
     };
     solid.addBall({0.3F, 0.2F, -12}, 0.4F, kRed);
@@ -248,9 +248,9 @@ TEST_F(Depths, StrokesHaveTheirColorAndWidthAndLeaveTheRestOfThePicture) {
     constexpr int kGray = 100;
     image::Image image{kSize, kSize, std::vector<std::uint8_t>(image::byteCount(kSize, kSize), kGray)};
     solid.addStroke({10, 20}, {50, 20}, 3, kRed);
-    rasterizer.beginOver({kSize, kSize}, scene::style(), image.pixels);
+    rasterizer.beginOverPicture({kSize, kSize}, scene::style(), image.pixels);
     rasterizer.add(solid, ShapeRasterizer::DepthUse::unused);
-    rasterizer.finish(nullptr);
+    rasterizer.drawAdded(nullptr);
     for (int y = 0; y < kSize; ++y) {
         for (int x = 0; x < kSize; ++x) {
             const double fromEdge = 1.5 - std::abs(y + 0.5 - 20);

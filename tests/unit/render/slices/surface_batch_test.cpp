@@ -41,7 +41,7 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
     DepthRange depths;
     batch.collect(scene, depths);
 
-    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const auto positionOf = [&](const SurfaceVertex& vertex) {  // returns the position of a vertex in view coordinates
         const glm::vec3& c = vertex.clip;
         return glm::vec3((c.x - projection.shiftX * c.z) / projection.scaleX,
@@ -50,7 +50,7 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
     const auto& indices = batch.opaqueIndices();
     std::set<std::uint32_t> used;
     std::size_t compared = 0, different = 0;
-    for (std::size_t i = 0; i < batch.fringesBegin(); i += 3) {
+    for (std::size_t i = 0; i < batch.antialiasingFringesBegin(); i += 3) {
         std::array<glm::vec3, 3> corners;
         for (std::size_t k = 0; k < 3; ++k) {
             used.insert(indices[i + k]);
@@ -62,7 +62,7 @@ TEST(SurfaceBatch, SharesVerticesInEachWallButNotBetweenWalls) {
         for (std::size_t k = 0; k < 3; ++k)
             different += glm::length(batch.vertices()[indices[i + k]].normal - glm::normalize(normal)) > 0.02F ? 1 : 0;
     }
-    const std::size_t triangles = batch.fringesBegin() / 3;
+    const std::size_t triangles = batch.antialiasingFringesBegin() / 3;
     EXPECT_GT(triangles, 1000U);
     EXPECT_GT(compared, triangles / 2);
     EXPECT_LT(different, compared / 100) << "corners of triangles in one wall with the normal of another";
@@ -103,10 +103,10 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTh
         return points;
     };
     const auto ofSlices = clipPoints(SurfaceBatch::Selection::slices);
-    EXPECT_EQ(batch.placesFarToNear().size(), 5U);
+    EXPECT_EQ(batch.slicesFarToNear().size(), 5U);
     const auto ofProjection = clipPoints(SurfaceBatch::Selection::projection);
-    EXPECT_EQ(batch.placesFarToNear().size(), 1U);
-    const Projection projection = Projection::of(scene.camera, scene.viewport);
+    EXPECT_EQ(batch.slicesFarToNear().size(), 1U);
+    const ViewProjection projection = ViewProjection::fromCamera(scene.camera, scene.viewport);
     const glm::dmat4 toView = scene.camera.view();
     std::set<std::array<float, 3>> expected;
     for (const glm::vec3& point : slices.surfaces[3].points) {
@@ -131,7 +131,7 @@ TEST(SurfaceBatch, HasTheSurfaceOfTheFocusSliceInTheProjectionApartFromThoseOfTh
     composer.compose(object, {}, slices, 1, look, {1280, 720}, scene);
     EXPECT_FALSE(scene.projection.focusSurface);
     EXPECT_TRUE(clipPoints(SurfaceBatch::Selection::projection).empty());
-    EXPECT_TRUE(batch.placesFarToNear().empty());
+    EXPECT_TRUE(batch.slicesFarToNear().empty());
 }
 
 }  // namespace

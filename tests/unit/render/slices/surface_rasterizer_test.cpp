@@ -107,7 +107,7 @@ TEST_P(SurfacesInMemory, AreTheSameWithTwoThreads) {
 }
 
 constexpr scene::ShownParts kOnlySurfaces{.bars = false, .balls = false};
-constexpr auto kBelow = fields::Inside::below;
+constexpr auto kBelow = fields::BodySide::below;
 
 scene::Look lookOf(const scene::ShownParts& parts, std::vector<double> levels, scene::Look look = {}) {
     look.parts = parts;

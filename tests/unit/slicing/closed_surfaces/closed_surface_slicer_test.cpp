@@ -27,7 +27,7 @@
 namespace oval4d::slicing {
 namespace {
 
-using fields::Inside;
+using fields::BodySide;
 
 // Returns an array with random samples between −1 and 1. The fraction `holes` of the samples are NaN.
 fields::Field randomArray(const fields::Shape& shape, const fields::Box& box, std::mt19937& random, double holes = 0) {
@@ -48,7 +48,7 @@ fields::Field formula(std::string_view text, const fields::Box& box) {
     return std::move(*field);
 }
 
-ClosedSurface exactSlice(ClosedSurfaceSlicer& slicer, double w, double level, Inside inside = Inside::below) {
+ClosedSurface exactSlice(ClosedSurfaceSlicer& slicer, double w, double level, BodySide inside = BodySide::below) {
     ClosedSurface surface;
     const auto done = slicer.slice(w, {.level = level, .inside = inside}, surface);
     EXPECT_TRUE(done);
@@ -113,7 +113,7 @@ std::vector<Cut> simplicesOf(const fields::Field& field, const geometry::Rotatio
     return simplices;
 }
 
-double bodyVolume(const std::vector<Cut>& simplices, double level, Inside inside) {
+double bodyVolume(const std::vector<Cut>& simplices, double level, BodySide inside) {
     double sum = 0;
     for (const Cut& s : simplices) {
         std::vector<double> below, above;
@@ -121,7 +121,7 @@ double bodyVolume(const std::vector<Cut>& simplices, double level, Inside inside
         const double share = shareBelow(below, above, level);
         const glm::dmat4 sides(s.corners[1] - s.corners[0], s.corners[2] - s.corners[0], s.corners[3] - s.corners[0],
                                s.corners[4] - s.corners[0]);
-        sum += std::abs(glm::determinant(sides)) / 24 * (inside == Inside::below ? share : 1 - share);
+        sum += std::abs(glm::determinant(sides)) / 24 * (inside == BodySide::below ? share : 1 - share);
     }
     return sum;
 }
@@ -154,7 +154,7 @@ TEST(ClosedSurfaceSlicer, VolumesAddUpToThatOfTheBody) {
                                                 random, trial == 7 ? 0.1 : 0);
         const geometry::Rotation orientation = trial < 2 ? geometry::Rotation() : support::randomRotation(random);
         const double level = std::uniform_real_distribution<double>(-0.6, 0.6)(random);
-        const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
+        const BodySide inside = trial % 2 == 0 ? BodySide::below : BodySide::above;
         const auto simplices = simplicesOf(field, orientation);
         const std::vector<double> ws = breakpoints(simplices, level);
         ClosedSurfaceSlicer slicer(field, orientation);
@@ -190,7 +190,7 @@ TEST(ClosedSurfaceSlicer, SurfacesOfRandomFieldsAreClosedManifolds) {
         for (const double level : {-0.5, 0.0, 0.4}) {
             // The hyperplane w = 0 is in the middle of the lattice, and often contains lattice points.
             for (const double w : {-0.3, 0.0, 0.7}) {
-                const Inside inside = trial % 2 == 0 ? Inside::below : Inside::above;
+                const BodySide inside = trial % 2 == 0 ? BodySide::below : BodySide::above;
                 const ClosedSurface surface = exactSlice(slicer, w, level, inside);
                 triangles += surface.triangles.size();
                 EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U) << "trial " << trial;
@@ -217,7 +217,7 @@ TEST(ClosedSurfaceSlicer, PointsHaveValuesAndGradients) {
     glm::dmat4 sheared(1);
     sheared[3][0] = 0.5;
     field.toFunction = glm::inverse(sheared);
-    for (const Inside inside : {Inside::below, Inside::above}) {
+    for (const BodySide inside : {BodySide::below, BodySide::above}) {
         const geometry::Rotation orientation = support::randomRotation(random);
         const glm::dmat4 toFunction = field.toFunction * orientation.inverse().matrix();
         const glm::dvec4 expected = glm::normalize(glm::transpose(toFunction) * slope);
@@ -251,9 +251,9 @@ TEST(ClosedSurfaceSlicer, BothSidesOfALevelFillTheDomain) {
         const geometry::Rotation orientation = trial == 0 ? geometry::Rotation() : support::randomRotation(random);
         ClosedSurfaceSlicer slicer(field, orientation);
         const double w = std::uniform_real_distribution<double>(-0.9, 0.9)(random);
-        const auto below = measureSurface(exactSlice(slicer, w, 0.1, Inside::below));
-        const auto above = measureSurface(exactSlice(slicer, w, 0.1, Inside::above));
-        const auto all = measureSurface(exactSlice(slicer, w, 2, Inside::below));
+        const auto below = measureSurface(exactSlice(slicer, w, 0.1, BodySide::below));
+        const auto above = measureSurface(exactSlice(slicer, w, 0.1, BodySide::above));
+        const auto all = measureSurface(exactSlice(slicer, w, 2, BodySide::below));
         EXPECT_NEAR(below.volume + above.volume, all.volume, 1e-12);
         EXPECT_NEAR(below.area, above.area, 1e-10);
         EXPECT_NEAR(below.capArea + above.capArea, all.capArea, 1e-10);
@@ -281,7 +281,7 @@ TEST(ClosedSurfaceSlicer, ConstantAndSmallFields) {
         ClosedSurfaceSlicer slicer(field, {});
         EXPECT_NEAR(measureSurface(exactSlice(slicer, 0, 1)).volume, 8, 1e-12);
         EXPECT_TRUE(exactSlice(slicer, 0, 0.5).triangles.empty()) << "a value on the level is outside";
-        EXPECT_TRUE(exactSlice(slicer, 0, 0.5, Inside::above).triangles.empty());
+        EXPECT_TRUE(exactSlice(slicer, 0, 0.5, BodySide::above).triangles.empty());
         EXPECT_TRUE(exactSlice(slicer, 0, -1).triangles.empty());
         EXPECT_TRUE(exactSlice(slicer, 1.5, 1).triangles.empty()) << "beside the domain";
         for (const double end : {-1.0, 1.0, std::nextafter(-1.0, -2.0), std::nextafter(1.0, 2.0)})
@@ -306,7 +306,7 @@ TEST(ClosedSurfaceSlicer, HolesHaveCaps) {
         fields::Field field = fields::makeField("hole", function, box);
         field.array = function;
         ClosedSurfaceSlicer slicer(field, {});
-        for (const auto& [level, inside] : {std::pair{0.0, Inside::below}, {-2.0, Inside::above}}) {
+        for (const auto& [level, inside] : {std::pair{0.0, BodySide::below}, {-2.0, BodySide::above}}) {
             SCOPED_TRACE(testing::Message() << hole << " beside " << level);
             const ClosedSurface surface = exactSlice(slicer, 0.25, level, inside);
             EXPECT_EQ(support::DirectedEdges(surface.triangles).unbalanced(), 0U);
@@ -329,7 +329,7 @@ TEST(ClosedSurfaceSlicer, PolesOfFormulasBelongToTheBody) {
     const double w = 0.01, radius = std::sqrt(0.25 - w * w),
                  expected = 4.0 / 3 * std::numbers::pi * std::pow(radius, 3);
     for (const auto& [text, level, inside] :
-         {std::tuple{"1/(x^2+y^2+z^2+w^2)", 4.0, Inside::above}, {"-1/(x^2+y^2+z^2+w^2)", -4.0, Inside::below}}) {
+         {std::tuple{"1/(x^2+y^2+z^2+w^2)", 4.0, BodySide::above}, {"-1/(x^2+y^2+z^2+w^2)", -4.0, BodySide::below}}) {
         const fields::Field field = formula(text, {glm::dvec4(-1), glm::dvec4(1)});
         ClosedSurfaceSlicer slicer(field, {}, 32);
         const ClosedSurface surface = exactSlice(slicer, w, level, inside);
@@ -412,7 +412,7 @@ TEST(ClosedSurfaceSlicer, LinearMapsOfTheObjectAreTakenIntoAccount) {
         const double w = glm::mix(ws.front(), ws.back(), (i + 0.5) / kSlices);
         sum += (ws.back() - ws.front()) / kSlices * measureSurface(exactSlice(slicer, w, 0)).volume;
     }
-    EXPECT_NEAR(sum / bodyVolume(simplices, 0, Inside::below), 1, 1e-4);
+    EXPECT_NEAR(sum / bodyVolume(simplices, 0, BodySide::below), 1, 1e-4);
 }
 
 TEST(ClosedSurfaceSlicer, ALongAxisTakesLittleMemory) {

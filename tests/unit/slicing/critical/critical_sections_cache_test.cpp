@@ -20,14 +20,14 @@ TEST(CriticalSectionsCache, FindsOnlyWhatHasTheSameArguments) {
     polytopes::Polytope other = polytope;
     ++other.serial;
     const Object object = support::objectOf(polytope);
-    const geometry::Rotation turned(geometry::Turn{geometry::Plane::xw, 0.1, {}});
+    const geometry::Rotation turned(geometry::RotationAngles{geometry::Plane::xw, 0.1, {}});
     CriticalSectionsCache cache(1U << 20U);
     const CriticalSectionsPtr result = resultOfSize(3);
     cache.add(object, turned, {{1}}, result);
     EXPECT_EQ(cache.find(object, turned, {{1}}), result);
     EXPECT_EQ(cache.find(object, {}, {{1}}), nullptr);
     EXPECT_EQ(cache.find(object, turned, {{2}}), nullptr);
-    EXPECT_EQ(cache.find(object, turned, {{1}, fields::Inside::above}), nullptr);
+    EXPECT_EQ(cache.find(object, turned, {{1}, fields::BodySide::above}), nullptr);
     EXPECT_EQ(cache.find(support::objectOf(other), turned, {{1}}), nullptr);
 }
 

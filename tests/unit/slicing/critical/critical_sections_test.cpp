@@ -97,7 +97,7 @@ TEST(CriticalSections, ShellAroundABallHasACavity) {
     SKIP_IF_SANITIZED();
     const FieldPtr shell = formulaObject("(1 - (x^2 + y^2 + z^2 + w^2)) * (x^2 + y^2 + z^2 + w^2 - 0.25)");
     const SectionTopology hollow{1, 1, 4};
-    expectSections(criticalOf(shell, {{0}, fields::Inside::above}),
+    expectSections(criticalOf(shell, {{0}, fields::BodySide::above}),
                    {{-1, appearance, kNothing, kBall},
                     {-0.5, cavity, kBall, hollow},
                     {0.5, cavity, hollow, kBall},
@@ -162,7 +162,7 @@ TEST(CriticalSections, HeatKernelsMerge) {
     const double merging = timeBetween(kFirst, kHottest), splitting = timeBetween(kLast, kHottest);
     const FieldPtr heat = formulaObject("w^(-3/2) * (exp(-((x-1)^2+y^2+z^2)/(4*w)) + exp(-((x+1)^2+y^2+z^2)/(4*w)))",
                                         {{-3, -3, -3, kFirst}, {3, 3, 3, kLast}});
-    const FieldSettings settings{{kLevel}, fields::Inside::above};
+    const FieldSettings settings{{kLevel}, fields::BodySide::above};
     for (const auto& [object, tolerance] : {std::pair{heat, 1e-5}, std::pair{arrayOf(heat, 49), 5e-3}}) {
         const CriticalSections found = criticalOf(object, settings);
         ASSERT_EQ(found.all.size(), 3U);
@@ -182,10 +182,10 @@ TEST(CriticalSections, HeatKernelsInAnArrayMergeToAThousandth) {
     SKIP_IF_SANITIZED();
     const HeatKernels heat;
     const FieldPtr array = std::make_shared<const fields::Field>(heat.array);
-    const geometry::Rotation turned = geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.4, {}}) *
-                                      geometry::Rotation(geometry::Turn{geometry::Plane::yz, 1.1, {}});
+    const geometry::Rotation turned = geometry::Rotation(geometry::RotationAngles{geometry::Plane::xy, 0.4, {}}) *
+                                      geometry::Rotation(geometry::RotationAngles{geometry::Plane::yz, 1.1, {}});
     for (const geometry::Rotation& orientation : {geometry::Rotation(), turned}) {
-        const CriticalSections found = criticalOf(array, {{HeatKernels::kLevel}, fields::Inside::above}, orientation);
+        const CriticalSections found = criticalOf(array, {{HeatKernels::kLevel}, fields::BodySide::above}, orientation);
         const auto merges = std::ranges::count(found.all, merge, &CriticalSection::change);
         EXPECT_EQ(merges, 1);
         for (const CriticalSection& section : found.all) {
@@ -208,7 +208,7 @@ TEST(CriticalSections, OppositeOrientationsAgree) {
     const FieldPtr field = formulaObject("x^2 + 2*y^2 + (z^2 + w^2 - 1)^2 + 0.3*z*w - 0.3 + 0.1*x + 0.05*w");
     std::mt19937 random(4);
     const geometry::Rotation orientation = support::randomRotation(random);
-    const geometry::Rotation half(geometry::Turn{geometry::Plane::zw, std::acos(-1), {}});  // maps w to −w
+    const geometry::Rotation half(geometry::RotationAngles{geometry::Plane::zw, std::acos(-1), {}});  // maps w to −w
     const CriticalSections up = criticalOf(field, {}, orientation), down = criticalOf(field, {}, half * orientation);
     ASSERT_FALSE(up.all.empty());
     ASSERT_EQ(up.all.size(), down.all.size());

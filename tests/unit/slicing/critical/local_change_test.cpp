@@ -9,12 +9,12 @@
 namespace oval4d::slicing {
 namespace {
 
-using fields::Inside;
+using fields::BodySide;
 
 // Returns a rotation in space (x, y, z), which does not change w.
 geometry::Rotation turnedInSpace() {
-    return geometry::Rotation(geometry::Turn{geometry::Plane::xy, 0.4, {}}) *
-           geometry::Rotation(geometry::Turn{geometry::Plane::yz, 1.1, {}});
+    return geometry::Rotation(geometry::RotationAngles{geometry::Plane::xy, 0.4, {}}) *
+           geometry::Rotation(geometry::RotationAngles{geometry::Plane::yz, 1.1, {}});
 }
 
 glm::dvec3 placeOf(const fields::Field& field, const geometry::Rotation& orientation, const glm::dvec4& point) {
@@ -26,14 +26,15 @@ bool never() { return false; }
 TEST(LocalChange, HeatKernelsInAnArrayMerge) {
     const HeatKernels heat;
     const geometry::Rotation orientation = turnedInSpace();
-    LocalChangeSearch search(heat.array, orientation, HeatKernels::kLevel, Inside::above, never);
+    LocalTopologyChangeSearch search(heat.array, orientation, HeatKernels::kLevel, BodySide::above, never);
     const double expected = HeatKernels::merging(), center = heat.array.center.w;
     for (const double early : {-5e-4, 0.0, 5e-4}) {
-        LocalChangeSearch::SearchStart start{.point = placeOf(heat.array, orientation, {0.02, -0.03, 0.02, center}),
-                                             .half = 0.11,
-                                             .w = expected - center - early,
-                                             .reach = 1.2e-3,
-                                             .tolerance = 2.4e-5};
+        LocalTopologyChangeSearch::SearchStart start{
+            .point = placeOf(heat.array, orientation, {0.02, -0.03, 0.02, center}),
+            .half = 0.11,
+            .w = expected - center - early,
+            .reach = 1.2e-3,
+            .tolerance = 2.4e-5};
         const auto found = search.find({.ofBody = true, .becomesMore = false}, start);
         ASSERT_TRUE(found) << early;
         EXPECT_NEAR((*found + center) / expected, 1, 1e-3);
@@ -49,11 +50,11 @@ TEST(LocalChange, BallsAppear) {
     const fields::Field ball = sampledField(
         testField([](const glm::dvec4& p) { return glm::dot(p, p) - 1; }, 6, {glm::dvec4(-1.5), glm::dvec4(1.5)}), 25);
     const geometry::Rotation orientation = turnedInSpace();
-    for (const Inside inside : {Inside::below, Inside::above}) {
-        LocalChangeSearch search(ball, orientation, 0, inside, never);
-        const LocalChangeSearch::SearchStart start{
+    for (const BodySide inside : {BodySide::below, BodySide::above}) {
+        LocalTopologyChangeSearch search(ball, orientation, 0, inside, never);
+        const LocalTopologyChangeSearch::SearchStart start{
             .point = glm::dvec3(0.02, -0.01, 0.03), .half = 0.075, .w = -0.995, .reach = 0.015, .tolerance = 3e-4};
-        const bool ofBody = inside == Inside::below;
+        const bool ofBody = inside == BodySide::below;
         const auto found = search.find({.ofBody = ofBody, .becomesMore = true}, start);
         ASSERT_TRUE(found);
         EXPECT_NEAR(*found, -1, 1e-3);
@@ -64,7 +65,7 @@ TEST(LocalChange, BallsAppear) {
 TEST(LocalChange, EndsWhenItMust) {
     const HeatKernels heat;
     int asked = 0;
-    LocalChangeSearch search(heat.array, {}, HeatKernels::kLevel, Inside::above, [&] { return ++asked > 2; });
+    LocalTopologyChangeSearch search(heat.array, {}, HeatKernels::kLevel, BodySide::above, [&] { return ++asked > 2; });
     const double center = heat.array.center.w;
     EXPECT_FALSE(
         search.find({.ofBody = true, .becomesMore = false}, {.point = placeOf(heat.array, {}, {0, 0, 0, center}),
